@@ -1,0 +1,1 @@
+"""Exact algebra that knows no mechanics; the home of python-flint."""

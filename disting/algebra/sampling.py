@@ -1,0 +1,66 @@
+"""Random points and primes, and how surely a generic fact is seen at them.
+
+A rank, a dependence or an identity of polynomials is looked at modulo a random prime near 2^61 and at a random point. What is
+non-zero there is non-zero generically: a proof. What is zero there is generically zero but for a probability that is bounded
+here, and independent points multiply their bounds.
+
+Everything is drawn from SHAKE-256 of a label, so that a result depends on the label alone: not on the order of the work, on
+the process or on the version of a random generator.
+"""
+
+import hashlib
+from dataclasses import dataclass
+from functools import cache
+from math import log2
+
+from flint import fmpz
+
+SEARCH_BITS = 31  # products of two residues fit into 64 bits: the vectorised searches use such primes
+PROOF_BITS = 61
+_PRIMES = 3 * 2.0**60 / (5 * 61 * 0.6932)  # of 61 bits, at least: pi(2x) - pi(x) > 3x/(5 ln x), Rosser and Schoenfeld 1962
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """Bounds of an integer polynomial: total degree, and bits of its largest coefficient."""
+
+    degree: int
+    bits: int
+
+
+def residues(label: str, count: int, modulus: int) -> list[int]:
+    """`count` numbers of 1..modulus-1, uniform to within 2^-67, determined by the label.
+
+    >>> residues("doc", 2, 7) == residues("doc", 2, 7)
+    True
+    """
+    stream = hashlib.shake_256(label.encode()).digest(16 * count)
+    chunks = (stream[i : i + 16] for i in range(0, 16 * count, 16))
+    return [1 + int.from_bytes(chunk) % (modulus - 1) for chunk in chunks]
+
+
+@cache
+def prime(label: str, bits: int = PROOF_BITS) -> int:
+    """A random prime of exactly `bits` bits, determined by the label.
+
+    >>> prime("doc").bit_length()
+    61
+    """
+    for attempt in range(10_000):
+        candidate = residues(f"prime:{label}:{attempt}", 1, 1 << (bits - 1))[0] | (1 << (bits - 1)) | 1
+        if fmpz(candidate).is_prime():
+            return candidate
+    raise AssertionError("a prime of this size has density above 1/50")
+
+
+def safety(size: Size, points: int) -> int:
+    """Largest b with P(a non-zero polynomial of this size vanishes at all points) <= 2^-b.
+
+    Per point: degree/2^60 (Schwartz 1980, Zippel 1979) plus the share of primes of 61 bits that divide all coefficients, at
+    most bits/60 of them.
+
+    >>> safety(Size(degree=200, bits=500), points=3)
+    150
+    """
+    miss = size.degree / 2.0 ** (PROOF_BITS - 1) + (1 + size.bits / (PROOF_BITS - 1)) / _PRIMES
+    return int(-log2(miss) * points)

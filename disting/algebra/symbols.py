@@ -1,0 +1,35 @@
+"""Polynomials with named symbols, expanded: for identities that are to be proven and formulas that are to be read."""
+
+from collections.abc import Mapping, Sequence
+
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+
+
+def symbols(names: Sequence[str]) -> dict[str, fmpz_mpoly]:
+    """The generators of Z[names], in lexicographic order of the names as given."""
+    context = fmpz_mpoly_ctx.get(tuple(names), Ordering.lex)
+    return dict(zip(names, context.gens(), strict=True))
+
+
+def renamed(polynomial: fmpz_mpoly, ring: Mapping[str, fmpz_mpoly], renaming: Mapping[str, str]) -> fmpz_mpoly:
+    """The polynomial with each symbol replaced by the one that `renaming` names (itself where not named), in `ring`."""
+    names = [str(g) for g in polynomial.context().gens()]
+    images = [ring[renaming.get(name, name)] for name in names]
+    return polynomial.compose(*images, ctx=images[0].context())
+
+
+def coefficients(polynomial: fmpz_mpoly, variable: str) -> list[fmpz_mpoly]:
+    """Coefficients of the powers 0, 1, .. of one symbol.
+
+    >>> s, m = symbols(["s", "m1"]).values()
+    >>> [str(c) for c in coefficients(m * s**2 + 3, "s")]
+    ['3', '0', 'm1']
+    """
+    context = polynomial.context()
+    names = [str(g) for g in context.gens()]
+    at = names.index(variable)
+    parts: list[dict[tuple[int, ...], int]] = [{} for _ in range(polynomial.degrees()[at] + 1)]
+    for powers, number in polynomial.to_dict().items():
+        rest = tuple(0 if i == at else power for i, power in enumerate(powers))
+        parts[powers[at]][rest] = int(number)
+    return [context.from_dict(part) for part in parts]

@@ -1,0 +1,1 @@
+"""What a chain model is and which there are."""

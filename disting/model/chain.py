@@ -1,0 +1,114 @@
+"""A chain model: masses in a row, springs between neighbours, one gap, a force and a sensor (section 5.1 of the paper).
+
+Index 0 is the ground, which counts as the left neighbour of mass 1. There is a spring between all neighbours except at the
+gap. The force acts with +F on mass `act_plus` and with -F on `act_minus`; the sensor shows x[meas_plus] - x[meas_minus].
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.errors import ConstraintViolation, InputError
+from disting.model.constraints import Indices, violated
+from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
+
+
+class Sensor(StrEnum):
+    """Measured quantity; its transfer function is s**order times the receptance."""
+
+    POSITION = "position"
+    VELOCITY = "velocity"
+    ACCELERATION = "acceleration"
+
+    @property
+    def order(self) -> int:
+        """Number of differentiations of the position: 0, 1 or 2."""
+        return list(Sensor).index(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """One chain model; immutable and hashable, its content is its identity.
+
+    Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1 (0 = ground); the sensor
+    quantity; `damped` = a damper beside every spring; `ground_dampers` = the masses with a damper to the ground; `lag` = a
+    first-order torque lag 1/(1 + T1 s) [T1 in s]; `dead_time` = a factor exp(-Td s) [Td in s].
+    Raises ConstraintViolation where (36) or (37) is broken, InputError for other bad values.
+
+    >>> Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2, damped=True).parameters
+    ('m1', 'm2', 'k01', 'd01')
+    """
+
+    n_masses: int
+    gap: int = 0
+    act_minus: int = 0
+    act_plus: int = 1
+    meas_minus: int = 0
+    meas_plus: int = 1
+    sensor: Sensor = Sensor.ACCELERATION
+    damped: bool = False
+    ground_dampers: tuple[int, ...] = ()
+    lag: bool = False
+    dead_time: bool = False
+
+    def __post_init__(self) -> None:
+        if any(isinstance(i, bool) or not isinstance(i, int) for i in (*self.indices, *self.ground_dampers)):
+            raise InputError("the size, the indices and the ground dampers of a chain are whole numbers")
+        if self.n_masses < 1:
+            raise InputError(f"a chain has at least one mass, not {self.n_masses}")
+        for broken in violated(self.indices, (36, 37)):
+            raise ConstraintViolation(_refusal(self.indices, broken.equation, broken.text))
+        object.__setattr__(self, "sensor", _sensor(self.sensor))
+        object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
+
+    @property
+    def indices(self) -> Indices:
+        """Size and the five indices, in the order in which a family is numbered."""
+        return Indices(self.n_masses, self.gap, self.act_minus, self.act_plus, self.meas_minus, self.meas_plus)
+
+    @property
+    def structure(self) -> Structure:
+        """The elements and ports of this chain, as a graph knows them."""
+        joints = [i for i in range(self.n_masses) if i != self.gap]
+        elements: list[Mass | Spring | Damper | GroundDamper] = [Mass(i) for i in range(1, self.n_masses + 1)]
+        elements += [Spring(i) for i in joints]
+        elements += [Damper(i) for i in joints if self.damped]
+        elements += [GroundDamper(i) for i in self.ground_dampers]
+        ports = Ports(self.act_minus, self.act_plus, self.meas_minus, self.meas_plus)
+        return Structure(self.n_masses, tuple(elements), ports, self.sensor.order, self.lag, self.dead_time)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Parameter names in fixed order: m1.., k01.., d01.., b1.., T1, Td."""
+        return self.structure.parameters
+
+    @property
+    def collocated(self) -> bool:
+        """Force and sensor at the same place (marked with an asterisk in Table 3)."""
+        return (self.act_minus, self.act_plus) == (self.meas_minus, self.meas_plus)
+
+    def __str__(self) -> str:
+        ports = f"force {self.act_plus}-{self.act_minus}, sensor {self.meas_plus}-{self.meas_minus}"
+        extras = [self.sensor.value] * (self.sensor is not Sensor.ACCELERATION) + ["damped"] * self.damped
+        extras += [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"] * bool(self.ground_dampers)
+        extras += ["lag"] * self.lag + ["dead time"] * self.dead_time
+        return ", ".join([f"{self.n_masses} masses, gap {self.gap}, {ports}", *extras])
+
+
+def _sensor(value: str) -> Sensor:
+    try:
+        return Sensor(value)
+    except ValueError:
+        raise InputError(f"sensor is position, velocity or acceleration, not {value!r}") from None
+
+
+def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:
+    chosen = tuple(sorted(set(masses)))
+    if chosen and not 1 <= chosen[0] <= chosen[-1] <= n_masses:
+        raise InputError(f"ground dampers sit at masses 1 to {n_masses}, not at {chosen}")
+    return chosen
+
+
+def _refusal(i: Indices, equation: int, text: str) -> str:
+    given = f"N_B={i.n_masses}, n_gap={i.gap}, n_act-={i.act_minus}, n_act+={i.act_plus}"
+    return f"constraint ({equation}) {text} is violated by {given}, n_meas-={i.meas_minus}, n_meas+={i.meas_plus}"

@@ -1,0 +1,34 @@
+"""A chain in one line of text: for tables in a terminal."""
+
+from disting.model.chain import Chain
+from disting.model.structure import Damper, Element, GroundDamper, Spring
+
+LEGEND = (
+    "# ground, ~ spring, = spring and damper, comma: ground damper,\n"
+    "F and f: force and its reference, S and s: sensor and its reference"
+)
+
+
+def text_drawing(chain: Chain) -> str:
+    """The chain from left to right; references to the ground are not drawn.
+
+    >>> text_drawing(Chain(3, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=3, damped=True))
+    '#=[1fs]   [2F]=[3S]'
+    """
+    elements = set(chain.structure.elements)
+    parts = ["#" + _joint(elements, 0)] if Spring(0) in elements else []
+    for i in range(1, chain.n_masses + 1):
+        parts.append(f"[{i}{_roles(chain, i)}]" + "," * (GroundDamper(i) in elements))
+        parts.append(_joint(elements, i) if i < chain.n_masses else "")
+    return "".join(parts)
+
+
+def _joint(elements: set[Element], i: int) -> str:
+    if Spring(i) not in elements:
+        return "   "
+    return "=" if Damper(i) in elements else "~"
+
+
+def _roles(chain: Chain, i: int) -> str:
+    places = {"F": chain.act_plus, "f": chain.act_minus, "S": chain.meas_plus, "s": chain.meas_minus}
+    return "".join(sign for sign, at in places.items() if at == i)

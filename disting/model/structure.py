@@ -1,0 +1,162 @@
+"""What a chain is made of: masses, springs, dampers and ports, and when one structure is a part of another.
+
+A `Structure` is wider than a `Chain`: any set of joints may be present, so the supermodel of two chains (condition 9), which
+has no gap, is a structure too. Elements know their parameter's name and how they enter the equation of motion
+A(s) x = e_act F with A(s) = M s^2 + D s + K: each adds parameter * s^power * v v^T for a vector v of the masses.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+def _between(i: int) -> str:
+    return f"{i}{i + 1}" if i < 9 else f"{i}_{i + 1}"
+
+
+class Mass(NamedTuple):
+    """Mass (or inertia) number `at`; parameter m_i [kg or kg m^2]."""
+
+    at: int
+    kind: str = "m"
+
+    @property
+    def parameter(self) -> str:
+        """Name such as m1."""
+        return f"m{self.at}"
+
+
+class Spring(NamedTuple):
+    """Spring between node `at` and its right neighbour (node 0 is the ground); parameter k_ij [N/m or N m/rad]."""
+
+    at: int
+    kind: str = "k"
+
+    @property
+    def parameter(self) -> str:
+        """Name such as k01."""
+        return f"k{_between(self.at)}"
+
+
+class Damper(NamedTuple):
+    """Damper beside the spring of node `at`; parameter d_ij [N s/m or N m s/rad]."""
+
+    at: int
+    kind: str = "d"
+
+    @property
+    def parameter(self) -> str:
+        """Name such as d01."""
+        return f"d{_between(self.at)}"
+
+
+class GroundDamper(NamedTuple):
+    """Damper from mass `at` to the ground; parameter b_i [N s/m or N m s/rad]."""
+
+    at: int
+    kind: str = "b"
+
+    @property
+    def parameter(self) -> str:
+        """Name such as b2."""
+        return f"b{self.at}"
+
+
+Element = Mass | Spring | Damper | GroundDamper
+POWER = {"m": 2, "k": 0, "d": 1, "b": 1}  # of s, with which an element's parameter enters A(s)
+
+
+class Ports(NamedTuple):
+    """Where force and sensor attach; 0 is the ground."""
+
+    act_minus: int
+    act_plus: int
+    meas_minus: int
+    meas_plus: int
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Elements and ports of a chain-like model; `sensor_order` = differentiations of the measured position."""
+
+    n_masses: int
+    elements: tuple[Element, ...]
+    ports: Ports
+    sensor_order: int
+    lag: bool = False
+    dead_time: bool = False
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        """Parameter names in the order of the elements, then T1 and Td."""
+        return (*(e.parameter for e in self.elements), *["T1"] * self.lag, *["Td"] * self.dead_time)
+
+    @property
+    def n_states(self) -> int:
+        """Order N_S of the state space (20): two states a mass, one for the lag."""
+        return 2 * self.n_masses + self.lag
+
+    @cached_property
+    def blocks(self) -> tuple[tuple[int, int], ...]:
+        """Connected rows of masses (first, last), ground not counted as a connection."""
+        joints = {e.at for e in self.elements if e.kind in "kd"}
+        cuts = [0, *(i for i in range(1, self.n_masses) if i not in joints), self.n_masses]
+        return tuple((a + 1, b) for a, b in pairwise(cuts))
+
+    def united(self, other: "Structure") -> "Structure":
+        """Structure with the elements of both: the smallest common supermodel in one numbering."""
+        order = {kind: rank for rank, kind in enumerate("mkdb")}
+        elements = sorted({*self.elements, *other.elements}, key=lambda e: (order[e.kind], e.at))
+        size = max(self.n_masses, other.n_masses)
+        return Structure(
+            size,
+            tuple(elements),
+            self.ports,
+            self.sensor_order,
+            self.lag or other.lag,
+            self.dead_time or other.dead_time,
+        )
+
+    def embeddings(self, larger: "Structure") -> Iterator[dict[int, int]]:
+        """Yield every numbering of this structure's masses under which all its elements and ports lie in `larger`.
+
+        "Submodel means that model structures are identical except for missing elements" (section 4.4): chains embed
+        as shifted or mirrored runs, found as graph monomorphisms that keep the ground, the ports and the joints.
+        """
+        import networkx as nx
+
+        if self.sensor_order != larger.sensor_order or self.dead_time != larger.dead_time or (self.lag and not larger.lag):
+            return
+        matcher = nx.algorithms.isomorphism.GraphMatcher(
+            larger.graph(), self.graph(), node_match=_node_fits, edge_match=_edge_fits
+        )
+        for mapping in matcher.subgraph_monomorphisms_iter():
+            yield {mine: theirs for theirs, mine in sorted(mapping.items(), key=lambda kv: kv[1])}
+
+    def graph(self) -> "nx.Graph[int]":
+        """networkx graph: node 0 is the ground, nodes carry ports and ground dampers, edges the joint's elements."""
+        import networkx as nx
+
+        graph: nx.Graph[int] = nx.Graph()
+        for node in range(self.n_masses + 1):
+            roles = frozenset(name for name, at in self.ports._asdict().items() if at == node)
+            graph.add_node(node, ground=node == 0, roles=roles, damper=GroundDamper(node) in self.elements)
+        for element in self.elements:
+            if element.kind in "kd":
+                graph.add_edge(element.at, element.at + 1)
+                graph.edges[element.at, element.at + 1].setdefault("kinds", set()).add(element.kind)
+        return graph
+
+
+def _node_fits(larger: dict[str, object], smaller: dict[str, object]) -> bool:
+    same = larger["ground"] == smaller["ground"] and larger["roles"] == smaller["roles"]
+    return same and (bool(larger["damper"]) or not smaller["damper"])
+
+
+def _edge_fits(larger: dict[str, set[str]], smaller: dict[str, set[str]]) -> bool:
+    return smaller["kinds"] <= larger["kinds"]

@@ -1,0 +1,81 @@
+"""Symmetries that hold for every parameter value: renamings of condition 6 that need no search.
+
+With a gap, the receptance is the sum of the grounded part's (between `act_minus` and `meas_minus`) and the free part's
+(between `act_plus` and `meas_plus`). Each part is reciprocal on its own (A(s) is symmetric, so is its inverse), and the free
+part may be mirrored: mass i becomes mass n_gap + 1 + N_B - i. So every chain has up to eight equivalent forms, with the same
+transfer function after a renaming of the parameters, over complex, real and positive parameters alike.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from itertools import product
+
+from disting.model.chain import Chain
+from disting.model.structure import Element
+
+
+class Symmetry(StrEnum):
+    """One of the three generators."""
+
+    RECIPROCITY_FREE = "reciprocity of the free part"
+    RECIPROCITY_GROUNDED = "reciprocity of the grounded part"
+    REFLECTION = "reflection of the free part"
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """An equivalent `chain`, the symmetries that lead to it, and the renaming {given parameter: parameter here}."""
+
+    chain: Chain
+    symmetries: tuple[Symmetry, ...]
+    renaming: dict[str, str]
+
+
+def forms(chain: Chain) -> Iterator[Form]:
+    """Yield the (up to eight) equivalent forms of a chain, the chain itself first.
+
+    >>> len({form.chain for form in forms(Chain(3, 0, 0, 1, 0, 2))})
+    4
+    """
+    for chosen in product((False, True), repeat=3):
+        symmetries = tuple(s for s, on in zip(Symmetry, chosen, strict=True) if on)
+        yield _apply(chain, symmetries)
+
+
+def canonical(chain: Chain) -> Form:
+    """The equivalent form with the smallest indices and ground dampers: equal for chains that are renamings by symmetry."""
+    return min(forms(chain), key=lambda form: (form.chain.indices, form.chain.ground_dampers, len(form.symmetries)))
+
+
+def _apply(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Form:
+    act, meas = chain.act_plus, chain.meas_plus
+    act_minus, meas_minus = chain.act_minus, chain.meas_minus
+    if Symmetry.RECIPROCITY_FREE in symmetries:
+        act, meas = meas, act
+    if Symmetry.RECIPROCITY_GROUNDED in symmetries:
+        act_minus, meas_minus = meas_minus, act_minus
+    mirrored = Symmetry.REFLECTION in symmetries
+
+    def fold(i: int) -> int:
+        return chain.gap + 1 + chain.n_masses - i if mirrored and i > chain.gap else i
+
+    moved = replace(
+        chain,
+        act_minus=act_minus,
+        act_plus=fold(act),
+        meas_minus=meas_minus,
+        meas_plus=fold(meas),
+        ground_dampers=tuple(fold(i) for i in chain.ground_dampers),
+    )
+    renaming = {e.parameter: _folded(e, chain, mirrored).parameter for e in chain.structure.elements}
+    renaming |= {p: p for p in chain.parameters if p not in renaming}
+    return Form(moved, symmetries, renaming)
+
+
+def _folded(element: Element, chain: Chain, mirrored: bool) -> Element:
+    """Where reflection of the free part takes an element: a joint between i and i+1 goes to between fold(i+1) and fold(i)."""
+    if not mirrored or element.at <= chain.gap:
+        return element
+    last = chain.n_masses - (element.kind in "kd")
+    return element._replace(at=chain.gap + 1 + last - element.at)
