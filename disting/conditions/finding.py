@@ -1,0 +1,50 @@
+"""What one condition finds about one pair: three-valued and more, never a bare bool."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.conditions.evidence import Evidence
+
+
+class Outcome(StrEnum):
+    """A condition holds, fails, does not apply to this pair or representation, or was given up at a limit."""
+
+    HOLDS = "holds"
+    FAILS = "fails"
+    INAPPLICABLE = "inapplicable"
+    ABANDONED = "abandoned"
+
+
+class Certainty(StrEnum):
+    """THEOREM: holds by a stated theorem. PROVEN: exact computation. BOUNDED: but for a computed probability."""
+
+    THEOREM = "theorem"
+    PROVEN = "proven"
+    BOUNDED = "bounded"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Outcome of condition `number`; with BOUNDED the probability of error is at most 2**-safety. `note` says why not."""
+
+    number: int
+    outcome: Outcome
+    certainty: Certainty = Certainty.PROVEN
+    safety: int = 0
+    evidence: Evidence | None = None
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
+            raise ValueError("exactly a bounded finding carries an error bound")
+
+    def __bool__(self) -> bool:
+        raise TypeError("a finding is not true or false; look at its outcome")
+
+
+Grade = tuple[Certainty, int]
+
+
+def graded(proven: bool, safety: int) -> Grade:
+    """Certainty and error bits: none needed where the finding is proven."""
+    return (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, safety)

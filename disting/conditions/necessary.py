@@ -1,0 +1,139 @@
+"""Conditions 1 to 5 (section 4.1): necessary for indistinguishability, so one that fails proves the pair distinguishable.
+
+Each compares one property of two profiles. The property is a function of one model alone, so it also sorts a whole family
+into buckets. That a condition holds proves nothing.
+"""
+
+from collections.abc import Hashable
+
+from disting.algebra.matroid import Matroid, rank_in, separating_rows
+from disting.conditions.evidence import Counts, Evidence, Forms, Ranks
+from disting.conditions.finding import Finding, Grade, Outcome, graded
+from disting.invariants.profile import Profile, Unsearched
+from disting.invariants.sample import Representation
+
+NO_DEGREES = "Markov parameters have no numerator and denominator, and equally many of them are compared"
+
+
+def number_of_invariants(profile: Profile) -> Hashable:
+    """N_MI = n + m + 1 by degree, zero coefficients included; the fixed leading one is not counted."""
+    return sum(profile.degrees) + 1 if profile.representation is Representation.TF else 0
+
+
+def numbers_of_coefficients(profile: Profile) -> Hashable:
+    """Degrees n and m of numerator and denominator."""
+    return profile.degrees if profile.representation is Representation.TF else 0
+
+
+def symbolic_form(profile: Profile) -> Hashable:
+    """The labels of the non-constant invariants."""
+    return profile.form
+
+
+def generic_rank(profile: Profile) -> Hashable:
+    """N_R, the generic rank of the Jacobian: the number of determinable parameters."""
+    return profile.rank
+
+
+def dependences(profile: Profile) -> Hashable:
+    """The matroid of the Jacobian's rows."""
+    return profile.matroid
+
+
+def condition_1(left: Profile, right: Profile) -> Finding:
+    """Cond. 1: "The same number of moment invariants N_MI exist." Counted by polynomial degree."""
+    return _by_degree(1, left, right, number_of_invariants(left) == number_of_invariants(right))
+
+
+def condition_2(left: Profile, right: Profile) -> Finding:
+    """Cond. 2: "The same number of coefficients exist in numerator n and denominator m in both models." """
+    return _by_degree(2, left, right, numbers_of_coefficients(left) == numbers_of_coefficients(right))
+
+
+def condition_3(left: Profile, right: Profile) -> Finding:
+    """Cond. 3: "Both sets of moment invariants have the same symbolic form", zeros for constants, ones for the others.
+
+    Values of constants do not enter here (condition 7 asks for them); an invariant that one model lacks is constant there.
+    """
+    if left.form == right.form:
+        return Finding(3, Outcome.HOLDS)
+    only = Forms(_ordered(left, left.form - right.form), _ordered(right, right.form - left.form))
+    return Finding(3, Outcome.FAILS, *form_grade(left, right), only)
+
+
+def condition_4(left: Profile, right: Profile) -> Finding:
+    """Cond. 4: "The rank N_R of the Jacobian matrix J = dPhi/dp of the moment invariants is the same for both models.""""
+    if left.rank == right.rank:
+        return Finding(4, Outcome.HOLDS, *graded(left.rank_proven and right.rank_proven, _safety(left, right)))
+    evidence = Ranks(left.labels, left.rank, right.rank, all_rows=True)
+    return Finding(4, Outcome.FAILS, *rank_grade(left, right), evidence)
+
+
+def condition_5(left: Profile, right: Profile) -> Finding:
+    """Cond. 5: "The same linear dependencies among moment invariants exist": equal largest independent row sets.
+
+    These sets are the bases of a matroid, compared by its canonical form. Constant invariants (zero rows) are left out.
+    """
+    if left.form != right.form or left.rank != right.rank:
+        return Finding(5, Outcome.INAPPLICABLE, note="condition 3 or 4 fails")
+    if isinstance(left.matroid, Unsearched) or isinstance(right.matroid, Unsearched):
+        reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, Unsearched)]
+        return Finding(5, Outcome.ABANDONED, note=reasons[0])
+    one, other = _restricted(left, left.matroid), _restricted(right, right.matroid)
+    outcome, evidence = (Outcome.HOLDS, None) if one == other else (Outcome.FAILS, _unequal_rows(left, one, other))
+    return Finding(5, outcome, *dependence_grade(left, right), evidence)
+
+
+def degree_grade(left: Profile, right: Profile) -> Grade:
+    """Degrees are exact: a leading coefficient that is not zero at a point is not zero, nor is a resultant."""
+    return graded(True, 0)
+
+
+def form_grade(left: Profile, right: Profile) -> Grade:
+    """Proven where some invariant varies in one model and provably vanishes in the other."""
+    proven = any(_surely_constant(b, x) for a, b in ((left, right), (right, left)) for x in a.form - b.form)
+    return graded(proven, _safety(left, right))
+
+
+def rank_grade(left: Profile, right: Profile) -> Grade:
+    """A rank seen at a point is a lower bound for certain; only the smaller of two could be too small by chance."""
+    return graded(min((left, right), key=lambda p: p.rank).rank_proven, _safety(left, right))
+
+
+def dependence_grade(left: Profile, right: Profile) -> Grade:
+    """A dependence seen at all points could be there by chance, within the bound."""
+    return graded(False, _safety(left, right))
+
+
+def _restricted(profile: Profile, shape: Matroid) -> Matroid:
+    """The matroid on the free rows only, numbered anew, so that summaries with other constants compare."""
+    if all(profile.free):
+        return shape
+    return shape.relabelled({row: i for i, row in enumerate(r for r, free in enumerate(profile.free) if free)})
+
+
+def _unequal_rows(left: Profile, one: Matroid, other: Matroid) -> Evidence:
+    labels = _ordered(left, left.form)
+    rows = separating_rows(one, other)
+    return Ranks(tuple(labels[i] for i in rows), rank_in(one, rows), rank_in(other, rows), all_rows=False)
+
+
+def _by_degree(number: int, left: Profile, right: Profile, equal: bool) -> Finding:
+    if Representation.MARKOV in (left.representation, right.representation):
+        return Finding(number, Outcome.INAPPLICABLE, note=NO_DEGREES)
+    if equal:
+        return Finding(number, Outcome.HOLDS)
+    return Finding(number, Outcome.FAILS, evidence=Counts(left.degrees, right.degrees))
+
+
+def _ordered(profile: Profile, labels: frozenset[str]) -> tuple[str, ...]:
+    return tuple(label for label in profile.labels if label in labels)
+
+
+def _surely_constant(profile: Profile, label: str) -> bool:
+    return label in profile.proven_zeros or label not in profile.labels
+
+
+def _safety(left: Profile, right: Profile) -> int:
+    """Two events of probability 2^-b or less: 2^-(b-1)."""
+    return min(left.safety, right.safety) - 1

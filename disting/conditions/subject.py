@@ -1,0 +1,45 @@
+"""One side of a comparison: a named chain, its profiles on demand, and its colouring for renamings, each computed once."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.sampling import prime
+from disting.invariants.profile import Profile, profile
+from disting.invariants.sample import Representation, sample
+from disting.model.chain import Chain
+from disting.model.structure import Structure
+from disting.model.symmetry import Form, canonical
+from disting.settings import Settings
+
+ProfileSource = Callable[[Structure, Representation, int, Settings], Profile]
+
+
+@dataclass(frozen=True)
+class Subject:
+    """`source` yields profiles; a cache may stand in for the computation."""
+
+    name: str
+    chain: Chain
+    settings: Settings = field(default_factory=Settings)
+    source: ProfileSource = profile
+
+    def profile(self, representation: Representation, count: int) -> Profile:
+        """Profile of the canonical form, which all symmetric chains share."""
+        return self.source(self.canonical.chain.structure, representation, count, self.settings)
+
+    @cached_property
+    def canonical(self) -> Form:
+        """Canonical form under the symmetries of the class."""
+        return canonical(self.chain)
+
+    @cached_property
+    def colouring(self) -> Colouring:
+        """Stable colours of the parameters in the transfer-function coefficients."""
+        return colouring(self.columns, ("",) * len(self.chain.parameters))
+
+    def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
+        """Values and Jacobian columns of the transfer-function coefficients at a point, modulo a fixed prime."""
+        seen = sample(self.chain.structure, Representation.TF, 0, point, prime("renaming"))
+        return seen.values, list(zip(*seen.rows, strict=True))

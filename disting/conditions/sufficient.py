@@ -1,0 +1,71 @@
+"""Conditions 6 and 7 (section 4.1): sufficient for indistinguishability on open sets of the complex parameter space."""
+
+from itertools import islice
+
+from disting.algebra.colouring import renamings
+from disting.conditions.evidence import FreeChoice, Renaming
+from disting.conditions.finding import Certainty, Finding, Outcome, graded
+from disting.conditions.subject import Subject
+from disting.invariants.expanded import is_renaming
+from disting.invariants.profile import Profile
+
+INCOMPLETE = "fewer than N_S1 + N_S2 Markov parameters are not exhaustive"
+CANDIDATES = 50  # of a renaming that are verified; a colouring leaves one or two in practice
+
+
+def condition_6(left: Subject, right: Subject, exhaustive: bool) -> Finding:
+    """Cond. 6: "A renaming and permutation scheme for the parameters of the first model exists so that the moment invariants
+    are identical to those of the second model in symbolic form and vice versa."
+
+    Symmetries of the class first (a theorem), then a search whose result is proven by expanding both transfer functions.
+    """
+    if not exhaustive:
+        return Finding(6, Outcome.INAPPLICABLE, note=INCOMPLETE)
+    if left.canonical.chain == right.canonical.chain:
+        return Finding(6, Outcome.HOLDS, Certainty.THEOREM, evidence=_by_symmetry(left, right))
+    if left.colouring.fingerprint != right.colouring.fingerprint:
+        return Finding(6, Outcome.FAILS, note="no renaming exists")
+    return _searched(left, right)
+
+
+def condition_7(left: Profile, right: Profile) -> Finding:
+    """Cond. 7: "The two models have as many determinable parameters as non-constant moment invariants and the constant moment
+    invariants are identical across the two models." Full row rank at one point proves the first part."""
+    if not left.describes_all(right):
+        return Finding(7, Outcome.INAPPLICABLE, note=INCOMPLETE)
+    if left.form != right.form or _constants(left) != _constants(right):
+        return Finding(7, Outcome.FAILS, note="the constant invariants differ")
+    if not left.rank == right.rank == len(left.form):
+        return Finding(
+            7,
+            Outcome.FAILS,
+            note=f"{left.rank} and {right.rank} determinable parameters for {len(left.form)} invariants",
+        )
+    proven = all(p.proven_zeros >= _constants(p).keys() for p in (left, right))
+    free = tuple(label for label in left.labels if label in left.form)
+    return Finding(7, Outcome.HOLDS, *graded(proven, min(left.safety, right.safety) - 1), FreeChoice(left.rank, free))
+
+
+def _by_symmetry(left: Subject, right: Subject) -> Renaming:
+    """Left to the common canonical form, then back to the right model."""
+    back = {there: here for here, there in right.canonical.renaming.items()}
+    pairs = tuple((p, back[left.canonical.renaming[p]]) for p in left.chain.parameters)
+    used = set(left.canonical.symmetries) ^ set(right.canonical.symmetries)
+    return Renaming(pairs, tuple(sorted(used)))
+
+
+def _searched(left: Subject, right: Subject) -> Finding:
+    names = left.chain.parameters, right.chain.parameters
+    candidates = list(islice(renamings(left.columns, right.columns, len(names[0])), CANDIDATES + 1))
+    for images in candidates[:CANDIDATES]:
+        renaming = {name: names[1][image] for name, image in zip(names[0], images, strict=True)}
+        if is_renaming(left.chain.structure, right.chain.structure, renaming):
+            return Finding(6, Outcome.HOLDS, Certainty.PROVEN, evidence=Renaming(tuple(renaming.items()), ()))
+    if len(candidates) > CANDIDATES:
+        return Finding(6, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings")
+    return Finding(6, Outcome.FAILS, note="no renaming exists")
+
+
+def _constants(profile: Profile) -> dict[str, str]:
+    rows = zip(profile.labels, profile.free, profile.constants, strict=True)
+    return {label: value for label, free, value in rows if not free and value != ""}

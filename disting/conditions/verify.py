@@ -1,0 +1,85 @@
+"""Checks a stored verdict again from its evidence alone: at fresh random points, without profiles, matroids or searches."""
+
+from dataclasses import dataclass, field
+
+from disting.conditions.evidence import Counts, Embedding, Evidence, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.invariants.expanded import is_renaming
+from disting.invariants.profile import samples
+from disting.invariants.sample import Representation, Sample
+from disting.model.chain import Chain
+from disting.model.structure import Structure
+
+POINTS = 3
+
+
+@dataclass
+class Witness:
+    """Fresh samples of structures, drawn with a seed of its own and kept for the next question."""
+
+    seed: str = "verify"
+    memo: dict[tuple[Structure, str, int], tuple[Sample, ...]] = field(default_factory=dict)
+
+    def confirms(self, evidence: Evidence, representation: str, left: Chain, right: Chain) -> bool:
+        """Whether the evidence is true of the two chains and decides them."""
+        a, b = left.structure, right.structure
+        match evidence:
+            case Counts():
+                return (
+                    self._degrees(a) == evidence.left and self._degrees(b) == evidence.right and evidence.left != evidence.right
+                )
+            case Forms():
+                return self._forms(evidence, representation, a, b)
+            case Ranks():
+                ranks = tuple(self._rank(s, representation, evidence.rows) for s in (a, b))
+                return ranks == (evidence.left, evidence.right) and evidence.left != evidence.right
+            case Renaming():
+                complete = sorted(p for p, _ in evidence.pairs) == sorted(a.parameters)
+                onto = sorted(q for _, q in evidence.pairs) == sorted(b.parameters)
+                return complete and onto and is_renaming(a, b, dict(evidence.pairs))
+            case FreeChoice():
+                return all(self._freely(evidence, representation, s) for s in (a, b))
+            case Embedding():
+                part, whole = (a, b) if evidence.left_is_submodel else (b, a)
+                fits = dict(evidence.numbering) in list(part.embeddings(whole))
+                return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
+            case Supermodel():
+                third = a.united(b)
+                same = (a.ports, a.sensor_order) == (
+                    b.ports,
+                    b.sensor_order,
+                ) and third.parameters == evidence.parameters
+                return same and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b, third))
+
+    def _samples(self, structure: Structure, representation: str, count: int) -> tuple[Sample, ...]:
+        key = (structure, representation, count)
+        if key not in self.memo:
+            self.memo[key] = tuple(samples(structure, Representation(representation), count, POINTS, self.seed))
+        return self.memo[key]
+
+    def _degrees(self, structure: Structure) -> tuple[int, int]:
+        labels = self._samples(structure, "tf", 0)[0].labels
+        return sum(x[0] == "b" for x in labels) - 1, sum(x[0] == "a" for x in labels)
+
+    def _rank(self, structure: Structure, representation: str, rows: tuple[str, ...]) -> int:
+        """Rank of the named rows, or of all."""
+        seen = self._samples(structure, representation, _count(rows))
+        chosen = tuple(i for i, label in enumerate(seen[0].labels) if not rows or label in rows)
+        return max(s.rank(chosen) for s in seen)
+
+    def _free(self, structure: Structure, representation: str, count: int) -> set[str]:
+        seen = self._samples(structure, representation, count)
+        return {label for i, label in enumerate(seen[0].labels) if any(any(s.rows[i]) for s in seen)}
+
+    def _forms(self, evidence: Forms, representation: str, a: Structure, b: Structure) -> bool:
+        only = {*evidence.only_left, *evidence.only_right}
+        here, there = (self._free(s, representation, _count(tuple(only))) for s in (a, b))
+        return bool(only) and set(evidence.only_left) <= here - there and set(evidence.only_right) <= there - here
+
+    def _freely(self, evidence: FreeChoice, representation: str, structure: Structure) -> bool:
+        free = self._free(structure, representation, _count(evidence.free))
+        return free == set(evidence.free) and self._rank(structure, representation, evidence.free) == len(free)
+
+
+def _count(labels: tuple[str, ...]) -> int:
+    """Markov parameters needed to have all these labels."""
+    return max((int(x[1:]) for x in labels if x[0] == "G"), default=0)

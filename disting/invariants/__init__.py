@@ -1,0 +1,1 @@
+"""What input-output behaviour reveals of a model."""

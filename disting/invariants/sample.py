@@ -1,0 +1,75 @@
+"""An exhaustive summary seen at one random point modulo a prime: the moment invariants and their Jacobian, as numbers."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from flint import nmod_mat
+
+from disting.algebra.quotient import Quotient, coefficient_rows, constant, lowest_terms, matrix, series_rows, variable
+from disting.invariants.transfer import receptance, values_at
+from disting.model.structure import Structure
+
+
+class Representation(StrEnum):
+    """How the input-output behaviour is written down."""
+
+    TF = "tf"
+    MARKOV = "markov"
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """Moment invariants at a point: labels (b0.., a0.. or G0.., Td), values and Jacobian (invariants x parameters)."""
+
+    labels: tuple[str, ...]
+    values: tuple[int, ...]
+    rows: tuple[tuple[int, ...], ...]
+    n_parameters: int
+    modulus: int
+
+    @property
+    def jacobian(self) -> nmod_mat:
+        """The Jacobian as a matrix modulo the prime."""
+        return matrix(self.rows, self.n_parameters, self.modulus)
+
+    def rank(self, chosen: tuple[int, ...]) -> int:
+        """Rank of the rows with the given positions."""
+        return int(matrix([self.rows[i] for i in chosen], self.n_parameters, self.modulus).rank())
+
+
+def quotient(structure: Structure, point: list[int], modulus: int) -> Quotient:
+    """The transfer function (24), without dead time, in lowest terms at a point given in the order of the parameters."""
+    values = values_at(structure, point, lambda number: constant(number, modulus))
+    rational = receptance(structure, values, variable(modulus), constant(1, modulus))
+    order = structure.sensor_order
+    return lowest_terms(
+        rational.num.left_shift(order),
+        rational.den,
+        [d.left_shift(order) for d in rational.num_gradient.values()],
+        list(rational.den_gradient.values()),
+    )
+
+
+def sample(structure: Structure, representation: Representation, count: int, point: list[int], modulus: int) -> Sample:
+    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the parameters.
+
+    A dead time adds itself as one more invariant: exp(-Td s) is no rational function, so both factors are determined.
+    """
+    q = quotient(structure, point, modulus)
+    if representation is Representation.TF:
+        labels, values, rows = _coefficients(q)
+    else:
+        labels = [f"G{i}" for i in range(count + 1)]
+        values, rows = series_rows(q, count)
+    if structure.dead_time:
+        labels, values = [*labels, "Td"], [*values, point[-1]]
+        rows = [[*row, 0] for row in rows] + [[0] * (len(structure.parameters) - 1) + [1]]
+    return Sample(tuple(labels), tuple(values), tuple(map(tuple, rows)), len(structure.parameters), modulus)
+
+
+def _coefficients(q: Quotient) -> tuple[list[str], list[int], list[list[int]]]:
+    n, m = q.num.degree(), q.den.degree()
+    num_values, num_rows = coefficient_rows(q.num, q.num_derivatives, n + 1)
+    den_values, den_rows = coefficient_rows(q.den, q.den_derivatives, m)
+    labels = [f"b{i}" for i in range(n + 1)] + [f"a{i}" for i in range(m)]
+    return labels, num_values + den_values, num_rows + den_rows

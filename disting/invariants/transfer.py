@@ -1,0 +1,136 @@
+"""The transfer function of a structure and its derivatives, over any ring: equation (24) without an inverse.
+
+Each connected row of masses is a tridiagonal block A_c(s) = M s^2 + D s + K. With D_c = det A_c and, for the block's part of
+the force and sensor vectors, P_c = e_meas' adj(A_c) e_act, the receptance is the sum of P_c/D_c. A parameter that enters as
+w v v' (w a power of s) has dD_c = w v' adj v and, since d(A^-1) = -w A^-1 v v' A^-1,
+
+    dP_c = w (P_c v' adj v - (v' adj e_act)(v' adj e_meas)) / D_c       (an exact quotient)
+
+so one pair of adjugate columns gives the whole gradient.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from disting.algebra.tridiagonal import Ring, Tridiagonal
+from disting.model.structure import POWER, Element, Structure
+
+
+@dataclass(frozen=True, slots=True)
+class Rational:
+    """Receptance times lag as num/den, polynomials in s, with the gradients by parameter name; not yet cancelled."""
+
+    num: Ring
+    den: Ring
+    num_gradient: dict[str, Ring]
+    den_gradient: dict[str, Ring]
+
+
+@dataclass(frozen=True, slots=True)
+class _Block:
+    first: int
+    matrix: Tridiagonal
+    act: list[Ring]  # adj(A_c) e_act
+    meas: list[Ring]  # adj(A_c) e_meas
+    num: Ring
+    elements: tuple[Element, ...]
+
+
+def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> Rational:
+    """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong to the same ring.
+
+    Blocks without a port do not contribute and are left out, so their parameters have zero gradients.
+    """
+    blocks = [_block(structure, span, values, s, one) for span in structure.blocks if _touched(structure, span)]
+    num, den = one - one, one
+    for block in blocks:
+        num, den = num * block.matrix.determinant + block.num * den, den * block.matrix.determinant
+    zero = one - one
+    num_gradient, den_gradient = ({p: zero for p in structure.parameters if p != "Td"} for _ in range(2))
+    for block in blocks:
+        others, rest = _complement(blocks, block, one)
+        for element in block.elements:
+            d_num, d_den = _gradient(block, element, s)
+            num_gradient[element.parameter] = d_num * others + d_den * rest
+            den_gradient[element.parameter] = d_den * others
+    plain = Rational(num, den, num_gradient, den_gradient)
+    return _lagged(plain, values["T1"], s, one) if structure.lag else plain
+
+
+def values_at(structure: Structure, numbers: list[int], lift: Callable[[int], Any]) -> dict[str, Any]:
+    """Parameter values from numbers, in the structure's order, lifted into the ring."""
+    return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
+
+
+def _touched(structure: Structure, span: tuple[int, int]) -> bool:
+    p = structure.ports
+    inside = [span[0] <= port <= span[1] for port in p]
+    return (inside[0] or inside[1]) and (inside[2] or inside[3])
+
+
+def _block(structure: Structure, span: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring) -> _Block:
+    first, last = span
+    elements = tuple(e for e in structure.elements if first <= e.at + (e.kind in "kd") <= last)
+    powers = [one, s, s * s]
+    diagonal, off = [one - one] * (last - first + 1), [one - one] * (last - first)
+    for e in elements:
+        term = values[e.parameter] * powers[POWER[e.kind]]
+        for node in (e.at, e.at + 1) if e.kind in "kd" else (e.at,):
+            if node >= first:
+                diagonal[node - first] = diagonal[node - first] + term
+        if e.kind in "kd" and e.at >= first:
+            off[e.at - first] = off[e.at - first] + term
+    matrix = Tridiagonal(tuple(diagonal), tuple(off), one)
+    ports = structure.ports
+    act = _response(matrix, ports.act_plus - first, ports.act_minus - first)
+    meas = act if ports[:2] == ports[2:] else _response(matrix, ports.meas_plus - first, ports.meas_minus - first)
+    num = _difference(act, ports.meas_plus - first, ports.meas_minus - first)
+    return _Block(first, matrix, act, meas, num, elements)
+
+
+def _response(matrix: Tridiagonal, plus: int, minus: int) -> list[Ring]:
+    """adj(A) (e_plus - e_minus), where a port outside the block does not count."""
+    size = len(matrix.diagonal)
+    up = matrix.adjugate_column(plus) if 0 <= plus < size else None
+    down = matrix.adjugate_column(minus) if 0 <= minus < size else None
+    if up is None or down is None:
+        return up if up is not None else [-entry for entry in down or []]
+    return [a - b for a, b in zip(up, down, strict=True)]
+
+
+def _difference(vector: list[Ring], plus: int, minus: int) -> Ring:
+    zero = vector[0] - vector[0]
+    inside = [vector[i] if 0 <= i < len(vector) else zero for i in (plus, minus)]
+    return inside[0] - inside[1]
+
+
+def _gradient(block: _Block, element: Element, s: Ring) -> tuple[Ring, Ring]:
+    """(dP_c, dD_c) for one element."""
+    matrix, i = block.matrix, element.at - block.first
+    if element.kind in "kd" and i >= 0:
+        beside = matrix.adjugate_beside(i)
+        square = matrix.adjugate_diagonal(i) + matrix.adjugate_diagonal(i + 1) - beside - beside
+        act, meas = block.act[i] - block.act[i + 1], block.meas[i] - block.meas[i + 1]
+    else:
+        at = i + 1 if element.kind in "kd" else i  # a joint to the ground acts on the block's first mass alone
+        square, act, meas = matrix.adjugate_diagonal(at), block.act[at], block.meas[at]
+    d_num = (block.num * square - act * meas) // matrix.determinant
+    for _ in range(POWER[element.kind]):
+        d_num, square = d_num * s, square * s
+    return d_num, square
+
+
+def _complement(blocks: list[_Block], block: _Block, one: Ring) -> tuple[Ring, Ring]:
+    """Product of the other blocks' determinants, and the numerator of the sum of the other blocks over it."""
+    num, den = one - one, one
+    for other in blocks:
+        if other is not block:
+            num, den = num * other.matrix.determinant + other.num * den, den * other.matrix.determinant
+    return den, num
+
+
+def _lagged(plain: Rational, time_constant: Ring, s: Ring, one: Ring) -> Rational:
+    factor = one + time_constant * s
+    gradient = {name: d * factor for name, d in plain.den_gradient.items()} | {"T1": s * plain.den}
+    return Rational(plain.num, plain.den * factor, plain.num_gradient, gradient)

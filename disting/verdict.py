@@ -1,0 +1,219 @@
+"""From findings to a verdict: the conditions in order, in each representation, until one decides.
+
+Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then structure (8 and 9). A necessary
+condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is UNDECIDED.
+All of it is over the complex numbers: distinguishable models are so over real and positive parameters too (real and positive
+points are Zariski dense), while indistinguishable ones need be so over positive parameters only where a renaming tells it.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.conditions.evidence import Evidence
+from disting.conditions.evidence import from_dict as evidence_from
+from disting.conditions.evidence import to_dict as evidence_to
+from disting.conditions.finding import Certainty, Finding, Outcome
+from disting.conditions.subject import Subject
+from disting.conditions.table import CONDITIONS, STRUCTURE, Necessary, Structural, Sufficient
+from disting.errors import ContradictionError, InputError
+from disting.invariants.sample import Representation
+
+ALL_CONDITIONS = tuple(c.number for c in CONDITIONS)
+
+
+class Relation(StrEnum):
+    """What is known of a pair."""
+
+    DISTINGUISHABLE = "distinguishable"
+    INDISTINGUISHABLE = "indistinguishable"
+    UNDECIDED = "undecided"
+
+
+class View(StrEnum):
+    """Which representations may decide; `combined` also lets the structure decide."""
+
+    TF = "tf"
+    MARKOV = "markov"
+    COMBINED = "combined"
+
+    @property
+    def representations(self) -> tuple[str, ...]:
+        """The representations of this view, in order."""
+        return ("tf", "markov", STRUCTURE) if self is View.COMBINED else (self.value,)
+
+
+class Domain(StrEnum):
+    """Parameter values over which a verdict is stated."""
+
+    COMPLEX = "complex"
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """What may be used to decide: the view, the conditions' numbers, the number of Markov parameters (0 = all)."""
+
+    view: View = View.COMBINED
+    conditions: tuple[int, ...] = ALL_CONDITIONS
+    markov: int = 0
+
+    def __post_init__(self) -> None:
+        if not set(self.conditions) <= set(ALL_CONDITIONS):
+            raise InputError(f"conditions are numbered 1 to 9, not {sorted(set(self.conditions) - set(ALL_CONDITIONS))}")
+        if self.markov < 0:
+            raise InputError(f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}")
+
+    def count(self, left: Subject, right: Subject) -> int:
+        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are exhaustive."""
+        return self.markov or left.chain.structure.n_states + right.chain.structure.n_states
+
+
+def error_bound(certainty: str, safety: int) -> str:
+    """Text of the bound that goes with a certainty."""
+    if not certainty:
+        return ""
+    return f"2^-{safety}" if certainty == Certainty.BOUNDED else "0"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Relation of a pair with its proof.
+
+    `decided_by`: the condition's number, "" if undecided; `representation`: "tf", "markov", "structure" or "";
+    with certainty BOUNDED the probability of error is at most 2**-safety. `notes` tells an undecided pair's abandoned parts.
+    """
+
+    left: str
+    right: str
+    relation: Relation
+    decided_by: str = ""
+    representation: str = ""
+    certainty: Certainty | None = None
+    safety: int = 0
+    evidence: Evidence | None = None
+    domain: Domain = Domain.COMPLEX
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        decided = self.relation is not Relation.UNDECIDED
+        if decided != bool(self.decided_by and self.representation and self.certainty and self.evidence):
+            raise ValueError("exactly a decided verdict names condition, representation, certainty and evidence")
+
+    def __bool__(self) -> bool:
+        raise TypeError("a verdict is not true or false; look at its relation")
+
+    @property
+    def error_bound(self) -> str:
+        """Probability that the verdict is wrong, at most; "0" where nothing is left to chance, "" if undecided."""
+        return error_bound(self.certainty or "", self.safety)
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in words an engineer understands."""
+        head = f"{self.left} and {self.right} are {self.relation}"
+        if self.evidence is None:
+            why = f" ({'; '.join(self.notes)})" if self.notes else ""
+            return f"{self.left} and {self.right} are undecided: no condition settles them{why}."
+        where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
+        return f"{head} (condition {self.decided_by}, {where}): {self.evidence.sentence(self.left, self.right)}"
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON; error bound and sentence are derived."""
+        evidence = evidence_to(self.evidence) if self.evidence else {}
+        return {
+            "left": self.left,
+            "right": self.right,
+            "relation": self.relation.value,
+            "decided_by": self.decided_by,
+            "representation": self.representation,
+            "certainty": self.certainty.value if self.certainty else "",
+            "safety": self.safety,
+            "domain": self.domain.value,
+            "error_bound": self.error_bound,
+            "evidence": evidence,
+            "notes": list(self.notes),
+            "sentence": self.sentence,
+        }
+
+    @staticmethod
+    def from_dict(data: dict[str, object]) -> "Verdict":
+        """Inverse of to_dict; raises ValueError, KeyError or TypeError for what is none."""
+        certainty, evidence = data["certainty"], data["evidence"]
+        return Verdict(
+            str(data["left"]),
+            str(data["right"]),
+            Relation(str(data["relation"])),
+            str(data["decided_by"]),
+            str(data["representation"]),
+            Certainty(str(certainty)) if certainty else None,
+            int(str(data["safety"])),
+            evidence_from(evidence) if isinstance(evidence, dict) and evidence else None,
+            Domain(str(data["domain"])),
+            tuple(map(str, data["notes"])) if isinstance(data["notes"], list) else (),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One condition in one representation, with what it found."""
+
+    representation: str
+    finding: Finding
+
+    @property
+    def relation(self) -> Relation:
+        """What this finding alone decides."""
+        necessary = self.finding.number <= 5
+        if self.finding.outcome is (Outcome.FAILS if necessary else Outcome.HOLDS):
+            return Relation.DISTINGUISHABLE if necessary else Relation.INDISTINGUISHABLE
+        return Relation.UNDECIDED
+
+
+def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
+    """Yield every condition's finding lazily, in order: representation by representation, condition by condition."""
+    count = query.count(left, right)
+    for representation in query.view.representations:
+        for condition in CONDITIONS:
+            if condition.number in query.conditions:
+                yield from _step(condition, left, right, representation, count)
+
+
+def decide(left: Subject, right: Subject, query: Query) -> Verdict:
+    """Verdict of the first step that decides."""
+    notes: list[str] = []
+    for step in steps(left, right, query):
+        if step.relation is not Relation.UNDECIDED:
+            return verdict_of(left.name, right.name, step)
+        if step.finding.outcome is Outcome.ABANDONED:
+            notes.append(f"condition {step.finding.number} on {step.representation} was abandoned: {step.finding.note}")
+    return Verdict(left.name, right.name, Relation.UNDECIDED, notes=tuple(notes))
+
+
+def audit(left: Subject, right: Subject, query: Query) -> Verdict:
+    """Run every condition in every representation; raise ContradictionError where two decide differently."""
+    deciding = [step for step in steps(left, right, query) if step.relation is not Relation.UNDECIDED]
+    if len({step.relation for step in deciding}) > 1:
+        found = ", ".join(f"{s.relation} by condition {s.finding.number} ({s.representation})" for s in deciding)
+        raise ContradictionError(f"{left.name} and {right.name}: {found}")
+    return decide(left, right, query)
+
+
+def verdict_of(left: str, right: str, step: Step) -> Verdict:
+    """The verdict that a deciding step gives."""
+    f = step.finding
+    return Verdict(left, right, step.relation, str(f.number), step.representation, f.certainty, f.safety, f.evidence)
+
+
+def _step(
+    condition: Necessary | Sufficient | Structural, left: Subject, right: Subject, representation: str, count: int
+) -> Iterator[Step]:
+    match condition:
+        case Structural() if representation == STRUCTURE:
+            yield Step(representation, condition.check(left, right))
+        case Necessary() if representation != STRUCTURE:
+            r = Representation(representation)
+            n = count if r is Representation.MARKOV else 0
+            yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
+        case Sufficient() if representation != STRUCTURE:
+            r = Representation(representation)
+            yield Step(representation, condition.check(left, right, r, count if r is Representation.MARKOV else 0))
