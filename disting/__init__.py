@@ -1,0 +1,36 @@
+"""Distinguishability of servo-drive chain models: which structures no experiment can tell apart, with proof.
+
+>>> from disting import Family, compare
+>>> compare(Family(3)[9], Family(3)[10]).relation.value
+'indistinguishable'
+"""
+
+from disting.catalogs import Catalog as Catalog
+from disting.catalogs import ModelRow as ModelRow
+from disting.catalogs import catalog as catalog
+from disting.comparison import compare as compare
+from disting.conditions import CONDITIONS as CONDITIONS
+from disting.conditions import Certainty as Certainty
+from disting.conditions import Finding as Finding
+from disting.conditions import Outcome as Outcome
+from disting.engine import CacheWarning as CacheWarning
+from disting.engine import Decisions as Decisions
+from disting.engine import Engine as Engine
+from disting.engine import Store as Store
+from disting.errors import CatalogError as CatalogError
+from disting.errors import ConstraintViolation as ConstraintViolation
+from disting.errors import ContradictionError as ContradictionError
+from disting.errors import DistingError as DistingError
+from disting.errors import InputError as InputError
+from disting.model.chain import Chain as Chain
+from disting.model.chain import Sensor as Sensor
+from disting.model.family import Family as Family
+from disting.model.symmetry import Symmetry as Symmetry
+from disting.settings import Settings as Settings
+from disting.verdict import Domain as Domain
+from disting.verdict import Query as Query
+from disting.verdict import Relation as Relation
+from disting.verdict import Verdict as Verdict
+from disting.verdict import View as View
+
+__version__ = "0.1.0"

@@ -1,0 +1,115 @@
+"""Builds a catalogue: every model of a family, every pair, every representation, with evidence."""
+
+import json
+import platform
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from disting.catalogs.catalog import Catalog
+from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest, lines, name_of
+from disting.conditions.evidence import to_dict
+from disting.conditions.subject import Subject
+from disting.engine import Decisions, Engine, Progress, silent
+from disting.invariants.sample import Representation
+from disting.model.family import Family
+from disting.verdict import Query, Relation, View
+
+PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED}
+
+
+def build(
+    n_masses: int, *, damped: bool, engine: Engine, executor: Executor | None = None, progress: Progress = silent
+) -> Catalog:
+    """The catalogue of a family, computed (profiles may come from the engine's store or the executor's workers)."""
+    family = Family(n_masses, damped)
+    subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
+    found = {
+        part: engine.decisions(subjects, Query(view), executor=executor, progress=progress) for part, view in PARTS.items()
+    }
+    header: Record = {
+        "schema": SCHEMA,
+        "catalog": name_of(n_masses, damped),
+        "n_masses": n_masses,
+        "damped": damped,
+        "sensor": family.sensor.value,
+        "models": len(family),
+        "markov": 4 * n_masses,
+        "conditions": "1-9",
+        "settings": engine.settings.to_dict(),
+    }
+    records = [header, *(_model(number, s) for number, s in enumerate(subjects, 1)), *_pairs(found)]
+    return Catalog.from_records(records)
+
+
+def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
+    """Write catalogue files and, last, their provenance; returns the paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / f"{c.name}.jsonl" for c in catalogs]
+    for c, path in zip(catalogs, paths, strict=True):
+        partial = path.with_suffix(".partial")  # a killed run leaves no half-written catalogue under its name
+        partial.write_text(lines(list(c.records)), encoding="utf-8")
+        partial.replace(path)
+    provenance = folder / PROVENANCE
+    provenance.write_text(json.dumps(provenance_of(folder), indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    return [*paths, provenance]
+
+
+def provenance_of(folder: Path) -> Record:
+    """Schema, software versions, command and the digest of each catalogue file in a folder."""
+    return {
+        "schema": SCHEMA,
+        "command": "disting catalog build 1 2 3 4 5",
+        "software": {name: _version(name) for name in ("disting", "python-flint", "numpy")}
+        | {"python": platform.python_version()},
+        "files": {p.name: digest(p) for p in sorted(folder.glob("*.jsonl"))},
+    }
+
+
+def _model(number: int, subject: Subject) -> Record:
+    profile = subject.profile(Representation.TF, 0)
+    return {
+        "model": number,
+        "indices": list(subject.chain.indices[1:]),
+        "parameters": list(subject.chain.parameters),
+        "degrees": list(profile.degrees),
+        "free": len(profile.form),
+        "rank": profile.rank,
+        "rank_certainty": "proven" if profile.rank_proven else "bounded",
+        "safety": 0 if profile.rank_proven else profile.safety,
+    }
+
+
+def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
+    size = len(found["tf"].subjects)
+    for i in range(size):
+        for j in range(i + 1, size):
+            yield {"left": i + 1, "right": j + 1} | {
+                part: _step(decided, i, j)
+                for part, decided in found.items()
+                if decided.relation(i, j) is not Relation.UNDECIDED and (part != "structure" or _by_structure(decided, i, j))
+            }
+
+
+def _by_structure(decided: Decisions, i: int, j: int) -> bool:
+    return (i, j) in decided.steps and decided.steps[i, j].representation == "structure"
+
+
+def _step(decided: Decisions, i: int, j: int) -> Record:
+    verdict = decided.verdict(i, j)
+    assert verdict.evidence is not None  # only decided pairs get here
+    assert verdict.certainty is not None
+    return {
+        "decided_by": verdict.decided_by,
+        "certainty": verdict.certainty.value,
+        "safety": verdict.safety,
+        "evidence": to_dict(verdict.evidence),
+    }
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"

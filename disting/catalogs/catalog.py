@@ -1,0 +1,199 @@
+"""A catalogue in memory: look-ups without computation, and the same content as tables, groups, CSV and JSON."""
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from disting.catalogs.export import csv_text, relation_of
+from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
+from disting.conditions.evidence import from_dict
+from disting.conditions.finding import Certainty
+from disting.errors import CatalogError, InputError
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.verdict import Relation, Verdict, View
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, slots=True)
+class ModelRow:
+    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = number of its indistinguishable group or 0."""
+
+    number: int
+    chain: Chain
+    numerator_degree: int
+    denominator_degree: int
+    n_parameters: int
+    rank: int
+    group: int
+
+
+@dataclass(frozen=True)
+class Catalog:
+    """All verdicts of one family; `records` is its file's content (see `files`).
+
+    >>> catalog(3, damped=True).verdict(2, 5).decided_by
+    '6'
+    """
+
+    records: tuple[Record, ...]
+
+    @staticmethod
+    def from_records(records: list[Record]) -> "Catalog":
+        """Catalogue from the records of a file."""
+        return Catalog(tuple(records))
+
+    @property
+    def name(self) -> str:
+        """Such as chains-3-damped."""
+        return str(self.records[0]["catalog"])
+
+    @property
+    def n_masses(self) -> int:
+        """Number of masses N_B."""
+        return int(self.records[0]["n_masses"])
+
+    @property
+    def damped(self) -> bool:
+        """Whether every spring has a damper beside it."""
+        return bool(self.records[0]["damped"])
+
+    @cached_property
+    def family(self) -> Family:
+        """The models."""
+        return Family(self.n_masses, self.damped)
+
+    @property
+    def provenance(self) -> dict[str, str]:
+        """Schema, settings and, for shipped catalogues, software versions."""
+        header = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self.records[0].items()}
+        return header | {f"software {k}": v for k, v in _software().items()}
+
+    def verdict(self, left: int, right: int, view: View = View.COMBINED) -> Verdict:
+        """The stored verdict on two different models, numbered from 1; `left` and `right` as asked, evidence in order."""
+        low, high = sorted((left, right))
+        if low == high or not 1 <= low <= high <= len(self.family):
+            raise InputError(f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not {left}:{right}")
+        return self._verdict(self._pair(low, high), view)
+
+    def pairs(self, view: View = View.COMBINED) -> Iterator[tuple[int, int, Verdict]]:
+        """Yield (left, right, verdict) for all pairs left < right."""
+        for record in self.records[1 + len(self.family) :]:
+            yield record["left"], record["right"], self._verdict(record, view)
+
+    def relation(self, left: int, right: int, view: View = View.COMBINED) -> Relation:
+        """Relation of two models, without building the verdict."""
+        low, high = sorted((left, right))
+        return _relation(_deciding(self._pair(low, high), view)[1])
+
+    @cached_property
+    def rows(self) -> tuple[ModelRow, ...]:
+        """The models with their properties."""
+        group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
+        return tuple(self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)])
+
+    def classes(self) -> tuple[tuple[int, ...], ...]:
+        """Groups of two or more mutually indistinguishable models.
+
+        Indistinguishability is transitive, so the groups are the connected components; raises CatalogError where the
+        verdicts contradict that.
+        """
+        import networkx as nx
+
+        graph: nx.Graph[int] = nx.Graph()
+        pairs = self.records[1 + len(self.family) :]
+        relations = {(r["left"], r["right"]): _relation(_deciding(r, View.COMBINED)[1]) for r in pairs}
+        graph.add_edges_from(pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE)
+        groups = sorted(tuple(sorted(c)) for c in nx.connected_components(graph))
+        for members in groups:
+            if any(relations[a, b] is Relation.DISTINGUISHABLE for a in members for b in members if a < b):
+                raise CatalogError(f"{self.name} is inconsistent: the group {members} holds a distinguishable pair")
+        return tuple(groups)
+
+    def counts(self, view: View = View.COMBINED) -> dict[str, int]:
+        """Number of pairs by deciding condition, "" for the undecided ones."""
+        found = Counter(_deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
+        return {"": 0} | dict(sorted(found.items()))
+
+    def matrix(self, view: View = View.COMBINED) -> "pd.DataFrame":
+        """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the diagonal."""
+        import pandas as pd
+
+        numbers = range(1, len(self.family) + 1)
+        table = [["" if i == j else self.relation(i, j, view).value for j in numbers] for i in numbers]
+        return pd.DataFrame(table, index=pd.Index(numbers, name="model"), columns=pd.Index(numbers, name="model"))
+
+    def models(self) -> "pd.DataFrame":
+        """One row a model: indices, parameters, degrees, determinable parameters, group."""
+        import pandas as pd
+
+        rows = [
+            {"model": r.number, **dict(zip(_INDEX_NAMES, r.chain.indices[1:], strict=True))}
+            | {"parameters": " ".join(r.chain.parameters), "numerator_degree": r.numerator_degree}
+            | {"denominator_degree": r.denominator_degree, "n_parameters": r.n_parameters}
+            | {"rank": r.rank, "collocated": r.chain.collocated, "group": r.group}
+            for r in self.rows
+        ]
+        return pd.DataFrame(rows).set_index("model")
+
+    def to_csv(self, view: View = View.COMBINED) -> str:
+        """All verdicts as CSV text."""
+        return csv_text(
+            (i, j, v.decided_by, v.representation, v.certainty or "", v.error_bound) for i, j, v in self.pairs(view)
+        )
+
+    def to_json(self, view: View = View.COMBINED) -> str:
+        """All verdicts with evidence and sentences as JSON text."""
+        verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
+        return json.dumps({"header": self.records[0], "view": view.value, "verdicts": verdicts}, ensure_ascii=False) + "\n"
+
+    def _row(self, record: Record, group: int) -> ModelRow:
+        number, (numerator, denominator) = record["model"], record["degrees"]
+        return ModelRow(number, self.family[number], numerator, denominator, len(record["parameters"]), record["rank"], group)
+
+    def _pair(self, low: int, high: int) -> Record:
+        n = len(self.family)
+        before = (low - 1) * n - low * (low - 1) // 2  # pairs whose left model comes earlier
+        return self.records[1 + n + before + high - low - 1]
+
+    def _verdict(self, record: Record, view: View) -> Verdict:
+        names = (f"A{record['left']}", f"A{record['right']}")
+        where, step = _deciding(record, view)
+        if not step:
+            return Verdict(*names, Relation.UNDECIDED)
+        certainty, evidence = Certainty(step["certainty"]), from_dict(step["evidence"])
+        return Verdict(*names, _relation(step), step["decided_by"], where, certainty, step["safety"], evidence)
+
+
+def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) -> Catalog:
+    """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder); no computation.
+
+    >>> len(catalog(3).family), catalog(3).verdict(1, 2).relation.value
+    (11, 'distinguishable')
+    """
+    if folder is None and n_masses not in SHIPPED_SIZES:
+        raise CatalogError(f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting catalog build'")
+    return Catalog.from_records(read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl"))
+
+
+_INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
+
+
+def _deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:
+    """The first representation of the view that decides, and its step; ("", {}) if none does."""
+    return next(((r, record[r]) for r in view.representations if r in record), ("", {}))
+
+
+def _relation(step: dict[str, Any]) -> Relation:
+    return relation_of(step.get("decided_by", ""))
+
+
+def _software() -> dict[str, str]:
+    path = shipped_folder() / PROVENANCE
+    return dict(json.loads(path.read_text(encoding="utf-8"))["software"]) if path.is_file() else {}

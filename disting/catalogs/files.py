@@ -1,0 +1,54 @@
+"""Where catalogue files are and what is in them: one JSON record a line, so that a change shows as changed lines.
+
+First line: header. Then a line a model, in order; then a line a pair (left < right), with the deciding step in each
+representation, absent where nothing decides.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from disting.errors import CatalogError
+
+SCHEMA = 1
+SHIPPED_SIZES = (1, 2, 3, 4, 5)
+PROVENANCE = "provenance.json"
+Record = dict[str, Any]
+
+
+def name_of(n_masses: int, damped: bool) -> str:
+    """Name of a catalogue, such as chains-3-damped."""
+    return f"chains-{n_masses}-{'damped' if damped else 'undamped'}"
+
+
+def shipped_folder() -> Path:
+    """Folder of the shipped catalogues: inside the installed package, or at the top of a checkout."""
+    package = Path(__file__).parents[1]
+    inside = package / "shipped"
+    return inside if inside.is_dir() else package.parent / "catalog"
+
+
+def lines(records: list[Record]) -> str:
+    """The text of a catalogue file."""
+    return "".join(json.dumps(r, separators=(",", ":"), ensure_ascii=True) + "\n" for r in records)
+
+
+def read_records(path: Path) -> list[Record]:
+    """Records of a catalogue file; raises CatalogError where it is missing, damaged or of another schema."""
+    try:
+        records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+        header = records[0]
+        complete = len(records) == 1 + header["models"] + header["models"] * (header["models"] - 1) // 2
+    except FileNotFoundError:
+        raise CatalogError(f"there is no catalogue {path}; make it with 'disting catalog build'") from None
+    except (OSError, ValueError, LookupError, TypeError) as reason:
+        raise CatalogError(f"the catalogue {path} cannot be read ({reason}); rebuild it with 'disting catalog build'") from None
+    if header.get("schema") != SCHEMA or not complete:
+        raise CatalogError(f"the catalogue {path} is incomplete or of another schema; rebuild it with 'disting catalog build'")
+    return records
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of a file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -1,0 +1,53 @@
+"""Verifies a catalogue: its bytes against a rebuilt one, and every piece of evidence by itself."""
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from pathlib import Path
+
+from disting.catalogs.build import build
+from disting.catalogs.catalog import Catalog, catalog
+from disting.catalogs.files import lines, name_of
+from disting.conditions.verify import Witness
+from disting.engine import Engine, Progress, silent
+from disting.verdict import View
+
+
+def verify(
+    n_masses: int,
+    *,
+    damped: bool,
+    folder: Path,
+    engine: Engine,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> list[str]:
+    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is."""
+    stored = catalog(n_masses, damped=damped, folder=folder)
+    rebuilt = build(n_masses, damped=damped, engine=engine, executor=executor, progress=progress)
+    return [
+        *_differences(stored, rebuilt, folder / f"{name_of(n_masses, damped)}.jsonl"),
+        *false_evidence(stored, progress),
+    ]
+
+
+def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str]:
+    """Yield a sentence for each piece of evidence that does not hold."""
+    witness = Witness()
+    total = len(stored.family) * (len(stored.family) - 1) // 2
+    for done, (left, right, _) in enumerate(stored.pairs(), 1):
+        for view in View:
+            v = stored.verdict(left, right, view)
+            chains = stored.family[left], stored.family[right]
+            if v.evidence and not witness.confirms(v.evidence, v.representation, *chains):
+                yield f"{stored.name}, {left}:{right}, {view}: the evidence of condition {v.decided_by} does not hold"
+        progress("evidence", done, total)
+
+
+def _differences(stored: Catalog, rebuilt: Catalog, path: Path) -> Iterator[str]:
+    if path.read_text(encoding="utf-8") == lines(list(rebuilt.records)):
+        return
+    for number, (a, b) in enumerate(zip(stored.records, rebuilt.records, strict=False), 1):
+        if a != b:
+            yield f"{path.name}, line {number} is not what is computed now"
+            return
+    yield f"{path.name} is formatted differently from what is computed now"

@@ -1,0 +1,153 @@
+"""All pairs of a list of models, decided by buckets: models whose profiles agree in a property share its bucket.
+
+A necessary condition decides every pair of models in different buckets at once, by one comparison of two columns of numbers;
+only pairs that share all buckets are looked at one by one. Evidence is made when somebody asks for a pair.
+"""
+
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.conditions.subject import Subject
+from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
+from disting.invariants.profile import Profile, Unsearched
+from disting.invariants.sample import Representation
+from disting.verdict import Query, Relation, Step, Verdict, decide, verdict_of
+
+REPRESENTATIONS = ("", "tf", "markov", STRUCTURE)
+Numbers = NDArray[np.uint8]
+Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
+Prefetch = Callable[[Sequence[Subject], Representation, int], None]
+
+
+@dataclass(frozen=True)
+class Decisions:
+    """For subjects i < j: `decided_by[i, j]` is the condition's number or 0, `representation[i, j]` indexes REPRESENTATIONS.
+
+    `steps` holds the findings of the pairs that a sufficient condition decided.
+    """
+
+    subjects: tuple[Subject, ...]
+    query: Query
+    decided_by: Numbers
+    representation: Numbers
+    steps: dict[tuple[int, int], Step] = field(default_factory=dict)
+
+    def relation(self, i: int, j: int) -> Relation:
+        """Relation of subjects i and j (counted from 0, in any order)."""
+        number = self.decided_by[min(i, j), max(i, j)]
+        if number == 0:
+            return Relation.UNDECIDED
+        return Relation.DISTINGUISHABLE if number <= len(NECESSARY) else Relation.INDISTINGUISHABLE
+
+    def verdict(self, i: int, j: int) -> Verdict:
+        """The verdict with its evidence; only the deciding condition is run."""
+        i, j = min(i, j), max(i, j)
+        left, right = self.subjects[i], self.subjects[j]
+        if (i, j) in self.steps:
+            return verdict_of(left.name, right.name, self.steps[i, j])
+        number, where = int(self.decided_by[i, j]), REPRESENTATIONS[self.representation[i, j]]
+        if number == 0:
+            return decide(left, right, self.query)
+        r = Representation(where)
+        profiles = [s.profile(r, _count(r, self.query, self.subjects)) for s in (left, right)]
+        return verdict_of(left.name, right.name, Step(where, NECESSARY[number - 1].check(*profiles)))
+
+    def grades(self) -> Iterator[tuple[int, int, int, str, str, int]]:
+        """Yield (i, j, number, representation, certainty, safety) of all pairs, without evidence."""
+        profiles: dict[int, list[Profile]] = {}
+        for i in range(len(self.subjects)):
+            for j in range(i + 1, len(self.subjects)):
+                number, where = int(self.decided_by[i, j]), int(self.representation[i, j])
+                if (i, j) in self.steps:
+                    f = self.steps[i, j].finding
+                    grade = (f.certainty.value, f.safety)
+                elif number:
+                    if where not in profiles:
+                        r = Representation(REPRESENTATIONS[where])
+                        profiles[where] = [s.profile(r, _count(r, self.query, self.subjects)) for s in self.subjects]
+                    certainty, safety = NECESSARY[number - 1].grade(profiles[where][i], profiles[where][j])
+                    grade = (certainty.value, safety)
+                else:
+                    grade = ("", 0)
+                yield i, j, number, REPRESENTATIONS[where], *grade
+
+    def counts(self) -> dict[str, int]:
+        """Number of pairs by deciding condition, "" for the undecided ones."""
+        found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=len(CONDITIONS) + 1)
+        return {str(number or ""): int(n) for number, n in enumerate(found) if n or number == 0}
+
+
+def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch) -> Decisions:
+    """Decide all pairs of models with equally many states; `prefetch` computes the profiles that will be asked for."""
+    n = len(subjects)
+    result = Decisions(tuple(subjects), query, np.zeros((n, n), np.uint8), np.zeros((n, n), np.uint8))
+    open_pairs = np.triu(np.ones((n, n), bool), 1)
+    for representation in query.view.representations:
+        if representation == STRUCTURE:
+            _structural(result, open_pairs)
+            continue
+        r = Representation(representation)
+        active = np.flatnonzero(open_pairs.any(axis=0) | open_pairs.any(axis=1))
+        prefetch([subjects[int(i)] for i in active], r, _count(r, query, subjects))
+        _necessary(result, open_pairs, r, active)
+        _sufficient(result, open_pairs, r)
+    return result
+
+
+def _necessary(result: Decisions, open_pairs: NDArray[np.bool_], r: Representation, active: NDArray[np.intp]) -> None:
+    count = _count(r, result.query, result.subjects)
+    profiles = {int(i): result.subjects[i].profile(r, count) for i in active}
+    for condition in NECESSARY:
+        if condition.number in result.query.conditions:
+            buckets = _buckets(profiles, condition.key, len(result.subjects))
+            known = buckets >= 0
+            differ = (buckets[:, None] != buckets[None, :]) & known[:, None] & known[None, :] & open_pairs
+            _settle(result, open_pairs, differ, condition.number, r.value)
+
+
+def _buckets(profiles: dict[int, Profile], key: Callable[[Profile], Hashable], n: int) -> NDArray[np.int64]:
+    """Number of each model's bucket; -1 where the property is not known."""
+    numbers: dict[Hashable, int] = {}
+    buckets = np.full(n, -1, np.int64)
+    for i, profile in profiles.items():
+        value = key(profile)
+        if not isinstance(value, Unsearched):
+            buckets[i] = numbers.setdefault(value, len(numbers))
+    return buckets
+
+
+def _sufficient(result: Decisions, open_pairs: NDArray[np.bool_], r: Representation) -> None:
+    count = _count(r, result.query, result.subjects)
+    for condition in SUFFICIENT:
+        if condition.number in result.query.conditions:
+            _each(result, open_pairs, r.value, lambda a, b, c=condition: c.check(a, b, r, count))
+
+
+def _structural(result: Decisions, open_pairs: NDArray[np.bool_]) -> None:
+    for condition in STRUCTURAL:
+        if condition.number in result.query.conditions:
+            _each(result, open_pairs, STRUCTURE, condition.check)
+
+
+def _each(result: Decisions, open_pairs: NDArray[np.bool_], representation: str, check: Callable[..., object]) -> None:
+    for i, j in zip(*np.nonzero(open_pairs), strict=True):
+        step = Step(representation, check(result.subjects[i], result.subjects[j]))  # type: ignore[arg-type]
+        if step.relation is not Relation.UNDECIDED:
+            result.steps[int(i), int(j)] = step
+            _settle(result, open_pairs, (i, j), step.finding.number, representation)
+
+
+def _settle(result: Decisions, open_pairs: NDArray[np.bool_], pairs: Where, number: int, where: str) -> None:
+    result.decided_by[pairs] = number
+    result.representation[pairs] = REPRESENTATIONS.index(where)
+    open_pairs[pairs] = False
+
+
+def _count(r: Representation, query: Query, subjects: Sequence[Subject]) -> int:
+    """Markov parameters after G_0: as asked, or twice the number of states."""
+    if r is Representation.TF or not subjects:
+        return 0
+    return query.count(subjects[0], subjects[0])

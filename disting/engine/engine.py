@@ -1,0 +1,149 @@
+"""Settings and cache around the pure functions: chain -> profile, pair -> verdict, list -> decisions.
+
+Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which code. So nothing is ever
+invalidated; what changes has another key. Every finished profile is stored at once, so a run that is killed resumes there.
+"""
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from disting.conditions.subject import Subject
+from disting.engine.decisions import Decisions, decisions
+from disting.engine.store import Store
+from disting.invariants.codec import profile_from_json, profile_to_json
+from disting.invariants.profile import Profile, profile
+from disting.invariants.sample import Representation
+from disting.model.chain import Chain
+from disting.model.structure import Structure
+from disting.settings import Settings
+from disting.verdict import Query, Verdict, audit, decide
+
+Progress = Callable[[str, int, int], None]
+"""Told what is done, how much of it is finished, and how much there is."""
+BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
+CODE = ("settings.py", "verdict.py", "algebra", "model", "invariants", "conditions")
+
+
+def silent(what: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+@dataclass
+class Engine:
+    """Compares models with a store behind it; what is computed once in a process is kept in `memo`."""
+
+    settings: Settings = field(default_factory=Settings)
+    store: Store = field(default_factory=lambda: Store.open(""))
+    memo: dict[str, Profile] = field(default_factory=dict)
+
+    def subject(self, name: str, chain: Chain) -> Subject:
+        """A side of a comparison whose profiles come from this engine."""
+        return Subject(name, chain, self.settings, self.profile)
+
+    def profile(self, structure: Structure, representation: Representation, count: int, settings: Settings) -> Profile:
+        """The profile, from memory, from the store, or computed and stored."""
+        key = profile_key(structure, representation, count, settings)
+        if key not in self.memo:
+            found = self._stored([key])
+            if key not in found:
+                found[key] = profile(structure, representation, count, settings)
+                self.store.put_many({key: profile_to_json(found[key])})
+            self.memo[key] = found[key]
+        return self.memo[key]
+
+    def verdict(self, left: Subject, right: Subject, query: Query, *, audited: bool = False) -> Verdict:
+        """The verdict on a pair, from the store or decided and stored; an audited one is always computed."""
+        if audited:
+            return audit(left, right, query)
+        content = [left.name, right.name, repr(left.chain), repr(right.chain), repr(query), self.settings.to_dict()]
+        key = _key("verdict", *map(str, content))
+        for text in self.store.get_many([key]).values():
+            return Verdict.from_dict(json.loads(text))
+        decided = decide(left, right, query)
+        self.store.put_many({key: json.dumps(decided.to_dict())})
+        return decided
+
+    def decisions(
+        self,
+        subjects: Sequence[Subject],
+        query: Query,
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> Decisions:
+        """All pairs of models of one size; the executor's workers compute the profiles."""
+
+        def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
+            self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)
+
+        return decisions(subjects, query, prefetch)
+
+    def profiles_of(
+        self, chains: Iterable[Chain], *, executor: Executor | None = None, progress: Progress = silent
+    ) -> list[Profile]:
+        """Transfer-function profiles of chains, in order."""
+        subjects = [self.subject("", chain) for chain in chains]
+        self.prefetch({s.canonical.chain.structure for s in subjects}, Representation.TF, 0, executor, progress)
+        return [s.profile(Representation.TF, 0) for s in subjects]
+
+    def prefetch(
+        self, structures: set[Structure], r: Representation, count: int, executor: Executor | None, progress: Progress
+    ) -> None:
+        """Bring the profiles of the structures into memory: from the store, the rest computed, each batch stored at once."""
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(structures, key=repr)}
+        self.memo |= self._stored([key for key in keys if key not in self.memo])
+        missing = [key for key in keys if key not in self.memo]
+        done = len(keys) - len(missing)
+        for batch in _computed([keys[k] for k in missing], r, count, self.settings, executor):
+            texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
+            self.store.put_many(texts)
+            self.memo |= {key: profile_from_json(text) for key, text in texts.items()}
+            done += len(batch)
+            progress(f"{r.value} profiles", done, len(keys))
+
+    def _stored(self, keys: list[str]) -> dict[str, Profile]:
+        return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
+
+
+def profile_key(structure: Structure, r: Representation, count: int, settings: Settings) -> str:
+    """Content address of a profile."""
+    return _key("profile", repr(structure), r.value, str(count), repr(settings))
+
+
+@cache
+def code_version() -> str:
+    """Digest of the source text that profiles and verdicts depend on."""
+    root = Path(__file__).parents[1]
+    files = [p for name in CODE for p in sorted([root / name] if name.endswith(".py") else (root / name).glob("*.py"))]
+    return hashlib.sha256(b"\0".join(p.read_bytes() for p in files)).hexdigest()
+
+
+def compute(structures: Sequence[Structure], r: Representation, count: int, settings: Settings) -> list[tuple[Structure, str]]:
+    """A task for a worker: profiles as JSON text."""
+    return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
+
+
+def _computed(
+    structures: list[Structure], r: Representation, count: int, settings: Settings, executor: Executor | None
+) -> Iterator[list[tuple[Structure, str]]]:
+    batches = [structures[i : i + BATCH] for i in range(0, len(structures), BATCH)]
+    if executor is None:
+        yield from (compute(batch, r, count, settings) for batch in batches)
+        return
+    futures: list[Future[list[tuple[Structure, str]]]] = [
+        executor.submit(compute, batch, r, count, settings) for batch in batches
+    ]
+    try:
+        yield from (future.result() for future in as_completed(futures))
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _key(*content: str) -> str:
+    return hashlib.sha256("\0".join((code_version(), *content)).encode()).hexdigest()
