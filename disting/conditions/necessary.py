@@ -62,7 +62,7 @@ def condition_3(left: Profile, right: Profile) -> Finding:
 
 
 def condition_4(left: Profile, right: Profile) -> Finding:
-    """Cond. 4: "The rank N_R of the Jacobian matrix J = dPhi/dp of the moment invariants is the same for both models.""""
+    """Cond. 4: "The rank N_R of the Jacobian matrix J = dPhi/dp of the moment invariants is the same for both models." """
     if left.rank == right.rank:
         return Finding(4, Outcome.HOLDS, *graded(left.rank_proven and right.rank_proven, _safety(left, right)))
     evidence = Ranks(left.labels, left.rank, right.rank, all_rows=True)
