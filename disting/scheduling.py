@@ -27,7 +27,7 @@ def _cluster(address: str) -> Iterator[Executor]:
     except ImportError:
         raise InputError("--scheduler needs dask.distributed: pip install 'disting[dask]'") from None
     try:
-        client = Client(address, timeout="10s")
+        client = Client(address, timeout="5s")
     except (OSError, ValueError) as reason:
         raise InputError(f"no dask scheduler answers at {address} ({reason})") from None
     with client, client.get_executor() as pool:

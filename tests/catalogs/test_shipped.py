@@ -1,0 +1,95 @@
+"""The shipped catalogues: current to the byte, every evidence true, damage recognised."""
+
+import json
+import shutil
+
+import pytest
+
+from disting import CatalogError, Engine, Relation, View, catalog
+from disting.catalogs.build import build, provenance_of, write
+from disting.catalogs.files import PROVENANCE, lines, name_of, shipped_folder
+from disting.catalogs.verify import false_evidence, verify
+from disting.errors import InputError
+
+SMALL = [(n, damped) for n in (1, 2, 3, 4) for damped in (False, True)]
+LARGE = [(5, False), (5, True)]
+
+
+def stored_text(n, damped):
+    return (shipped_folder() / f"{name_of(n, damped)}.jsonl").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("n", "damped"), SMALL + LARGE)
+def test_rebuilding_gives_the_same_bytes(n, damped):
+    assert lines(list(build(n, damped=damped, engine=Engine()).records)) == stored_text(n, damped)
+
+
+@pytest.mark.parametrize(("n", "damped"), SMALL + LARGE)
+def test_every_shipped_evidence_holds(n, damped):
+    assert list(false_evidence(catalog(n, damped=damped))) == []
+
+
+def test_provenance_names_the_digest_of_every_file():
+    stored = json.loads((shipped_folder() / PROVENANCE).read_text())
+    assert stored["files"] == provenance_of(shipped_folder())["files"]
+    assert len(stored["files"]) == 10
+
+
+def test_verify_finds_one_altered_evidence(tmp_path):
+    shutil.copytree(shipped_folder(), tmp_path, dirs_exist_ok=True)
+    path = tmp_path / "chains-3-damped.jsonl"
+    path.write_text(path.read_text().replace('"left":6,"right":7', '"left":7,"right":6', 1))
+    wrong = verify(3, damped=True, folder=tmp_path, engine=Engine())
+    assert any("not what is computed now" in sentence for sentence in wrong)
+    assert any("evidence of condition" in sentence for sentence in wrong)
+
+
+@pytest.mark.parametrize("text", ["", "{}\n", "no json\n", '{"schema": 99, "models": 0}\n', '{"schema": 1, "models": 11}\n'])
+def test_damaged_files_are_refused_with_the_remedy(tmp_path, text):
+    (tmp_path / "chains-3-undamped.jsonl").write_text(text)
+    with pytest.raises(CatalogError, match="disting catalog build"):
+        catalog(3, folder=tmp_path)
+
+
+def test_missing_catalogues_are_named():
+    with pytest.raises(CatalogError, match="1 to 5 masses"):
+        catalog(6)
+
+
+def test_look_up_in_any_order_and_bad_pairs():
+    c = catalog(4)
+    assert c.verdict(13, 11) == c.verdict(11, 13)
+    assert c.verdict(11, 13).decided_by == "7"
+    assert (c.verdict(28, 29).left, c.verdict(28, 29).right) == ("A28", "A29")
+    for pair in ((1, 1), (0, 1), (1, 30), (-1, 2)):
+        with pytest.raises(InputError, match="1 to 29"):
+            c.verdict(*pair)
+
+
+def test_tables_agree_with_the_verdicts():
+    c = catalog(3, damped=True)
+    matrix = c.matrix()
+    assert matrix.shape == (11, 11)
+    assert matrix.loc[2, 5] == matrix.loc[5, 2] == "indistinguishable"
+    assert all(matrix.loc[i, i] == "" for i in range(1, 12))
+    models = c.models()
+    assert models.loc[7, "rank"] == 6
+    assert list(models.index[models["collocated"]]) == [1, 4, 6, 8, 11]
+    assert c.classes() == ((2, 5), (9, 10))
+    assert [r.group for r in c.rows] == [0, 1, 0, 0, 1, 0, 0, 0, 2, 2, 0]
+
+
+def test_csv_and_json_hold_every_pair():
+    c = catalog(3)
+    rows = c.to_csv().splitlines()
+    assert rows[0] == "left,right,relation,decided_by,representation,certainty,error_bound,domain"
+    assert len(rows) == 1 + 55
+    data = json.loads(c.to_json(View.TF))
+    assert len(data["verdicts"]) == 55
+    assert {v["relation"] for v in data["verdicts"]} == {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE}
+
+
+def test_writing_leaves_no_partial_files(tmp_path):
+    paths = write([build(2, damped=False, engine=Engine())], tmp_path)
+    assert [p.name for p in paths] == ["chains-2-undamped.jsonl", "provenance.json"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == sorted(p.name for p in paths)

@@ -1,0 +1,47 @@
+"""The public names, literally: adding or removing one is a decision that shows here."""
+
+import subprocess
+import sys
+
+import disting
+
+NAMES = [
+    *(
+        "CONDITIONS",
+        "CacheWarning",
+        "Catalog",
+        "CatalogError",
+        "Certainty",
+        "Chain",
+        "ConstraintViolation",
+        "ContradictionError",
+    ),
+    *("Decisions", "DistingError", "Domain", "Engine", "Family", "Finding", "InputError", "ModelRow", "Outcome", "Query"),
+    *("Relation", "Sensor", "Settings", "Store", "Symmetry", "Verdict", "View", "catalog", "compare"),
+]
+HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich"}
+
+
+def test_public_names():
+    modules = {
+        "algebra",
+        "catalogs",
+        "comparison",
+        "conditions",
+        "engine",
+        "errors",
+        "invariants",
+        "model",
+        "settings",
+        "verdict",
+    }
+    seen = {name for name in vars(disting) if not name.startswith("_")} - modules
+    optional = {"cli", "report", "scheduling"}  # imported by other tests of this process
+    assert sorted(seen - optional) == sorted(NAMES)
+
+
+def test_importing_the_package_leaves_heavy_libraries_alone():
+    code = "import sys, disting; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert "disting" in loaded
+    assert not HEAVY & set(loaded)
