@@ -65,8 +65,7 @@ def _eliminated(block: Words, modulus: int) -> Words:
     lead, below = block[:, :1, :1], block[:, 1:, :1]
     q = np.uint64(modulus)
     product = lead * block[:, 1:, 1:] + (q * q - below * block[:, :1, 1:])
-    remainder: Words = np.remainder(product, q)
-    return remainder
+    return np.remainder(product, q)
 
 
 def _pivot_first(block: Words) -> Words:
@@ -81,7 +80,8 @@ def _pivot_first(block: Words) -> Words:
 
 def _unexplained(closed: Words, flat: int, rank: int) -> Words:
     """The sets that have at most `rank` columns in the flat, so that their dependence is another one."""
-    return closed[np.bitwise_count(closed & np.uint64(flat)) <= rank]
+    few: NDArray[np.bool_] = np.bitwise_count(closed & np.uint64(flat)) <= rank
+    return closed[few]
 
 
 def _closure(matrix: Words, mask: int, modulus: int) -> int:

@@ -6,10 +6,12 @@ only pairs that share all buckets are looked at one by one. Evidence is made whe
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.conditions.finding import Grade
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.invariants.profile import Profile, Unsearched
@@ -57,22 +59,22 @@ class Decisions:
 
     def grades(self) -> Iterator[tuple[int, int, int, str, str, int]]:
         """Yield (i, j, number, representation, certainty, safety) of all pairs, without evidence."""
-        profiles: dict[int, list[Profile]] = {}
-        for i in range(len(self.subjects)):
-            for j in range(i + 1, len(self.subjects)):
-                number, where = int(self.decided_by[i, j]), int(self.representation[i, j])
-                if (i, j) in self.steps:
-                    f = self.steps[i, j].finding
-                    grade = (f.certainty.value, f.safety)
-                elif number:
-                    if where not in profiles:
-                        r = Representation(REPRESENTATIONS[where])
-                        profiles[where] = [s.profile(r, _count(r, self.query, self.subjects)) for s in self.subjects]
-                    certainty, safety = NECESSARY[number - 1].grade(profiles[where][i], profiles[where][j])
-                    grade = (certainty.value, safety)
-                else:
-                    grade = ("", 0)
-                yield i, j, number, REPRESENTATIONS[where], *grade
+        profiles: dict[tuple[int, int], Profile] = {}
+
+        def profile(where: int, i: int) -> Profile:
+            if (where, i) not in profiles:
+                r = Representation(REPRESENTATIONS[where])
+                profiles[where, i] = self.subjects[i].profile(r, _count(r, self.query, self.subjects))
+            return profiles[where, i]
+
+        for i, j in combinations(range(len(self.subjects)), 2):
+            number, where = int(self.decided_by[i, j]), int(self.representation[i, j])
+            grade: Grade | tuple[str, int] = ("", 0)
+            if (i, j) in self.steps:
+                grade = (self.steps[i, j].finding.certainty, self.steps[i, j].finding.safety)
+            elif number:
+                grade = NECESSARY[number - 1].grade(profile(where, i), profile(where, j))
+            yield i, j, number, REPRESENTATIONS[where], str(grade[0]), grade[1]
 
     def counts(self) -> dict[str, int]:
         """Number of pairs by deciding condition, "" for the undecided ones."""

@@ -29,7 +29,7 @@ def test_models_lists_the_family():
     lines = done.stdout.splitlines()
     assert len([line for line in lines if line.split()[0].isdigit() and "[" in line]) == 11
     assert "#=[1fs]   [2F]=[3S]" in done.stdout
-    assert "m1 m2 m3 k12 k23 d12 d23" in done.stdout
+    assert "parameters, gap 1: m1 m2 m3 k01 k23 d01 d23" in done.stdout
 
 
 def test_compare_explains_one_pair():

@@ -116,7 +116,7 @@ def main() -> None:
     named = {task.__name__: task for task in tasks}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        named[sys.argv[1]](*sys.argv[2:])  # type: ignore[operator]
+        named[sys.argv[1]](*sys.argv[2:])
     say(f"warnings {sum(issubclass(item.category, CacheWarning) for item in caught)}")
 
 

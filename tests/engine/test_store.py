@@ -30,31 +30,37 @@ ROOT = Path(__file__).parents[2]
 TEN = items(range(10))
 
 
-def start(*arguments: object) -> subprocess.Popen[str]:
+def start(*arguments: object) -> subprocess.Popen[bytes]:
     """A worker process; see store_worker.py for the tasks."""
     return subprocess.Popen(
         [sys.executable, str(WORKER), *map(str, arguments)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        text=True,
+        bufsize=0,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )
 
 
-def finish(process: subprocess.Popen[str], text: str = "") -> list[str]:
+def first_line(process: subprocess.Popen[bytes]) -> str:
+    """Read unbuffered, so that the lines after it are left for finish or stop."""
+    assert process.stdout is not None
+    return process.stdout.readline().decode()
+
+
+def finish(process: subprocess.Popen[bytes]) -> list[str]:
     """The lines a worker printed; it must end well and print no traceback."""
-    output, errors = process.communicate(text, timeout=60)
-    assert (process.returncode, errors) == (0, "")
-    return output.splitlines()
+    output, errors = process.communicate(timeout=60)
+    assert (process.returncode, errors) == (0, b"")
+    return output.decode().splitlines()
 
 
-def stop(process: subprocess.Popen[str]) -> list[str]:
+def stop(process: subprocess.Popen[bytes]) -> list[str]:
     """Kill a worker at once; the lines it had printed."""
     process.send_signal(signal.SIGKILL)
     output, errors = process.communicate(timeout=60)
-    assert (process.returncode, errors) == (-signal.SIGKILL, "")
-    return output.splitlines()
+    assert (process.returncode, errors) == (-signal.SIGKILL, b"")
+    return output.decode().splitlines()
 
 
 @contextlib.contextmanager
@@ -272,7 +278,7 @@ def test_many_processes_share_the_same_keys(journal: str, path: Path) -> None:
 def test_a_write_waits_for_another_process(filled: Path) -> None:
     with Store.open(filled, wait_seconds=20) as store:
         worker = start("hold", filled, 0.5)
-        assert worker.stdout is not None and worker.stdout.readline() == "held\n"
+        assert first_line(worker) == "held\n"
         begin = time.monotonic()
         assert works(store)
         assert time.monotonic() - begin > 0.2
@@ -281,7 +287,7 @@ def test_a_write_waits_for_another_process(filled: Path) -> None:
 
 def test_a_file_locked_for_too_long_is_left_alone(filled: Path) -> None:
     worker = start("hold", filled, 30)
-    assert worker.stdout is not None and worker.stdout.readline() == "held\n"
+    assert first_line(worker) == "held\n"
     with Store.open(filled, wait_seconds=0.1) as store:
         with cache_warnings(1) as messages:
             store.put_many(TEN)
@@ -290,6 +296,12 @@ def test_a_file_locked_for_too_long_is_left_alone(filled: Path) -> None:
     stop(worker)
     with cache_warnings(0), Store.open(filled) as store:
         assert store.info().entries == 300
+
+
+def join(threads: list[threading.Thread]) -> None:
+    for thread in threads:
+        thread.join(30)
+    assert not any(thread.is_alive() for thread in threads)
 
 
 def test_threads_share_a_store(path: Path) -> None:
@@ -304,11 +316,10 @@ def test_threads_share_a_store(path: Path) -> None:
                 wrong.append(some)
 
     with cache_warnings(0), Store.open(path) as store:
-        threads = [threading.Thread(target=work, args=(seed,)) for seed in range(8)]
+        threads = [threading.Thread(target=work, args=(seed,), daemon=True) for seed in range(8)]
         for thread in threads:
             thread.start()
-        for thread in threads:
-            thread.join()
+        join(threads)
     assert wrong == []
 
 
@@ -319,6 +330,7 @@ def in_child(work: Callable[[], bool]) -> int:
         child = os.fork()
     if child == 0:
         status = 9
+        signal.alarm(20)  # a deadlock ends as a failure
         with contextlib.suppress(BaseException):
             status = 0 if work() else 1
         os._exit(status)
@@ -355,6 +367,7 @@ def test_commits_of_a_forked_child_outlive_the_close_of_its_parent(path: Path) -
 @pytest.mark.parametrize("memory", [False, True])
 def test_forks_amid_the_work_of_threads(path: Path, memory: bool) -> None:
     store = Store.open(":memory:" if memory else path)
+    store.put_many({"before": "1"})
     done = threading.Event()
 
     def work() -> None:
@@ -363,14 +376,14 @@ def test_forks_amid_the_work_of_threads(path: Path, memory: bool) -> None:
             store.put_many({key(number % 50): value(number % 50)})
             number += 1
 
-    threads = [threading.Thread(target=work) for _ in range(3)]
+    threads = [threading.Thread(target=work, daemon=True) for _ in range(3)]
     for thread in threads:
         thread.start()
-    children = [in_child(lambda: works(store)) for _ in range(12)]
+    children = [in_child(lambda: works(store) and "before" in store.get_many(["before"])) for _ in range(12)]
     done.set()
-    for thread in threads:
-        thread.join()
+    join(threads)
     assert [os.waitpid(child, 0)[1] for child in children] == [0] * 12
+    assert store.get_many(["before"]) == {"before": "1"}
     assert store.get_many(items(range(50))).items() <= items(range(50)).items()
     assert len(store.get_many(items(range(1000, 1010)))) == (0 if memory else 10)
     store.close()
@@ -391,8 +404,7 @@ def test_nothing_committed_is_lost_when_the_process_is_killed_again_and_again(pa
     chance, committed = random.Random(5), 0
     for _ in range(15):
         worker = start("count", path)
-        assert worker.stdout is not None
-        first = int(worker.stdout.readline().removeprefix("from "))
+        first = int(first_line(worker).removeprefix("from "))
         time.sleep(chance.uniform(0, 0.05))
         lines = stop(worker)
         # One more may have been committed just before it could be printed.
@@ -411,7 +423,7 @@ def test_a_kill_while_the_file_is_made_leaves_nothing_half_made(path: Path) -> N
     chance = random.Random(6)
     for _ in range(10):
         worker = start("create", path)
-        assert worker.stdout is not None and worker.stdout.readline() == "ready\n"
+        assert first_line(worker) == "ready\n"
         time.sleep(chance.uniform(0.01, 0.06))
         stop(worker)
         with cache_warnings(0), Store.open(path) as store:
@@ -476,7 +488,7 @@ def broken_definition(path: Path) -> None:
 
 
 def undecodable_definition(path: Path) -> None:
-    path.write_bytes(path.read_bytes().replace(b"BLOB PRIMARY", b"(\xa6LO( PRIMARY"))
+    path.write_bytes(path.read_bytes().replace(b"PRIMARY KEY", b"PRIMARY \xa6EY"))
 
 
 def a_folder(path: Path) -> None:
@@ -666,11 +678,10 @@ def test_a_row_altered_by_other_means_is_absent_and_removed(change: str, filled:
 def test_processes_that_find_the_same_damage_set_it_aside_once(damage: Callable[[Path], None], filled: Path) -> None:
     damage(filled)
     workers = [start("meet", filled, number) for number in range(4)]
-    assert all(worker.stdout is not None and worker.stdout.readline() == "ready\n" for worker in workers)
+    assert [first_line(worker) for worker in workers] == ["ready\n"] * 4
     for worker in workers:
         assert worker.stdin is not None
-        worker.stdin.write("go\n")
-        worker.stdin.flush()
+        worker.stdin.write(b"go\n")
     lines = [finish(worker) for worker in workers]
     assert [line[0] for line in lines] == ["kept True"] * 4
     assert sorted(line[1] for line in lines) == ["warnings 0"] * 3 + ["warnings 1"]

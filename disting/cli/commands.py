@@ -1,0 +1,180 @@
+"""One function a command: one call into the library, then print. Each returns the exit status."""
+
+import argparse
+import json
+import re
+import sys
+from concurrent.futures import Executor
+from pathlib import Path
+
+from disting.catalogs import Catalog, catalog
+from disting.catalogs.export import decisions_csv, decisions_json
+from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.work import engine_for
+from disting.comparison import compare as compare_chains
+from disting.engine import Decisions, Engine, Progress, Store
+from disting.errors import InputError
+from disting.model.chain import Chain, Sensor
+from disting.model.drawing import LEGEND, text_drawing
+from disting.model.family import Family
+from disting.verdict import Query, Verdict, View
+
+VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.COMBINED}
+
+
+def models(options: argparse.Namespace) -> int:
+    """List the models of one size."""
+    from rich.console import Console
+    from rich.table import Table
+
+    family = Family(options.masses, options.damped)
+    with engine_for(options) as (engine, pool, progress):
+        rows = engine.profiles_of(family, executor=pool, progress=progress)
+    table = Table("model", "gap", "act-", "act+", "meas-", "meas+", "degree", "free", "params", "rank", "drawing", box=None)
+    for number, (chain, profile) in enumerate(zip(family, rows, strict=True), 1):
+        n, m = profile.degrees
+        numbers = (number, *chain.indices[1:], f"{n}/{m}", len(profile.form), profile.n_parameters, profile.rank)
+        table.add_row(*map(str, numbers), text_drawing(chain).replace("[", r"\["))
+    console = Console(highlight=False)
+    console.width = max(console.width, 74 + 8 * family.n_masses)  # drawings are not cut, they may run over
+    console.print(table)
+    for gap in sorted({chain.gap for chain in family}):
+        parameters = next(chain.parameters for chain in family if chain.gap == gap)
+        console.print(f"parameters, gap {gap}: {' '.join(parameters)}", markup=False)
+    console.print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters", markup=False)
+    console.print(LEGEND, markup=False)
+    return 0
+
+
+def compare(options: argparse.Namespace) -> int:
+    """Explain the verdict on one pair."""
+    sensor = Sensor(options.sensor)
+    references = [_reference(text) for text in (options.left, options.right)]
+    chains = [Family(n, options.damped, sensor)[number] for n, number in references]
+    verdict = _shipped(references, options.damped) if sensor is Sensor.ACCELERATION else None
+    if verdict is None:
+        with engine_for(options) as (engine, _, _progress):
+            verdict = compare_chains(*chains, engine=engine)
+    print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False) if options.json else _explained(verdict, chains))
+    return 0
+
+
+def verdicts(options: argparse.Namespace) -> int:
+    """Decide all pairs of one size."""
+    family = Family(options.masses, options.damped, Sensor(options.sensor))
+    query = Query(VIEWS[options.representation], options.conditions, options.markov)
+    with engine_for(options) as (engine, pool, progress):
+        subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
+        decided = engine.decisions(subjects, query, executor=pool, progress=progress)
+    if options.csv:
+        _emit(options.csv, decisions_csv(decided))
+    if options.json:
+        _emit(options.json, decisions_json(decided))
+    if "-" not in (options.csv, options.json):
+        print(_summary(decided))
+    return 0
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write pages, figures and tables."""
+    from disting.report.write import write_report
+
+    choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
+    with engine_for(options) as (engine, pool, progress):
+        catalogs = [_catalog(n, damped, engine, pool, progress) for n in options.masses for damped in choices]
+    paths = write_report(catalogs, options.out)
+    for c in catalogs:
+        print(f"{c.name}: {_counted(c.counts())}, {len(c.classes())} indistinguishable groups")
+    print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
+    return 0
+
+
+def build(options: argparse.Namespace) -> int:
+    """Compute catalogues."""
+    from disting.catalogs.build import build, write
+
+    with engine_for(options) as (engine, pool, progress):
+        for n in options.masses:
+            pair = [build(n, damped=d, engine=engine, executor=pool, progress=progress) for d in (False, True)]
+            for path in write(pair, options.out)[:-1]:
+                print(path)
+    return 0
+
+
+def verify(options: argparse.Namespace) -> int:
+    """Verify catalogues; status 1 if something is wrong."""
+    from disting.catalogs.verify import verify
+
+    wrong: list[str] = []
+    with engine_for(options) as (_, pool, progress):
+        for n in options.masses:
+            for damped in (False, True):
+                fresh = Engine()  # nothing is taken from the cache: a verification computes
+                found = verify(n, damped=damped, folder=options.catalog, engine=fresh, executor=pool, progress=progress)
+                what = f"{n} masses, {'damped' if damped else 'undamped'}"
+                print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")
+                wrong += found
+    return 1 if wrong else 0
+
+
+def cache_info(options: argparse.Namespace) -> int:
+    """Say where the cache is and what it holds."""
+    with Store.open(None) as store:
+        info = store.info()
+    print(f"path     {info.path or 'no cache'}\nentries  {info.entries}")
+    print(f"size     {info.bytes} bytes\nschema   {info.schema_version}")
+    return 0
+
+
+def cache_clear(options: argparse.Namespace) -> int:
+    """Remove all entries."""
+    with Store.open(None) as store:
+        print(f"{store.clear()} entries removed")
+    return 0
+
+
+def _shipped(references: list[tuple[int, int]], damped: bool) -> Verdict | None:
+    """The stored verdict of a shipped pair."""
+    (n, left), (m, right) = references
+    return catalog(n, damped=damped).verdict(left, right) if n == m in SHIPPED_SIZES and left != right else None
+
+
+def _catalog(n: int, damped: bool, engine: Engine, pool: Executor | None, progress: Progress) -> Catalog:
+    from disting.catalogs.build import build
+
+    if n in SHIPPED_SIZES:
+        return catalog(n, damped=damped)
+    return build(n, damped=damped, engine=engine, executor=pool, progress=progress)
+
+
+def _explained(verdict: Verdict, chains: list[Chain]) -> str:
+    drawings = [f"  {name}  {text_drawing(c)}" for name, c in zip((verdict.left, verdict.right), chains, strict=True)]
+    lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
+    if verdict.evidence:
+        certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
+        lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]
+    return "\n".join([*lines, f"domain     {verdict.domain} parameters"])
+
+
+def _summary(decided: Decisions) -> str:
+    total = len(decided.subjects) * (len(decided.subjects) - 1) // 2
+    return f"{len(decided.subjects)} models, {total} pairs: {_counted(decided.counts())}"
+
+
+def _counted(counts: dict[str, int]) -> str:
+    parts = [f"{n} by condition {number}" for number, n in counts.items() if number]
+    return ", ".join([*parts, f"{counts.get('', 0)} undecided"])
+
+
+def _emit(where: str, text: str) -> None:
+    if where == "-":
+        sys.stdout.write(text)
+    else:
+        Path(where).write_text(text, encoding="utf-8")
+
+
+def _reference(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{1,3}):(\d{1,6})", text)
+    if not match:
+        raise InputError(f"a model is written masses:number, for instance 3:4, not {text!r}")
+    return int(match[1]), int(match[2])

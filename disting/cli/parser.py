@@ -1,0 +1,127 @@
+"""The command line's grammar: names, arguments, defaults and help."""
+
+import argparse
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from disting import __version__
+from disting.catalogs.files import shipped_folder
+from disting.cli import commands
+from disting.conditions.table import CONDITIONS
+from disting.model.chain import Sensor
+from disting.verdict import ALL_CONDITIONS
+
+DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
+EPILOG = (
+    "conditions:\n"
+    + "\n".join(f"  {c.number}  {c.title}: {c.text}" for c in CONDITIONS)
+    + "\n\nexit status: 0 fine, 1 a failed verification, 2 bad usage or bad input"
+)
+
+
+def _whole(low: int) -> Callable[[str], int]:
+    def number(text: str) -> int:
+        if not text.isdigit() or int(text) < low:
+            raise argparse.ArgumentTypeError(f"a whole number of at least {low} is needed, not {text!r}")
+        return int(text)
+
+    return number
+
+
+def _conditions(text: str) -> tuple[int, ...]:
+    """Numbers such as 1-5,8 as a sorted tuple."""
+    chosen: set[int] = set()
+    for part in text.split(","):
+        match = re.fullmatch(r"([1-9])(?:-([1-9]))?", part.strip())
+        if not match or int(match[2] or match[1]) < int(match[1]):
+            raise argparse.ArgumentTypeError(f"conditions are written like 1-5,8 with numbers 1 to 9, not {text!r}")
+        chosen |= set(range(int(match[1]), int(match[2] or match[1]) + 1))
+    return tuple(sorted(chosen))
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of all commands; `run` of the parsed options is the command's function."""
+    top = _Parser(prog="disting", description=DESCRIPTION, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
+    top.add_argument("--version", action="version", version=f"disting {__version__}")
+    groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    masses = _whole(1)
+
+    p = _command(groups, "models", commands.models, "the numbered list of all models of one size")
+    p.add_argument("masses", type=masses, metavar="N", help="number of masses")
+    _shared(p, damped=True, work=True)
+
+    p = _command(groups, "compare", commands.compare, "one verdict, explained")
+    p.add_argument("left", metavar="N:I", help="a model: masses:number, as 'disting models' lists it")
+    p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
+    _shared(p, damped=True, sensor=True)
+    p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
+    p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
+
+    p = _command(groups, "verdicts", commands.verdicts, "all pairs of one size")
+    p.add_argument("masses", type=masses, metavar="N", help="number of masses")
+    _shared(p, damped=True, sensor=True, work=True)
+    p.add_argument(
+        "--conditions", type=_conditions, default=ALL_CONDITIONS, metavar="LIST", help="such as 1-5,8 (default: 1-9)"
+    )
+    p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
+    p.add_argument("--markov", type=masses, default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)")
+    p.add_argument("--csv", metavar="FILE", help="write the verdicts as CSV; - is standard output")
+    p.add_argument("--json", metavar="FILE", help="write the verdicts with evidence as JSON; - is standard output")
+
+    p = _command(groups, "report", commands.report, "HTML pages, figures and tables of whole catalogues")
+    p.add_argument("masses", type=masses, nargs="+", metavar="N", help="numbers of masses")
+    choice = p.add_mutually_exclusive_group()
+    for name in ("damped", "undamped", "both"):
+        choice.add_argument(f"--{name}", dest="damping", action="store_const", const=name, help=f"{name} models")
+    p.set_defaults(damping="both")
+    p.add_argument("--out", type=Path, default=Path("reports"), metavar="DIR", help="folder to write to (default: reports)")
+    _shared(p, work=True)
+
+    p = groups.add_parser("catalog", help="build or verify the precomputed catalogues", description="Precomputed catalogues.")
+    actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
+    q = _command(actions, "build", commands.build, "compute catalogues, undamped and damped")
+    q.add_argument("masses", type=masses, nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
+    _shared(q, work=True)
+    q = _command(actions, "verify", commands.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
+    q.add_argument("masses", type=masses, nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument(
+        "--catalog",
+        type=Path,
+        default=shipped_folder(),
+        metavar="DIR",
+        help="folder to verify (default: the shipped one)",
+    )
+    _shared(q, work=True)
+
+    p = groups.add_parser("cache", help="look at or empty the cache", description="The cache of profiles and verdicts.")
+    actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
+    _command(actions, "info", commands.cache_info, "where the cache is and what it holds")
+    _command(actions, "clear", commands.cache_clear, "remove all entries")
+    return top
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are one sentence."""
+
+    def error(self, message: str) -> None:  # type: ignore[override]
+        self.exit(2, f"disting: {message}; see '{self.prog} --help'\n")
+
+
+def _command(groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
+    parser: argparse.ArgumentParser = groups.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _shared(parser: argparse.ArgumentParser, *, damped: bool = False, sensor: bool = False, work: bool = False) -> None:
+    if damped:
+        parser.add_argument("--damped", action="store_true", help="a damper beside every spring")
+    if sensor:
+        names = [s.value for s in Sensor]
+        parser.add_argument("--sensor", choices=names, default="acceleration", help="measured quantity (default: acceleration)")
+    if work:
+        parser.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
+        parser.add_argument("--jobs", type=_whole(1), default=1, metavar="K", help="worker processes (default: 1)")
+        parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="compute on a dask.distributed cluster")
