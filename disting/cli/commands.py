@@ -148,7 +148,9 @@ def _catalog(n: int, damped: bool, engine: Engine, pool: Executor | None, progre
 
 
 def _explained(verdict: Verdict, chains: list[Chain]) -> str:
-    drawings = [f"  {name}  {text_drawing(c)}" for name, c in zip((verdict.left, verdict.right), chains, strict=True)]
+    names = (verdict.left, verdict.right)
+    width = max(map(len, names))
+    drawings = [f"  {name:{width}}  {text_drawing(c)}" for name, c in zip(names, chains, strict=True)]
     lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
