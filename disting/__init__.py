@@ -9,6 +9,7 @@ from disting.catalogs import Catalog as Catalog
 from disting.catalogs import ModelRow as ModelRow
 from disting.catalogs import catalog as catalog
 from disting.comparison import compare as compare
+from disting.comparison import findings as findings
 from disting.conditions import CONDITIONS as CONDITIONS
 from disting.conditions import Certainty as Certainty
 from disting.conditions import Finding as Finding
@@ -22,6 +23,7 @@ from disting.errors import ConstraintViolation as ConstraintViolation
 from disting.errors import ContradictionError as ContradictionError
 from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
+from disting.invariants.expanded import transfer_function as transfer_function
 from disting.model.chain import Chain as Chain
 from disting.model.chain import Sensor as Sensor
 from disting.model.family import Family as Family
@@ -30,6 +32,7 @@ from disting.settings import Settings as Settings
 from disting.verdict import Domain as Domain
 from disting.verdict import Query as Query
 from disting.verdict import Relation as Relation
+from disting.verdict import Step as Step
 from disting.verdict import Verdict as Verdict
 from disting.verdict import View as View
 

@@ -1,10 +1,11 @@
-"""`compare`: the verdict on any two chains, named as the paper names them."""
+"""`compare` and `findings`: any two chains, named as the paper names them."""
 
+from disting.conditions import Subject
 from disting.engine import Engine
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.verdict import Query, Verdict
+from disting.verdict import Query, Step, Verdict, steps
 
 NUMBERED_UP_TO = 8  # masses; larger families are long to list, so their chains are named by their indices
 
@@ -23,14 +24,28 @@ def compare(
     ('indistinguishable', 'distinguishable')
     """
     engine = engine or Engine()
+    subjects = _subjects(left, right, engine)
+    return engine.verdict(*subjects, query or Query(), audited=audit)
+
+
+def findings(left: Chain, right: Chain, *, query: Query | None = None, engine: Engine | None = None) -> tuple[Step, ...]:
+    """What every condition finds in every representation, in order, whether it decides or not.
+
+    >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
+    >>> [(s.representation, s.finding.number, s.finding.outcome.value) for s in steps][:3]
+    [('tf', 1, 'fails'), ('tf', 2, 'fails'), ('tf', 3, 'fails')]
+    """
+    return tuple(steps(*_subjects(left, right, engine or Engine()), query or Query()))
+
+
+def _subjects(left: Chain, right: Chain, engine: Engine) -> tuple[Subject, Subject]:
     names = [
         name_of(left, short=left.n_masses == right.n_masses),
         name_of(right, short=left.n_masses == right.n_masses),
     ]
     if names[0] == names[1] and left != right:
         names = [f"the model with {chain}" for chain in (left, right)]
-    subjects = [engine.subject(name, chain) for name, chain in zip(names, (left, right), strict=True)]
-    return engine.verdict(subjects[0], subjects[1], query or Query(), audited=audit)
+    return engine.subject(names[0], left), engine.subject(names[1], right)
 
 
 def name_of(chain: Chain, *, short: bool) -> str:

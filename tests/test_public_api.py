@@ -17,7 +17,8 @@ NAMES = [
         "ContradictionError",
     ),
     *("Decisions", "DistingError", "Domain", "Engine", "Family", "Finding", "InputError", "ModelRow", "Outcome", "Query"),
-    *("Relation", "Sensor", "Settings", "Store", "Symmetry", "Verdict", "View", "catalog", "compare"),
+    "transfer_function",
+    *("Relation", "Sensor", "Settings", "Step", "Store", "Symmetry", "Verdict", "View", "catalog", "compare", "findings"),
 ]
 HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich"}
 

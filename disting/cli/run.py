@@ -1,5 +1,6 @@
 """Runs one command and turns every expected failure into one sentence and an exit status."""
 
+import os
 import sys
 import warnings
 from collections.abc import Sequence
@@ -10,11 +11,20 @@ from disting.errors import DistingError
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
-    warnings.showwarning = _warned
+    with warnings.catch_warnings():
+        warnings.showwarning = _warned
+        return _run(arguments)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     try:
         options = parser().parse_args(arguments)
         status: int = options.run(options)
+        sys.stdout.flush()
         return status
+    except BrokenPipeError:  # the reader of a pipe has seen enough; Python would complain once more at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except DistingError as reason:
         print(f"disting: {reason}", file=sys.stderr)
         return 2

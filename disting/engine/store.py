@@ -48,7 +48,7 @@ NOWHERE: Final = ""
 MEMORY: Final = ":memory:"
 MISSING: Final = (0, 0)
 IN_MEMORY: Final = (-1, -1)
-PARTS: Final = ("", "-wal", "-shm", "-journal")  # the files that together make up one SQLite database
+SIDES: Final = ("-wal", "-shm", "-journal")  # what SQLite appends to the name for its files beside the main one
 MOST_SET_ASIDE: Final = 99  # bounds the disk space taken by damaged files
 PAUSE_SECONDS: Final = 0.01
 # SQLite's primary result codes. Those in neither list (full disk, no permission) say nothing about the file.
@@ -118,8 +118,10 @@ def _create(connection: sqlite3.Connection) -> None:
 
 def _build(path: str) -> None:
     draft = path + ".new"
-    for part in PARTS:  # left by a process that was killed here
-        Path(draft + part).unlink(missing_ok=True)
+    # Left by a process that was killed in here, or by a removal of the main file alone. SQLite would replay
+    # a log that lies beside the new database, whatever database it came from.
+    for name in (draft, *(file + side for file in (draft, path) for side in SIDES)):
+        Path(name).unlink(missing_ok=True)
     with contextlib.closing(sqlite3.connect(draft, isolation_level=None)) as connection:
         _create(connection)
     os.rename(draft, path)
@@ -127,24 +129,22 @@ def _build(path: str) -> None:
 
 def _set_aside(path: str) -> str:
     names = [f"{path}.damaged-{number}" for number in range(1, MOST_SET_ASIDE + 1)]
-    free = [name for name in names if not any(os.path.lexists(name + part) for part in PARTS)]
+    free = [name for name in names if not any(os.path.lexists(name + side) for side in ("", *SIDES))]
     if not free:
         raise OSError(f"{MOST_SET_ASIDE} damaged files are kept beside it, remove some")
-    # The main file first, so that nobody opens it without its log. A log left behind by a kill in between
-    # is moved before the next database is built: SQLite would replay it into that one.
-    for part in PARTS:
+    for side in ("", *SIDES):  # the main file first, so that nobody opens it without its log
         with contextlib.suppress(FileNotFoundError):
-            os.rename(path + part, free[0] + part)
+            os.rename(path + side, free[0] + side)
     return free[0]
 
 
 def _replace(path: str, suspect: Identity, wait: float) -> str:
-    """Put an empty database in place of `suspect`; "" if another process has done so already."""
+    """Put an empty database in place of `suspect`; "" if there was nothing to set aside."""
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with FileLock(path + ".lock", timeout=wait, poll_interval=PAUSE_SECONDS):
         if _identity(path) != suspect:
             return ""
-        name = _set_aside(path)
+        name = "" if suspect == MISSING else _set_aside(path)
         _build(path)
     return name
 
@@ -287,12 +287,11 @@ class Store(contextlib.AbstractContextManager["Store", None]):
 
     def _connected(self) -> sqlite3.Connection:
         """A connection to the file that the path holds now."""
-        current = _identity(self._path)
+        while (current := _identity(self._path)) == MISSING:
+            _replace(self._path, MISSING, self._wait)
         if self._connection is None or current != self._seen:
             self._disconnect()
-            if current == MISSING:
-                _replace(self._path, MISSING, self._wait)
-            self._seen = _identity(self._path)
+            self._seen = current
             self._connection = _open(self._path, self._wait)
             # If the path changed hands in between, SQLite may have paired the old file with the new log.
             if _identity(self._path) != self._seen:

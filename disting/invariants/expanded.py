@@ -6,6 +6,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.invariants.transfer import receptance
+from disting.model.chain import Chain
 from disting.model.structure import Structure
 
 
@@ -38,8 +39,23 @@ def expanded(structure: Structure) -> Expanded:
     return Expanded(num // s**power, den // s**power)
 
 
+def transfer_function(chain: Chain) -> Expanded:
+    """Transfer function of a chain in its parameters, to be read; a dead time is a factor exp(-Td s) beside it.
+
+    >>> from disting.model.family import Family
+    >>> transfer_function(Family(2)[1]).table()
+    {'b0': 'k12', 'b1': '0', 'b2': 'm2', 'a0': 'm1*k12 + m2*k12', 'a1': '0', 'a2': 'm1*m2'}
+    """
+    return expanded(chain.structure)
+
+
 def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> bool:
-    """Whether renaming the left parameters turns the left transfer function into the right one: an exact identity."""
+    """Whether renaming the left parameters turns the left transfer function into the right one: an exact identity.
+
+    A dead time is a factor of its own, so it can only become the other's dead time.
+    """
+    if left.dead_time != right.dead_time or (left.dead_time and renaming["Td"] != "Td"):
+        return False
     a, b = expanded(left), expanded(right)
     ring = dict(zip((str(g) for g in b.den.context().gens()), b.den.context().gens(), strict=True))
     num, den = (renamed(p, ring, renaming) for p in (a.num, a.den))

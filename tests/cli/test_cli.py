@@ -207,3 +207,10 @@ def test_interrupt_leaves_no_traceback(tmp_path):
     _, error = process.communicate(timeout=60)
     assert process.returncode == 130
     assert error.strip() == "disting: interrupted; what was finished is kept in the cache"
+
+
+def test_a_closed_pipe_is_no_error():
+    command = f"{sys.executable} -m disting verdicts 4 --csv - --no-cache | head -1"
+    done = subprocess.run(["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("left,right")
