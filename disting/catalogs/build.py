@@ -4,9 +4,10 @@ import json
 import platform
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import version
 from pathlib import Path
 
+import disting
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest, lines, name_of
 from disting.conditions.evidence import to_dict
@@ -61,8 +62,8 @@ def provenance_of(folder: Path) -> Record:
     return {
         "schema": SCHEMA,
         "command": "disting catalog build 1 2 3 4 5",
-        "software": {name: _version(name) for name in ("disting", "python-flint", "numpy")}
-        | {"python": platform.python_version()},
+        "software": {"disting": disting.__version__, "python": platform.python_version()}
+        | {name: version(name) for name in ("numpy", "python-flint")},
         "files": {p.name: digest(p) for p in sorted(folder.glob("*.jsonl"))},
     }
 
@@ -106,10 +107,3 @@ def _step(decided: Decisions, i: int, j: int) -> Record:
         "safety": verdict.safety,
         "evidence": to_dict(verdict.evidence),
     }
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "not installed"

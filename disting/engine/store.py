@@ -48,7 +48,7 @@ NOWHERE: Final = ""
 MEMORY: Final = ":memory:"
 MISSING: Final = (0, 0)
 IN_MEMORY: Final = (-1, -1)
-SIDES: Final = ("-wal", "-shm", "-journal")  # what SQLite appends to the name for its files beside the main one
+SIDES: Final = ("-wal", "-shm", "-journal")  # what SQLite appends to the name for its other files
 MOST_SET_ASIDE: Final = 99  # bounds the disk space taken by damaged files
 PAUSE_SECONDS: Final = 0.01
 # SQLite's primary result codes. Those in neither list (full disk, no permission) say nothing about the file.

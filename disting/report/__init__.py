@@ -1,0 +1,10 @@
+"""Catalogues as pages and figures. This layer renders what is known and never computes it."""
+
+from disting.report.drawing import chain_png as chain_png
+from disting.report.drawing import chain_svg as chain_svg
+from disting.report.drawing import describe as describe
+from disting.report.index import index as index
+from disting.report.matrix import matrix_png as matrix_png
+from disting.report.matrix import matrix_svg as matrix_svg
+from disting.report.page import page as page
+from disting.report.write import write_report as write_report

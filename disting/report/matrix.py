@@ -1,0 +1,154 @@
+"""The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, and as a thumbnail.
+
+Row and column of a field are the two models; the number is the condition that decided. Relations differ in colour and in
+shape: distinguishable is a plain field, indistinguishable has a dark corner, undecided is crossed out and has no number.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import groupby
+
+from disting.catalogs import Catalog
+from disting.report.png import png
+from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text
+from disting.report.svg import svg
+from disting.report.words import VIEW_TITLES, headline, title
+from disting.verdict import Relation, View
+
+TOP = 88.0  # room for the figure's and the panels' titles, at letter size 1
+MARGIN = 16.0
+WIDEST_PNG = 5200  # pixels
+
+FILLS = {Relation.DISTINGUISHABLE: Ink.DISTINGUISHABLE, Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE}
+LETTERS = {Relation.DISTINGUISHABLE: Ink.ON_DISTINGUISHABLE, Relation.INDISTINGUISHABLE: Ink.ON_INDISTINGUISHABLE}
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """One panel: whose verdicts, and where the square of its fields begins."""
+
+    catalog: Catalog
+    view: View
+    x: float
+    y: float
+    cell: float
+
+    @property
+    def pairs(self) -> Iterator[tuple[int, int]]:
+        """(column, row) of every field, row after row."""
+        return ((low, high) for high in range(2, len(self.catalog.family) + 1) for low in range(1, high))
+
+    def at(self, low: int, high: int) -> tuple[float, float]:
+        """Upper left corner of a field."""
+        return self.x + (low - 1) * self.cell, self.y + (high - 1) * self.cell
+
+
+def matrix_svg(catalog: Catalog) -> str:
+    """The three triangles as a stand-alone SVG."""
+    return svg(figure(catalog))
+
+
+def matrix_png(catalog: Catalog) -> bytes:
+    """The three triangles as a PNG of at most 5200 pixels width."""
+    scene = figure(catalog)
+    return png(scene, scale=min(2.0, WIDEST_PNG / scene.width), oversample=2)
+
+
+def figure(catalog: Catalog) -> Scene:
+    """Transfer function, Markov parameters and both combined, side by side, with a legend."""
+    size = len(catalog.family)
+    cell, k = _cell(size), 1.6 if size > 30 else 1.0
+    top, left = TOP * k, MARGIN + 2.2 * cell
+    panel = max(size * cell, 150.0) + 3 * cell
+    panels = (_panel(Grid(catalog, view, left + i * panel, top, cell), k) for i, view in enumerate(VIEW_TITLES))
+    foot = top + size * cell + 26 * k
+    width = max(3 * panel + left - cell, 620.0)
+    layers = (_head(catalog, k), *(layer for layers in panels for layer in layers), *_legend(MARGIN, foot, k))
+    return Scene(width, foot + 26 * k, layers, f"{title(catalog)}: {headline(catalog)}")
+
+
+def thumbnail(catalog: Catalog, side: float = 168) -> Scene:
+    """The combined triangle without numbers, `side` pixels wide: a blue staircase with the other fields on it."""
+    size = len(catalog.family)
+    cell = side / max(size - 1, 1)
+    steps = [(x * cell, y * cell) for i in range(size - 1) for x, y in ((i, i), (i + 1, i))]
+    stairs = Path((*steps, (side, side), (0, side)), Ink.NONE, Ink.DISTINGUISHABLE)
+    runs = (run for high in range(2, size + 1) for run in _runs(catalog, high, cell))
+    layers = (Layer("distinguishable", (stairs,)), Layer("others", tuple(sorted(runs, key=lambda run: run.fill))))
+    return Scene(side, side, layers, f"{title(catalog)}: {headline(catalog)}")
+
+
+def _cell(size: int) -> float:
+    """Side of a field: the smaller, the more there are."""
+    return 24.0 if size <= 11 else 17.0 if size <= 30 else 12.0
+
+
+def _head(catalog: Catalog, k: float) -> Layer:
+    name = Text(MARGIN, 20 * k, title(catalog), 16 * k, anchor=Anchor.START, bold=True)
+    return Layer("head", (name, Text(MARGIN, 41 * k, headline(catalog), 12 * k, Ink.MUTED, Anchor.START)))
+
+
+def _panel(grid: Grid, k: float) -> Iterator[Layer]:
+    view, pairs = grid.view, list(grid.pairs)
+    relations = {pair: grid.catalog.relation(*pair, view) for pair in pairs}
+    grouped = sorted(pairs, key=lambda pair: list(Relation).index(relations[pair]))  # equal style in a row: a smaller file
+    same = [pair for pair in grouped if relations[pair] is Relation.INDISTINGUISHABLE]
+    numbers = sorted((_number(grid, pair) for pair in pairs), key=lambda text: text.fill)
+    yield Layer(f"{view}-title", (Text(grid.x, grid.y - 14 * k, VIEW_TITLES[view], 13 * k, anchor=Anchor.START, bold=True),))
+    yield Layer(f"{view}-labels", tuple(_labels(grid)))
+    yield Layer(f"{view}-fields", tuple(s for pair in grouped for s in _field(*grid.at(*pair), relations[pair], grid.cell)))
+    yield Layer(f"{view}-corners", tuple(_corner(*grid.at(*pair), grid.cell) for pair in same))
+    yield Layer(f"{view}-numbers", tuple(text for text in numbers if text.text))
+
+
+def _labels(grid: Grid) -> Iterator[Text]:
+    """Each model's name at the left of its row and on the diagonal, on top of its column."""
+    letters = min(11.0, 0.62 * grid.cell)
+    for model in range(1, len(grid.catalog.family) + 1):
+        x, y = grid.at(model, model)
+        middle = y + grid.cell / 2
+        if model > 1:
+            yield Text(grid.x - 5, middle, f"A{model}", letters, Ink.MUTED, Anchor.END)
+        yield Text(x + 3, middle, f"A{model}", letters, Ink.MUTED, Anchor.START)
+
+
+def _field(x: float, y: float, relation: Relation, cell: float) -> tuple[Shape, ...]:
+    side = cell - 1
+    if relation is not Relation.UNDECIDED:
+        return (Rect(x, y, side, side, FILLS[relation]),)
+    inset = 0.3 * cell
+    cross = Path(((x + inset, y + side - inset), (x + side - inset, y + inset)), Ink.UNDECIDED, line=1)
+    return Rect(x + 0.5, y + 0.5, side - 1, side - 1, Ink.NONE, Ink.UNDECIDED, line=1), cross
+
+
+def _corner(x: float, y: float, cell: float) -> Path:
+    """The dark corner, upper right."""
+    right, leg = x + cell - 1, 0.28 * cell
+    return Path(((right - leg, y), (right, y), (right, y + leg)), Ink.NONE, Ink.ON_INDISTINGUISHABLE)
+
+
+def _number(grid: Grid, pair: tuple[int, int]) -> Text:
+    verdict = grid.catalog.verdict(*pair, grid.view)
+    x, y = grid.at(*pair)
+    half = (grid.cell - 1) / 2
+    return Text(x + half, y + half, verdict.decided_by, 0.62 * grid.cell, LETTERS.get(verdict.relation, Ink.LINE))
+
+
+def _legend(x: float, y: float, k: float) -> Iterator[Layer]:
+    """A field of each relation, with its name."""
+    side = 17 * k
+    for relation in Relation:
+        corner = (_corner(x, y - side / 2, side),) if relation is Relation.INDISTINGUISHABLE else ()
+        number = (Text(x + side / 2, y, "n", 10.5 * k, LETTERS[relation]),) if relation in LETTERS else ()
+        said = Text(x + 24 * k, y, f"{relation} by condition n" if number else relation.value, 12 * k, anchor=Anchor.START)
+        yield Layer(f"legend-{relation}", (*_field(x, y - side / 2, relation, side), *corner, *number, said))
+        x += (46 + 6.6 * len(said.text)) * k
+
+
+def _runs(catalog: Catalog, high: int, cell: float) -> Iterator[Rect]:
+    """Neighbours of one relation in a row, as one rectangle; the distinguishable ones are left out."""
+    for relation, run in groupby(range(1, high), key=lambda low: catalog.relation(low, high)):
+        lows = list(run)
+        if relation is not Relation.DISTINGUISHABLE:
+            fill = FILLS.get(relation, Ink.OPEN)
+            yield Rect((lows[0] - 1) * cell, (high - 2) * cell, len(lows) * cell, cell, fill)

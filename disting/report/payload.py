@@ -1,0 +1,75 @@
+"""The data behind the fields: each view's verdicts in a compact form for the page's script, each text once.
+
+Pair (low, high) is entry (high - 1)(high - 2)/2 + low - 1 of a view, that is row after row of the triangle. A sentence
+names the models {L} and {R}, so that pairs decided alike share it.
+"""
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from markupsafe import Markup
+
+from disting.catalogs import Catalog
+from disting.report.words import VIEW_TITLES, probability
+from disting.verdict import Verdict, View
+
+CERTAINTIES = {
+    "proven": "Proven by exact computation.",
+    "theorem": "Holds by a theorem.",
+    "bounded": "Computed at random points; wrong with a probability of at most {bound}.",
+    "": "",
+}
+
+Entry = tuple[str, str, str, str, str, str, str]
+"""relation, decided_by, representation, certainty in words, domain, why, formula"""
+
+
+@dataclass(slots=True)
+class Pool:
+    """Gives equal values one number, in the order of their first appearance."""
+
+    numbers: dict[Entry | str, int] = field(default_factory=dict)
+
+    def number(self, value: Entry | str) -> int:
+        """Number of a value."""
+        return self.numbers.setdefault(value, len(self.numbers))
+
+
+def payload(catalog: Catalog) -> Markup:
+    """JSON text that is safe inside a script element."""
+    texts, entries = Pool(), Pool()
+    views = {view.value: [entries.number(_entry(v)) for v in _triangle(catalog, view)] for view in VIEW_TITLES}
+    rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
+    data = {"models": len(catalog.family), "texts": list(texts.numbers), "entries": rows, "views": views}
+    return script_json(data)
+
+
+def script_json(data: object) -> Markup:
+    """Compact JSON without a character that could end a script element or begin a comment in it.
+
+    >>> str(script_json(["</script>&"]))
+    '["\\\\u003c/script\\\\u003e\\\\u0026"]'
+    """
+    text = json.dumps(data, separators=(",", ":"), ensure_ascii=False)
+    for character in "<>&\u2028\u2029":
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return Markup(text)
+
+
+def _triangle(catalog: Catalog, view: View) -> Iterable[Verdict]:
+    numbers = range(1, len(catalog.family) + 1)
+    return (catalog.verdict(low, high, view) for high in numbers for low in range(1, high))
+
+
+def _entry(verdict: Verdict) -> Entry:
+    evidence = verdict.evidence
+    why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
+    certainty = CERTAINTIES[verdict.certainty or ""].format(bound=probability(verdict.error_bound))
+    formula = evidence.formula if evidence else ""
+    return verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain, why, formula
+
+
+def _undecided(verdict: Verdict) -> str:
+    notes = f" ({'; '.join(verdict.notes)})" if verdict.notes else ""
+    return f"No condition settles {{L}} and {{R}} here{notes}."

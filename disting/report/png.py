@@ -1,0 +1,71 @@
+"""Scene to PNG with Pillow: drawn larger than asked and reduced, which smooths the edges.
+
+The letters are Pillow's own scalable font, so that no font has to be installed; it knows ASCII only.
+"""
+
+from functools import cache
+from io import BytesIO
+
+from PIL import Image, ImageDraw, ImageFont
+
+from disting.report.scene import FILE_PALETTE, Anchor, Circle, Ink, Palette, Path, Rect, Scene, Shape, Text
+
+ANCHORS = {Anchor.START: "ls", Anchor.MIDDLE: "ms", Anchor.END: "rs"}
+
+
+def png(scene: Scene, palette: Palette = FILE_PALETTE, *, scale: float = 2, oversample: int = 3) -> bytes:
+    """PNG bytes, `scale` pixels a unit, on a ground of the palette's paper colour."""
+    width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
+    canvas = Image.new("RGB", (width * oversample, height * oversample), palette[Ink.PAPER])
+    pen = ImageDraw.Draw(canvas)
+    for shape in scene.shapes:
+        _draw(pen, shape, palette, scale * oversample)
+    out = BytesIO()
+    canvas.reduce(oversample).save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float) -> None:
+    fill = _colour(palette, shape.fill)
+    match shape:
+        case Text(x, _, text):
+            bold = round(0.03 * shape.size * k) if shape.bold else 0
+            font, anchor = _font(shape.size * k), ANCHORS[shape.anchor]
+            pen.text((x * k, shape.baseline * k), text, fill, font, anchor, stroke_width=bold)
+        case Rect(x, y, width, height):
+            half = _half(shape, k)
+            box = (x * k - half, y * k - half, (x + width) * k - 1 + half, (y + height) * k - 1 + half)
+            pen.rounded_rectangle(box, shape.radius * k + half, fill, _colour(palette, shape.stroke), round(2 * half))
+        case Circle(x, y, radius):
+            reach = radius * k + _half(shape, k)
+            box = (x * k - reach, y * k - reach, x * k + reach, y * k + reach)
+            pen.ellipse(box, fill, _colour(palette, shape.stroke), round(2 * _half(shape, k)))
+        case Path(points):
+            _draw_path(pen, shape, [(x * k, y * k) for x, y in points], palette, k)
+
+
+def _draw_path(pen: ImageDraw.ImageDraw, path: Path, points: list[tuple[float, float]], palette: Palette, k: float) -> None:
+    if path.fill != Ink.NONE:
+        pen.polygon(points, _colour(palette, path.fill))
+        points = [*points, points[0]]
+    if path.stroke == Ink.NONE:
+        return
+    colour, half = palette[path.stroke], path.line * k / 2
+    pen.line(points, colour, max(1, round(2 * half)), joint="curve")
+    for x, y in (points[0], points[-1]):  # round ends
+        pen.ellipse((x - half, y - half, x + half, y + half), colour)
+
+
+def _half(shape: Rect | Circle, k: float) -> float:
+    return shape.line * k / 2 if shape.stroke != Ink.NONE else 0
+
+
+def _colour(palette: Palette, ink: Ink) -> str | None:
+    return None if ink == Ink.NONE else palette[ink]
+
+
+@cache
+def _font(size: float) -> ImageFont.FreeTypeFont:
+    font = ImageFont.load_default(size)
+    assert isinstance(font, ImageFont.FreeTypeFont)  # Pillow was built with FreeType, as all its wheels are
+    return font

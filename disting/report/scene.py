@@ -1,0 +1,167 @@
+"""What a figure consists of: a few frozen shapes in layers. `svg` and `png` turn a scene into a file.
+
+Colours are roles (`Ink`), so that the same scene serves a page that knows light and dark, and a stand-alone file.
+Coordinates run to the right and downwards, in pixels at scale 1.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from math import hypot
+
+Point = tuple[float, float]
+
+
+class Ink(StrEnum):
+    """Role of a colour; NONE draws nothing."""
+
+    NONE = "none"
+    LINE = "line"
+    MUTED = "muted"
+    PAPER = "paper"
+    BODY = "body"
+    FORCE = "force"
+    SENSOR = "sensor"
+    DISTINGUISHABLE = "distinguishable"
+    ON_DISTINGUISHABLE = "on-distinguishable"
+    INDISTINGUISHABLE = "indistinguishable"
+    ON_INDISTINGUISHABLE = "on-indistinguishable"
+    UNDECIDED = "undecided"
+    OPEN = "open"
+
+
+Palette = Mapping[Ink, str]
+
+FILE_PALETTE: Palette = {
+    Ink.NONE: "none",
+    Ink.LINE: "#16202b",
+    Ink.MUTED: "#5a6673",
+    Ink.PAPER: "#ffffff",
+    Ink.BODY: "#e9eef3",
+    Ink.FORCE: "#b0300a",
+    Ink.SENSOR: "#006b52",
+    Ink.DISTINGUISHABLE: "#0072b2",
+    Ink.ON_DISTINGUISHABLE: "#ffffff",
+    Ink.INDISTINGUISHABLE: "#f0a818",
+    Ink.ON_INDISTINGUISHABLE: "#16130a",
+    Ink.UNDECIDED: "#818c98",
+    Ink.OPEN: "#cdd5dd",
+}
+"""Explicit colours for stand-alone files."""
+
+PAGE_PALETTE: Palette = {ink: f"var(--{ink})" for ink in Ink} | {Ink.NONE: "none", Ink.LINE: "currentColor"}
+"""Colours that the page's style sheet gives, light or dark."""
+
+
+class Anchor(StrEnum):
+    """Where a text begins, as seen from its point."""
+
+    START = "start"
+    MIDDLE = "middle"
+    END = "end"
+
+
+@dataclass(frozen=True, slots=True)
+class Rect:
+    """Rectangle with its upper left corner at (x, y)."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    fill: Ink = Ink.NONE
+    stroke: Ink = Ink.NONE
+    line: float = 1.5
+    radius: float = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """Line through points, closed if it is filled."""
+
+    points: tuple[Point, ...]
+    stroke: Ink = Ink.LINE
+    fill: Ink = Ink.NONE
+    line: float = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """Circle around (x, y)."""
+
+    x: float
+    y: float
+    radius: float
+    fill: Ink = Ink.NONE
+    stroke: Ink = Ink.NONE
+    line: float = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """One line of text, vertically centred at y."""
+
+    x: float
+    y: float
+    text: str
+    size: float = 12
+    fill: Ink = Ink.LINE
+    anchor: Anchor = Anchor.MIDDLE
+    bold: bool = False
+
+    @property
+    def baseline(self) -> float:
+        """y of the line on which the letters stand."""
+        return self.y + 0.35 * self.size
+
+
+Shape = Rect | Path | Circle | Text
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """Shapes that together show one thing, such as the spring k12."""
+
+    name: str
+    shapes: tuple[Shape, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A figure: its size, its layers from back to front, and what it shows in words."""
+
+    width: float
+    height: float
+    layers: tuple[Layer, ...]
+    title: str = ""
+
+    @property
+    def shapes(self) -> Iterator[Shape]:
+        """All shapes from back to front."""
+        return (shape for layer in self.layers for shape in layer.shapes)
+
+
+def arrow(start: Point, end: Point, ink: Ink, *, line: float = 2, head: float = 8) -> tuple[Path, ...]:
+    """A straight shaft and a filled head whose tip is `end`."""
+    length = hypot(end[0] - start[0], end[1] - start[1])
+    ux, uy = (end[0] - start[0]) / length, (end[1] - start[1]) / length
+    neck = (end[0] - head * ux, end[1] - head * uy)
+    half = 0.45 * head
+    wings = ((neck[0] - half * uy, neck[1] + half * ux), (neck[0] + half * uy, neck[1] - half * ux))
+    return Path((start, neck), ink, line=line), Path((end, *wings), Ink.NONE, ink)
+
+
+def extent(shape: Shape) -> tuple[float, float, float, float]:
+    """Box (left, top, right, bottom) around a shape; a text counts 0.62 em a letter."""
+    match shape:
+        case Rect(x, y, width, height):
+            return x, y, x + width, y + height
+        case Circle(x, y, radius):
+            return x - radius, y - radius, x + radius, y + radius
+        case Path(points):
+            xs, ys = zip(*points, strict=True)
+            return min(xs), min(ys), max(xs), max(ys)
+        case Text(x, y, text, size):
+            width = 0.62 * size * len(text)
+            left = x - {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}[shape.anchor] * width
+            return left, y - size / 2, left + width, y + size / 2

@@ -1,0 +1,86 @@
+"""The wording that pages and figures share."""
+
+import re
+
+from disting.catalogs import Catalog
+from disting.invariants.expanded import transfer_function
+from disting.model.chain import Chain
+from disting.verdict import Relation, View
+
+LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
+VIEW_TITLES = {View.TF: "Transfer function", View.MARKOV: "Markov parameters", View.COMBINED: "Combined"}
+
+
+def title(catalog: Catalog) -> str:
+    """Such as "Chains of 3 masses, damped"."""
+    return f"Chains of {short_title(catalog)}"
+
+
+def short_title(catalog: Catalog) -> str:
+    """Such as "3 masses, damped"."""
+    return f"{plural(catalog.n_masses, 'mass', 'masses')}, {'damped' if catalog.damped else 'undamped'}"
+
+
+def headline(catalog: Catalog) -> str:
+    """Models, pairs and relations in one sentence.
+
+    >>> from disting.catalogs import catalog
+    >>> headline(catalog(3))
+    '11 models, 55 pairs: 43 distinguishable, 12 indistinguishable, 0 undecided'
+    """
+    found = totals(catalog)
+    pairs = plural(sum(found.values()), "pair")
+    return f"{plural(len(catalog.family), 'model')}, {pairs}: " + ", ".join(f"{n} {relation}" for relation, n in found.items())
+
+
+def totals(catalog: Catalog, view: View = View.COMBINED) -> dict[Relation, int]:
+    """Number of pairs by relation."""
+    numbers = range(1, len(catalog.family) + 1)
+    found = [catalog.relation(low, high, view) for high in numbers for low in range(1, high)]
+    return {relation: found.count(relation) for relation in Relation}
+
+
+def coefficients(chain: Chain) -> tuple[str, ...]:
+    """The transfer-function coefficients in the parameters, a line each, or nothing where that is too long to read.
+
+    >>> coefficients(Chain(2))
+    ('b0 = (k12) / a2', 'b2 = (m2) / a2', 'a0 = (m1 k12 + m2 k12) / a2', 'a2 = m1 m2')
+    """
+    if chain.n_masses > LARGEST_SPELLED_OUT:
+        return ()
+    table = {label: _readable(text) for label, text in transfer_function(chain).table().items() if text != "0"}
+    *others, lead = table
+    return (*(f"{label} = ({table[label]}) / {lead}" for label in others), f"{lead} = {table[lead]}")
+
+
+def _readable(expression: str) -> str:
+    """Products without signs, powers as superscripts."""
+    return re.sub(r"\^(\d)", lambda m: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(m[1])], expression).replace("*", " ")
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """Number and noun.
+
+    >>> plural(1, "pair"), plural(0, "pair"), plural(2, "mass", "masses")
+    ('1 pair', '0 pairs', '2 masses')
+    """
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def listed(parts: list[str]) -> str:
+    """Parts with commas and a final "and".
+
+    >>> listed(["a", "b", "c"]), listed(["a"])
+    ('a, b and c', 'a')
+    """
+    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
+def probability(bound: str) -> str:
+    """An error bound with a raised exponent.
+
+    >>> probability("2^-131")
+    '2⁻¹³¹'
+    """
+    base, _, exponent = bound.partition("^")
+    return base + exponent.translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

@@ -1,0 +1,61 @@
+"""The matrix figure: one field for each pair and view, labelled with what decided."""
+
+import io
+from collections import Counter
+from xml.etree import ElementTree
+
+import pytest
+from PIL import Image
+
+from disting.catalogs import Catalog, catalog
+from disting.report import matrix_png, matrix_svg
+from disting.report.matrix import figure, thumbnail
+from disting.report.scene import Ink, Rect, Text, extent
+from disting.report.words import totals
+from disting.verdict import Relation, View
+
+
+@pytest.fixture(params=[(1, False), (2, True), (3, False), (4, True)], ids=str)
+def shipped(request: pytest.FixtureRequest) -> Catalog:
+    return catalog(request.param[0], damped=request.param[1])
+
+
+def test_every_pair_has_a_field_in_every_view(shipped: Catalog) -> None:
+    size = len(shipped.family)
+    for view in View:
+        layer = next(layer for layer in figure(shipped).layers if layer.name == f"{view}-fields")
+        assert sum(isinstance(shape, Rect) for shape in layer.shapes) == size * (size - 1) // 2
+
+
+def test_the_numbers_are_the_counts_of_the_catalogue(shipped: Catalog) -> None:
+    for view in View:
+        layer = next(layer for layer in figure(shipped).layers if layer.name == f"{view}-numbers")
+        shown = Counter(shape.text for shape in layer.shapes if isinstance(shape, Text))
+        assert shown == {name: n for name, n in shipped.counts(view).items() if name and n}
+
+
+def test_nothing_leaves_the_figure(shipped: Catalog) -> None:
+    scene = figure(shipped)
+    for shape in scene.shapes:
+        left, top, right, bottom = extent(shape)
+        assert 0 <= left <= right <= scene.width and 0 <= top <= bottom <= scene.height, shape
+
+
+def test_files_are_readable_and_reproducible(shipped: Catalog) -> None:
+    text, scene = matrix_svg(shipped), figure(shipped)
+    assert ElementTree.fromstring(text).get("width") == f"{scene.width:.2f}".rstrip("0").rstrip(".")
+    image = Image.open(io.BytesIO(matrix_png(shipped)))
+    assert image.size == (round(2 * scene.width), round(2 * scene.height))
+    assert matrix_svg(shipped) == text
+
+
+def test_the_thumbnail_covers_what_is_not_distinguishable() -> None:
+    shipped = catalog(4, damped=True)
+    cell = 168 / 28
+    areas = {Ink.INDISTINGUISHABLE: 0.0, Ink.OPEN: 0.0}
+    for shape in thumbnail(shipped).shapes:
+        if isinstance(shape, Rect):
+            areas[shape.fill] += shape.width * shape.height / cell**2
+    found = totals(shipped)
+    assert areas[Ink.INDISTINGUISHABLE] == pytest.approx(found[Relation.INDISTINGUISHABLE])
+    assert areas[Ink.OPEN] == pytest.approx(found[Relation.UNDECIDED])

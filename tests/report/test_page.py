@@ -1,0 +1,149 @@
+"""The page of a catalogue: complete, closed in itself, safe against hostile text, small and reproducible."""
+
+import json
+import re
+from collections import Counter
+from html.parser import HTMLParser
+
+import pytest
+
+from disting.catalogs import Catalog, catalog
+from disting.report import index, page
+from disting.report.payload import script_json
+from disting.verdict import View
+
+HOSTILE = """</script><script>alert("1")</script><img src=x onerror='alert(2)'>&amp;{{ 7*7 }}"""
+VOID = {"meta", "input", "br", "link", "img"}
+
+
+class Outline(HTMLParser):
+    """Elements with their attributes; fails where an end tag does not match."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.texts: dict[str, list[str]] = {}
+        self.open: list[str] = []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.texts.setdefault(self.open[-1] if self.open else "", []).append(data)
+
+    def count(self, tag: str, **attributes: str) -> int:
+        return sum(t == tag and all(a.get(k) == v for k, v in attributes.items()) for t, a in self.elements)
+
+
+def _data(text: str) -> dict[str, object]:
+    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)
+    assert found
+    return dict(json.loads(found.group(1)))
+
+
+@pytest.fixture(scope="module", params=[(1, False), (2, False), (3, True), (4, False)], ids=str)
+def shipped(request: pytest.FixtureRequest) -> Catalog:
+    return catalog(request.param[0], damped=request.param[1])
+
+
+@pytest.fixture(scope="module")
+def largest() -> str:
+    return page(catalog(5, damped=True))
+
+
+def test_it_holds_every_pair_in_every_view(shipped: Catalog) -> None:
+    size = len(shipped.family)
+    outline = Outline(page(shipped))
+    fields = Counter(a["class"] for t, a in outline.elements if t == "td" and a.get("class") in ("d", "i", "u"))
+    assert sum(fields.values()) == 3 * size * (size - 1) // 2
+    assert fields["u"] == sum(shipped.counts(view)[""] for view in View)
+
+
+def test_ids_are_unique_and_links_lead_somewhere(shipped: Catalog) -> None:
+    outline = Outline(page(shipped))
+    ids = [a["id"] for _, a in outline.elements if "id" in a]
+    assert len(ids) == len(set(ids))
+    inner = [str(a["href"])[1:] for _, a in outline.elements if str(a.get("href", "")).startswith("#")]
+    assert inner and all(target in ids or re.fullmatch(r"\d+:\d+", target) for target in inner)
+
+
+def test_every_model_has_a_row_and_every_drawing_a_text(shipped: Catalog) -> None:
+    outline = Outline(page(shipped))
+    for row in shipped.rows:
+        assert outline.count("tr", id=f"A{row.number}") == 1
+    named = [a for t, a in outline.elements if t == "svg" and a.get("role") == "img" and "data-slot" not in a]
+    assert all(a.get("aria-label") for a in named)
+
+
+def test_embedded_data_give_the_verdicts_back(shipped: Catalog) -> None:
+    text = page(shipped)
+    data = _data(text) if len(shipped.family) > 1 else {}
+    assert bool(data) == ("<script>\n" in text)
+    for left, right, verdict in shipped.pairs(View.MARKOV):
+        place = (right - 1) * (right - 2) // 2 + left - 1
+        entry = data["entries"][data["views"]["markov"][place]]  # type: ignore[index]
+        relation, by, where, _, _, why, formula = (data["texts"][n] for n in entry)  # type: ignore[index]
+        assert (relation, by, where) == (verdict.relation, verdict.decided_by, verdict.representation)
+        if verdict.evidence:
+            assert why.replace("{L}", f"A{left}").replace("{R}", f"A{right}") in verdict.sentence
+            assert formula == verdict.evidence.formula
+
+
+def test_counts_are_printed_as_in_the_paper() -> None:
+    text = page(catalog(3))
+    assert "26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided." in text
+    assert "26 pairs by condition 1, 7 by 4, 10 by 5 and 2 by 6; 10 left undecided." in page(catalog(3, damped=True))
+
+
+def test_hostile_text_stays_text() -> None:
+    records = json.loads(json.dumps(catalog(3).records))
+    records[0]["note"] = HOSTILE
+    pair = next(r for r in records[12:] if "markov" in r and r["markov"]["evidence"]["kind"] == "forms")
+    pair["markov"]["evidence"]["only_left"] = [HOSTILE]
+    text = page(Catalog.from_records(records))
+    outline, before = Outline(text), Outline(page(catalog(3)))
+    assert outline.count("script") == before.count("script") and outline.count("img") == 0
+    assert HOSTILE in outline.texts["dd"]
+    assert any(HOSTILE in str(t) for t in _data(text)["texts"])  # type: ignore[attr-defined]
+    assert HOSTILE not in text
+
+
+def test_script_json_cannot_end_its_element() -> None:
+    text = str(script_json([HOSTILE, "<!--", "\u2028"]))
+    assert not set("<>&\u2028") & set(text) and json.loads(text) == [HOSTILE, "<!--", "\u2028"]
+
+
+@pytest.mark.parametrize("render", [page, lambda c: index([c])], ids=["page", "index"])
+def test_nothing_is_fetched(render: object) -> None:
+    text = render(catalog(3, damped=True))  # type: ignore[operator]
+    assert "http:" not in text and "https:" not in text and "//" not in text.replace("// ", "")
+    assert not re.search(r"url\(|@import|\bsrc=|<link|<iframe|fetch\(|XMLHttp|import\(", text)
+
+
+def test_the_largest_page_is_small_and_complete(largest: str) -> None:
+    assert len(largest.encode()) < 3_000_000
+    assert len(re.findall(r'<td class="[diu]"', largest)) == 3 * 2628
+
+
+def test_the_same_bytes_again(shipped: Catalog, largest: str) -> None:
+    again = catalog(shipped.n_masses, damped=shipped.damped)
+    assert page(again) == page(shipped)
+    assert page(catalog(5, damped=True)) == largest
+
+
+def test_coefficients_are_spelled_out_where_they_are_short() -> None:
+    small, large = page(catalog(3)), page(catalog(4))
+    assert "b0 = (k12 k23) / a4" in small
+    assert "a4 = m1 m2 m3" in small
+    assert "<summary>coefficients" not in large

@@ -1,0 +1,39 @@
+"""A whole report in a folder."""
+
+import json
+from pathlib import Path
+
+from disting.catalogs import catalog
+from disting.report import write_report
+
+ENDINGS = (".html", "-matrix.svg", "-matrix.png", ".csv", ".json")
+
+
+def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
+    catalogs = [catalog(2), catalog(3, damped=True)]
+    paths = write_report(catalogs, tmp_path / "new" / "folder")
+    assert [p.name for p in paths] == [f"{c.name}{ending}" for c in catalogs for ending in ENDINGS] + ["index.html"]
+    assert all(p.is_file() for p in paths)
+    start = paths[-1].read_text(encoding="utf-8")
+    assert all(f'href="{c.name}.html"' in start for c in catalogs)
+    text = paths[0].read_text(encoding="utf-8")
+    assert all(f'href="{catalogs[0].name}{ending}"' in text for ending in ENDINGS[1:])
+
+
+def test_data_are_the_catalogues_own(tmp_path: Path) -> None:
+    source = catalog(2)
+    write_report([source], tmp_path)
+    assert (tmp_path / "chains-2-undamped.csv").read_text(encoding="utf-8") == source.to_csv()
+    assert json.loads((tmp_path / "chains-2-undamped.json").read_text(encoding="utf-8"))["verdicts"]
+
+
+def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
+    first, second = (write_report([catalog(3)], tmp_path / name) for name in "ab")
+    assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]
+
+
+def test_the_index_keeps_the_pages_that_are_there(tmp_path: Path) -> None:
+    write_report([catalog(2), catalog(1, damped=True)], tmp_path)
+    start = write_report([catalog(3)], tmp_path)[-1].read_text(encoding="utf-8")
+    places = [start.index(f'href="chains-{name}.html"') for name in ("1-damped", "2-undamped", "3-undamped")]
+    assert places == sorted(places)
