@@ -69,6 +69,17 @@ def share(path: str, seed: str, rounds: str) -> None:
     say(f"wrong {wrong}")
 
 
+def churn(path: str, rounds: str) -> None:
+    """Remove, create and use the database, while others do the same."""
+    wrong = 0
+    for _ in range(int(rounds)):
+        Path(path).unlink(missing_ok=True)
+        with Store.open(path) as store:
+            store.put_many(items(range(3)))
+            wrong += not store.get_many(items(range(3))).items() <= items(range(3)).items()
+    say(f"wrong {wrong}")
+
+
 def meet(path: str, number: str) -> None:
     """Wait for the start signal, use the store, and print the warnings."""
     say("ready")
@@ -112,7 +123,7 @@ def nobody(path: str) -> None:
 
 def main() -> None:
     """Run the task named on the command line."""
-    tasks = (count, create, share, meet, hold, use, limited, nobody)
+    tasks = (count, create, share, churn, meet, hold, use, limited, nobody)
     named = {task.__name__: task for task in tasks}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
