@@ -4,11 +4,6 @@ A wrong answer is the worst fault of a scientific cache, so nothing in the file 
 the file is ours only if application id, schema version and table definition agree, and a row is used only
 if its checksum over key and value agrees. What fails is set aside or removed, and computed anew.
 
-The path holds either nothing or a complete database: a new one is made under another name and renamed
-into place under an advisory lock, so a process killed at any moment leaves no half-made file, and of many
-processes that find the same damage one alone replaces the file. The others see by the inode number that
-the path holds another file, and open that one.
-
 Two POSIX traps: closing any descriptor of a file drops all locks that the process has on it, so the file is
 read through SQLite only. And a child of fork inherits SQLite's record of locks but not the locks, so that
 even commits on a connection of its own can vanish; so the connection is closed before every fork.
@@ -27,16 +22,24 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Final, Self, TypeVar
 
-import platformdirs
-from filelock import FileLock
+from disting.engine.database_file import (
+    BUSY_CODES,
+    DAMAGE_CODES,
+    MEMORY,
+    MISSING,
+    NOWHERE,
+    PAUSE_SECONDS,
+    SCHEMA_VERSION,
+    identity,
+    located,
+    open_database,
+    replace,
+    result_code,
+)
 
 T = TypeVar("T")
-Identity = tuple[int, int]  # device and inode number: which file a path holds
 Row = tuple[bytes, bytes, bytes]  # key, checksum, value
 
-APPLICATION_ID: Final = 0x64737467  # "dstg" in ASCII, bytes 68 to 71 of the file
-SCHEMA_VERSION: Final = 1
-SCHEMA: Final = "CREATE TABLE entry (key BLOB PRIMARY KEY, checksum BLOB NOT NULL, value BLOB NOT NULL)"
 # A damaged or altered cell may have any type; read as bytes it fails the checksum instead of the program.
 CELLS: Final = "CAST(coalesce(checksum, '') AS BLOB), CAST(coalesce(value, '') AS BLOB)"
 SELECT: Final = f"SELECT {CELLS} FROM entry WHERE key = ?"
@@ -44,24 +47,10 @@ REPLACE: Final = "INSERT OR REPLACE INTO entry (key, checksum, value) VALUES (?,
 SIZE: Final = "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size"
 COUNT: Final = f"SELECT count(*), ({SIZE}) FROM entry"
 DELETE: Final = f"DELETE FROM entry WHERE key = ? AND ({CELLS}) = (?, ?)"
-NOWHERE: Final = ""
-MEMORY: Final = ":memory:"
-MISSING: Final = (0, 0)
-IN_MEMORY: Final = (-1, -1)
-SIDES: Final = ("-wal", "-shm", "-journal")  # what SQLite appends to the name for its other files
-MOST_SET_ASIDE: Final = 99  # bounds the disk space taken by damaged files
-PAUSE_SECONDS: Final = 0.01
-# SQLite's primary result codes. Those in neither list (full disk, no permission) say nothing about the file.
-BUSY_CODES: Final = (5, 6, 15)  # BUSY, LOCKED, PROTOCOL
-DAMAGE_CODES: Final = (1, 2, 11, 17, 19, 20, 24, 26)  # ERROR to CORRUPT, SCHEMA to MISMATCH, FORMAT, NOTADB
 
 
 class CacheWarning(UserWarning):
     """The cache was damaged or cannot be used; results stay right, only slower to get."""
-
-
-class _ForeignError(sqlite3.DatabaseError):
-    sqlite_errorcode = sqlite3.SQLITE_NOTADB
 
 
 @dataclass(frozen=True)
@@ -75,110 +64,9 @@ class StoreInfo:
     sqlite_version: str
 
 
-def _located(where: str | Path | None) -> str:
-    """The absolute path of the database file, or MEMORY, or NOWHERE."""
-    default = str(platformdirs.user_cache_path("disting") / "cache.sqlite3")
-    text = os.environ.get("DISTING_CACHE", default) if where is None else str(where)
-    if text in (NOWHERE, "off"):
-        return NOWHERE
-    # Symbolic links are followed, so that all processes lock and rename beside the same file.
-    return text if text == MEMORY else os.path.realpath(os.path.expanduser(text))
-
-
-def _identity(path: str) -> Identity:
-    if path == MEMORY:
-        return IN_MEMORY
-    try:
-        status = os.stat(path, follow_symlinks=False)
-    except FileNotFoundError:
-        return MISSING
-    return (status.st_dev, status.st_ino)
-
-
-def _code(error: Exception) -> int:
-    """SQLite's primary result code, the low byte of the extended one; 0 if SQLite reported none."""
-    # Python cannot always decode the message about a damaged table definition.
-    unknown = sqlite3.SQLITE_CORRUPT if isinstance(error, UnicodeDecodeError) else 0
-    return int(getattr(error, "sqlite_errorcode", unknown)) & 0xFF
-
-
 def _checksum(key: bytes, value: bytes) -> bytes:
     """BLAKE2b-128 of key length (8 bytes, big-endian), key, value: a value under another key fails too."""
     return blake2b(len(key).to_bytes(8, "big") + key + value, digest_size=16).digest()
-
-
-def _create(connection: sqlite3.Connection) -> None:
-    connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-    connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
-    connection.execute(SCHEMA)
-    # Last, so that the table is in the main file. Where WAL is impossible the rollback journal stays.
-    with contextlib.suppress(sqlite3.OperationalError):
-        connection.execute("PRAGMA journal_mode = WAL")
-
-
-def _build(path: str) -> None:
-    draft = path + ".new"
-    # Left by a process that was killed in here, or by a removal of the main file alone. SQLite would replay
-    # a log that lies beside the new database, whatever database it came from.
-    for name in (draft, *(file + side for file in (draft, path) for side in SIDES)):
-        Path(name).unlink(missing_ok=True)
-    with contextlib.closing(sqlite3.connect(draft, isolation_level=None)) as connection:
-        _create(connection)
-    os.rename(draft, path)
-
-
-def _set_aside(path: str) -> str:
-    names = [f"{path}.damaged-{number}" for number in range(1, MOST_SET_ASIDE + 1)]
-    free = [name for name in names if not any(os.path.lexists(name + side) for side in ("", *SIDES))]
-    if not free:
-        raise OSError(f"{MOST_SET_ASIDE} damaged files are kept beside it, remove some")
-    for side in ("", *SIDES):  # the main file first, so that nobody opens it without its log
-        with contextlib.suppress(FileNotFoundError):
-            os.rename(path + side, free[0] + side)
-    return free[0]
-
-
-def _replace(path: str, suspect: Identity, wait: float) -> str:
-    """Put an empty database in place of `suspect`; "" if there was nothing to set aside."""
-    os.makedirs(os.path.dirname(path), exist_ok=True)
-    with FileLock(path + ".lock", timeout=wait, poll_interval=PAUSE_SECONDS):
-        if _identity(path) != suspect:
-            return ""
-        name = "" if suspect == MISSING else _set_aside(path)
-        _build(path)
-    return name
-
-
-def _check_kind(path: str) -> None:
-    """What passes may be opened, or renamed if it is not ours; a device or a folder in use may not."""
-    if os.path.isdir(path) and not os.listdir(path):
-        raise _ForeignError("it is a folder")
-    if not os.path.isfile(path):
-        raise OSError("it is neither a file nor an empty folder")
-
-
-def _check_stamps(connection: sqlite3.Connection) -> None:
-    queries = ("PRAGMA application_id", "PRAGMA user_version", "SELECT sql FROM sqlite_master WHERE sql > ''")
-    stamps = [connection.execute(query).fetchall() for query in queries]
-    if stamps != [[(APPLICATION_ID,)], [(SCHEMA_VERSION,)], [(SCHEMA.encode(),)]]:
-        raise _ForeignError("it is not a cache of this version of disting")
-
-
-def _open(path: str, wait: float) -> sqlite3.Connection:
-    """Connect to an existing database that passes the checks, or to a new one in memory."""
-    if path != MEMORY:
-        _check_kind(path)
-    target = path if path == MEMORY else Path(path).as_uri() + "?mode=rw"  # rw: never creates a file
-    connection = sqlite3.connect(target, wait, isolation_level=None, check_same_thread=False, uri=True)
-    with contextlib.ExitStack() as on_failure:
-        on_failure.callback(connection.close)
-        connection.text_factory = bytes  # damaged text must not fail to decode before it is checked
-        if path == MEMORY:
-            _create(connection)
-        _check_stamps(connection)
-        connection.execute("PRAGMA synchronous = NORMAL")  # a commit outlives the process, if not a power cut
-        on_failure.pop_all()
-    return connection
 
 
 def _read(connection: sqlite3.Connection, keys: Iterable[bytes]) -> list[Row]:
@@ -224,7 +112,7 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         cache folder. Missing folders are made. An operation that finds the database locked by another process
         waits up to twice `wait_seconds`, and then the store gives up the cache.
         """
-        store = cls(_located(where), wait_seconds)
+        store = cls(located(where), wait_seconds)
         store._run(lambda connection: None, None)
         return store
 
@@ -287,31 +175,31 @@ class Store(contextlib.AbstractContextManager["Store", None]):
 
     def _connected(self) -> sqlite3.Connection:
         """A connection to the file that the path holds now."""
-        while (current := _identity(self._path)) == MISSING:
-            _replace(self._path, MISSING, self._wait)
+        while (current := identity(self._path)) == MISSING:
+            replace(self._path, MISSING, self._wait)
         if self._connection is None or current != self._seen:
             self._disconnect()
             self._seen = current
-            self._connection = _open(self._path, self._wait)
+            self._connection = open_database(self._path, self._wait)
             # If the path changed hands in between, SQLite may have paired the old file with the new log.
-            if _identity(self._path) != self._seen:
+            if identity(self._path) != self._seen:
                 raise sqlite3.OperationalError("the file was replaced while it was opened")
         return self._connection
 
     def _recover(self, error: Exception, deadline: float, repaired: bool) -> bool:
         """Prepare another attempt, or switch the store off; tells whether a repair has been made."""
         self._disconnect()
-        code = _code(error)
+        code = result_code(error)
         try:
             # An error in a file that is no longer at the path says nothing about the one that is.
-            passing = code in BUSY_CODES or _identity(self._path) != self._seen
+            passing = code in BUSY_CODES or identity(self._path) != self._seen
             if passing and time.monotonic() < deadline:
                 time.sleep(PAUSE_SECONDS)
                 return repaired
             # A damaged header can declare a file read-only that is not.
             false_lock = code == sqlite3.SQLITE_READONLY and os.access(self._path, os.W_OK)
             if (code in DAMAGE_CODES or false_lock) and not repaired:
-                name = _replace(self._path, self._seen, self._wait)
+                name = replace(self._path, self._seen, self._wait)
                 if name:
                     self._warn(f"{error}; set aside as {name}, a new cache was begun")
                 return True

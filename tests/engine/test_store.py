@@ -24,7 +24,8 @@ from hypothesis import strategies as st
 sys.path.insert(0, str(Path(__file__).parent))
 from store_worker import items, key, value
 
-from disting.engine.store import APPLICATION_ID, SCHEMA, SCHEMA_VERSION, CacheWarning, Store
+from disting.engine.database_file import APPLICATION_ID, SCHEMA, SCHEMA_VERSION
+from disting.engine.store import CacheWarning, Store
 
 WORKER = Path(__file__).with_name("store_worker.py")
 ROOT = Path(__file__).parents[2]
