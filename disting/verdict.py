@@ -1,7 +1,8 @@
 """From findings to a verdict: the conditions in order, in each representation, until one decides.
 
-Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then structure (8 and 9). A necessary
-condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is UNDECIDED.
+Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then structure (8 and 9). A
+necessary condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is
+UNDECIDED, or, where it is asked for, left to the exact decision.
 All of it is over the complex numbers: distinguishable models are so over real and positive parameters too (real and positive
 points are Zariski dense), while indistinguishable ones need be so over positive parameters only where a renaming tells it.
 """
@@ -13,13 +14,16 @@ from enum import StrEnum
 from disting.conditions.evidence import Evidence
 from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
+from disting.conditions.exact import EXACT
 from disting.conditions.finding import Certainty, Finding, Outcome
 from disting.conditions.subject import Subject
-from disting.conditions.table import CONDITIONS, STRUCTURE, Necessary, Structural, Sufficient
+from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError, InputError
 from disting.invariants.sample import Representation
 
 ALL_CONDITIONS = tuple(c.number for c in CONDITIONS)
+RULE_NAMES = {0: "", **{n: str(n) for n in ALL_CONDITIONS}, EXACT: "exact"}  # what `decided_by` says
+FIBRE = "fibre"  # the representation of the exact decision
 
 
 class Relation(StrEnum):
@@ -31,16 +35,19 @@ class Relation(StrEnum):
 
 
 class View(StrEnum):
-    """Which representations may decide; `combined` also lets the structure decide."""
+    """Which representations may decide; `combined` also lets the structure decide, `exact` then the exact decision."""
 
     TF = "tf"
     MARKOV = "markov"
     COMBINED = "combined"
+    EXACT = "exact"
 
     @property
     def representations(self) -> tuple[str, ...]:
         """The representations of this view, in order."""
-        return ("tf", "markov", STRUCTURE) if self is View.COMBINED else (self.value,)
+        if self in (View.TF, View.MARKOV):
+            return (self.value,)
+        return ("tf", "markov", STRUCTURE, FIBRE) if self is View.EXACT else ("tf", "markov", STRUCTURE)
 
 
 class Domain(StrEnum):
@@ -79,8 +86,8 @@ def error_bound(certainty: str, safety: int) -> str:
 class Verdict:
     """Relation of a pair with its proof.
 
-    `decided_by`: the condition's number, "" if undecided; `representation`: "tf", "markov", "structure" or "";
-    with certainty BOUNDED the probability of error is at most 2**-safety. `notes` tells an undecided pair's abandoned parts.
+    `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
+    or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned.
     """
 
     left: str
@@ -111,6 +118,8 @@ class Verdict:
     def sentence(self) -> str:
         """The verdict in words an engineer understands."""
         head = f"{self.left} and {self.right} are {self.relation}"
+        if self.decided_by == RULE_NAMES[EXACT] and self.evidence:
+            return f"{head} (exact decision): {self.evidence.sentence(self.left, self.right)}"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
             return f"{self.left} and {self.right} are undecided: no condition settles them{why}."
@@ -163,9 +172,11 @@ class Step:
     @property
     def relation(self) -> Relation:
         """What this finding alone decides."""
-        necessary = self.finding.number <= 5
-        if self.finding.outcome is (Outcome.FAILS if necessary else Outcome.HOLDS):
-            return Relation.DISTINGUISHABLE if necessary else Relation.INDISTINGUISHABLE
+        number, outcome = self.finding.number, self.finding.outcome
+        if outcome is Outcome.FAILS and (number <= len(NECESSARY) or number == EXACT):
+            return Relation.DISTINGUISHABLE
+        if outcome is Outcome.HOLDS and number > len(NECESSARY):
+            return Relation.INDISTINGUISHABLE
         return Relation.UNDECIDED
 
 
@@ -176,6 +187,8 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
         for condition in CONDITIONS:
             if condition.number in query.conditions:
                 yield from _step(condition, left, right, representation, count)
+        if representation == FIBRE:
+            yield Step(FIBRE, left.exact(right))
 
 
 def decide(left: Subject, right: Subject, query: Query) -> Verdict:
@@ -185,8 +198,13 @@ def decide(left: Subject, right: Subject, query: Query) -> Verdict:
         if step.relation is not Relation.UNDECIDED:
             return verdict_of(left.name, right.name, step)
         if step.finding.outcome is Outcome.ABANDONED:
-            notes.append(f"condition {step.finding.number} on {step.representation} was abandoned: {step.finding.note}")
+            notes.append(f"{_rule(step)} was abandoned: {step.finding.note}")
     return Verdict(left.name, right.name, Relation.UNDECIDED, notes=tuple(notes))
+
+
+def _rule(step: Step) -> str:
+    number = step.finding.number
+    return "the exact decision" if number == EXACT else f"condition {number} on {step.representation}"
 
 
 def audit(left: Subject, right: Subject, query: Query) -> Verdict:
@@ -201,7 +219,7 @@ def audit(left: Subject, right: Subject, query: Query) -> Verdict:
 def verdict_of(left: str, right: str, step: Step) -> Verdict:
     """The verdict that a deciding step gives."""
     f = step.finding
-    return Verdict(left, right, step.relation, str(f.number), step.representation, f.certainty, f.safety, f.evidence)
+    return Verdict(left, right, step.relation, RULE_NAMES[f.number], step.representation, f.certainty, f.safety, f.evidence)
 
 
 def _step(
@@ -210,10 +228,10 @@ def _step(
     match condition:
         case Structural() if representation == STRUCTURE:
             yield Step(representation, condition.check(left, right))
-        case Necessary() if representation != STRUCTURE:
+        case Necessary() if representation in tuple(Representation):
             r = Representation(representation)
             n = count if r is Representation.MARKOV else 0
             yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
-        case Sufficient() if representation != STRUCTURE:
+        case Sufficient() if representation in tuple(Representation):
             r = Representation(representation)
             yield Step(representation, condition.check(left, right, r, count if r is Representation.MARKOV else 0))

@@ -29,13 +29,14 @@ class Size:
 
 
 def residues(label: str, count: int, modulus: int) -> list[int]:
-    """`count` numbers of 1..modulus-1, uniform to within 2^-67, determined by the label.
+    """`count` numbers of 1..modulus-1, uniform to within 2^-64, determined by the label.
 
     >>> residues("doc", 2, 7) == residues("doc", 2, 7)
     True
     """
-    stream = hashlib.shake_256(label.encode()).digest(16 * count)
-    chunks = (stream[i : i + 16] for i in range(0, 16 * count, 16))
+    width = max(16, modulus.bit_length() // 8 + 9)  # bytes a number: 67 bits more than needed make the remainder uniform
+    stream = hashlib.shake_256(label.encode()).digest(width * count)
+    chunks = (stream[i : i + width] for i in range(0, width * count, width))
     return [1 + int.from_bytes(chunk) % (modulus - 1) for chunk in chunks]
 
 

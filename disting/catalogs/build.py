@@ -15,9 +15,9 @@ from disting.conditions.subject import Subject
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.invariants.sample import Representation
 from disting.model.family import Family
-from disting.verdict import Query, Relation, View
+from disting.verdict import FIBRE, Query, Relation, View
 
-PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED}
+PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
 
 
 def build(
@@ -89,19 +89,21 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
             yield {"left": i + 1, "right": j + 1} | {
                 part: _step(decided, i, j)
                 for part, decided in found.items()
-                if decided.relation(i, j) is not Relation.UNDECIDED and (part != "structure" or _by_structure(decided, i, j))
+                if decided.relation(i, j) is not Relation.UNDECIDED
+                and (part in ("tf", "markov") or _only_by(part, decided, i, j))
             }
 
 
-def _by_structure(decided: Decisions, i: int, j: int) -> bool:
-    return (i, j) in decided.steps and decided.steps[i, j].representation == "structure"
+def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:
+    return (i, j) in decided.steps and decided.steps[i, j].representation == part
 
 
 def _step(decided: Decisions, i: int, j: int) -> Record:
     verdict = decided.verdict(i, j)
     assert verdict.evidence is not None  # only decided pairs get here
     assert verdict.certainty is not None
-    return {
+    relation = {"relation": verdict.relation.value} if verdict.representation == FIBRE else {}  # else the number tells it
+    return relation | {
         "decided_by": verdict.decided_by,
         "certainty": verdict.certainty.value,
         "safety": verdict.safety,

@@ -8,14 +8,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from disting.catalogs.export import csv_text, relation_of
+from disting.catalogs.export import csv_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.conditions.evidence import from_dict
+from disting.conditions.exact import EXACT
 from disting.conditions.finding import Certainty
+from disting.conditions.table import NECESSARY
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.verdict import Relation, Verdict, View
+from disting.verdict import RULE_NAMES, Relation, Verdict, View
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ModelRow:
-    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = number of its indistinguishable group or 0."""
+    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in `classes(View.EXACT)` or 0."""
 
     number: int
     chain: Chain
@@ -95,10 +97,10 @@ class Catalog:
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
         """The models with their properties."""
-        group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
+        group = {m: number for number, members in enumerate(self.classes(View.EXACT), 1) for m in members}
         return tuple(self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)])
 
-    def classes(self) -> tuple[tuple[int, ...], ...]:
+    def classes(self, view: View = View.COMBINED) -> tuple[tuple[int, ...], ...]:
         """Groups of two or more mutually indistinguishable models.
 
         Indistinguishability is transitive, so the groups are the connected components; raises CatalogError where the
@@ -108,7 +110,7 @@ class Catalog:
 
         graph: nx.Graph[int] = nx.Graph()
         pairs = self.records[1 + len(self.family) :]
-        relations = {(r["left"], r["right"]): _relation(_deciding(r, View.COMBINED)[1]) for r in pairs}
+        relations = {(r["left"], r["right"]): _relation(_deciding(r, view)[1]) for r in pairs}
         graph.add_edges_from(pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE)
         groups = sorted(tuple(sorted(c)) for c in nx.connected_components(graph))
         for members in groups:
@@ -117,7 +119,7 @@ class Catalog:
         return tuple(groups)
 
     def counts(self, view: View = View.COMBINED) -> dict[str, int]:
-        """Number of pairs by deciding condition, "" for the undecided ones."""
+        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
         found = Counter(_deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
         return {"": 0} | dict(sorted(found.items()))
 
@@ -145,7 +147,7 @@ class Catalog:
     def to_csv(self, view: View = View.COMBINED) -> str:
         """All verdicts as CSV text."""
         return csv_text(
-            (i, j, v.decided_by, v.representation, v.certainty or "", v.error_bound) for i, j, v in self.pairs(view)
+            (i, j, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound) for i, j, v in self.pairs(view)
         )
 
     def to_json(self, view: View = View.COMBINED) -> str:
@@ -191,7 +193,11 @@ def _deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:
 
 
 def _relation(step: dict[str, Any]) -> Relation:
-    return relation_of(step.get("decided_by", ""))
+    if not step:
+        return Relation.UNDECIDED
+    if step["decided_by"] == RULE_NAMES[EXACT]:
+        return Relation(step["relation"])
+    return Relation.DISTINGUISHABLE if int(step["decided_by"]) <= len(NECESSARY) else Relation.INDISTINGUISHABLE
 
 
 def _software() -> dict[str, str]:

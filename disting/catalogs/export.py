@@ -5,34 +5,33 @@ import io
 import json
 from collections.abc import Iterable
 
-from disting.conditions.table import NECESSARY
 from disting.engine import Decisions
-from disting.verdict import Domain, Relation, error_bound
+from disting.verdict import RULE_NAMES, Domain, Relation, error_bound
 
 CSV_COLUMNS = ("left", "right", "relation", "decided_by", "representation", "certainty", "error_bound", "domain")
-Row = tuple[int, int, str, str, str, str]
-"""left, right, decided_by, representation, certainty, error bound"""
+Row = tuple[int, int, Relation, str, str, str, str]
+"""left, right, relation, decided_by, representation, certainty, error bound"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> print(csv_text([(1, 2, "1", "tf", "proven", "0")]), end="")
+    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0")]), end="")
     left,right,relation,decided_by,representation,certainty,error_bound,domain
     1,2,distinguishable,1,tf,proven,0,complex
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(CSV_COLUMNS)
-    for left, right, decided_by, *rest in rows:
-        writer.writerow((left, right, relation_of(decided_by).value, decided_by, *rest, Domain.COMPLEX.value))
+    for left, right, relation, *rest in rows:
+        writer.writerow((left, right, relation.value, *rest, Domain.COMPLEX.value))
     return out.getvalue()
 
 
 def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1."""
     graded = (
-        (i + 1, j + 1, str(number or ""), where, certainty, error_bound(certainty, safety))
+        (i + 1, j + 1, decided.relation(i, j), RULE_NAMES[number], where, certainty, error_bound(certainty, safety))
         for i, j, number, where, certainty, safety in decided.grades()
     )
     return csv_text(graded)
@@ -44,10 +43,3 @@ def decisions_json(decided: Decisions) -> str:
     pairs = ((i, j) for i in range(size) for j in range(i + 1, size))
     verdicts = [decided.verdict(i, j).to_dict() | {"left": i + 1, "right": j + 1} for i, j in pairs]
     return json.dumps({"verdicts": verdicts}, ensure_ascii=False) + "\n"
-
-
-def relation_of(decided_by: str) -> Relation:
-    """Relation that the deciding condition gives; undecided without one."""
-    if not decided_by:
-        return Relation.UNDECIDED
-    return Relation.DISTINGUISHABLE if int(decided_by) <= len(NECESSARY) else Relation.INDISTINGUISHABLE

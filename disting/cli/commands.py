@@ -12,12 +12,13 @@ from disting.catalogs.export import decisions_csv, decisions_json
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.work import engine_for
 from disting.comparison import compare as compare_chains
+from disting.conditions.exact import EXACT
 from disting.engine import Decisions, Engine, Progress, Store
 from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
-from disting.verdict import Query, Verdict, View
+from disting.verdict import RULE_NAMES, Query, Verdict, View
 
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.COMBINED}
 
@@ -51,10 +52,11 @@ def compare(options: argparse.Namespace) -> int:
     sensor = Sensor(options.sensor)
     references = [_reference(text) for text in (options.left, options.right)]
     chains = [Family(n, options.damped, sensor)[number] for n, number in references]
-    verdict = _shipped(references, options.damped) if sensor is Sensor.ACCELERATION else None
+    view = View.EXACT if options.exact else View.COMBINED
+    verdict = _shipped(references, options.damped, view) if sensor is Sensor.ACCELERATION else None
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
-            verdict = compare_chains(*chains, engine=engine)
+            verdict = compare_chains(*chains, query=Query(view), engine=engine)
     print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False) if options.json else _explained(verdict, chains))
     return 0
 
@@ -62,7 +64,7 @@ def compare(options: argparse.Namespace) -> int:
 def verdicts(options: argparse.Namespace) -> int:
     """Decide all pairs of one size."""
     family = Family(options.masses, options.damped, Sensor(options.sensor))
-    query = Query(VIEWS[options.representation], options.conditions, options.markov)
+    query = Query(_view(options), options.conditions, options.markov)
     with engine_for(options) as (engine, pool, progress):
         subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
         decided = engine.decisions(subjects, query, executor=pool, progress=progress)
@@ -133,10 +135,16 @@ def cache_clear(options: argparse.Namespace) -> int:
     return 0
 
 
-def _shipped(references: list[tuple[int, int]], damped: bool) -> Verdict | None:
+def _view(options: argparse.Namespace) -> View:
+    if options.exact and options.representation != "all":
+        raise InputError("--exact comes after all conditions, so it goes with --representation all")
+    return View.EXACT if options.exact else VIEWS[options.representation]
+
+
+def _shipped(references: list[tuple[int, int]], damped: bool, view: View) -> Verdict | None:
     """The stored verdict of a shipped pair."""
     (n, left), (m, right) = references
-    return catalog(n, damped=damped).verdict(left, right) if n == m in SHIPPED_SIZES and left != right else None
+    return catalog(n, damped=damped).verdict(left, right, view) if n == m in SHIPPED_SIZES and left != right else None
 
 
 def _catalog(n: int, damped: bool, engine: Engine, pool: Executor | None, progress: Progress) -> Catalog:
@@ -164,7 +172,9 @@ def _summary(decided: Decisions) -> str:
 
 
 def _counted(counts: dict[str, int]) -> str:
-    parts = [f"{n} by condition {number}" for number, n in counts.items() if number]
+    exactly = counts.get(RULE_NAMES[EXACT], 0)
+    parts = [f"{n} by condition {number}" for number, n in counts.items() if number.isdigit()]
+    parts += [f"{exactly} by the exact decision"] * bool(exactly)
     return ", ".join([*parts, f"{counts.get('', 0)} undecided"])
 
 

@@ -12,6 +12,7 @@ from disting.conditions.table import CONDITIONS
 from disting.model.chain import Sensor
 from disting.verdict import ALL_CONDITIONS
 
+EXACTLY = "after the conditions, decide what they leave open by inverse network synthesis"
 DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
 EPILOG = (
     "conditions:\n"
@@ -55,6 +56,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("left", metavar="N:I", help="a model: masses:number, as 'disting models' lists it")
     p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
     _shared(p, damped=True, sensor=True)
+    p.add_argument("--exact", action="store_true", help=EXACTLY)
     p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
     p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
 
@@ -64,6 +66,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--conditions", type=_conditions, default=ALL_CONDITIONS, metavar="LIST", help="such as 1-5,8 (default: 1-9)"
     )
+    p.add_argument("--exact", action="store_true", help=EXACTLY)
     p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
     p.add_argument("--markov", type=masses, default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)")
     p.add_argument("--csv", metavar="FILE", help="write the verdicts as CSV; - is standard output")

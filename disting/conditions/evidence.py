@@ -156,8 +156,54 @@ class Supermodel:
         return f"N_R = {self.rank} for all three"
 
 
-Evidence = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
-_KINDS: dict[str, type[Evidence]] = {c.kind: c for c in (Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel)}
+@dataclass(frozen=True, slots=True)
+class FibreAt:
+    """Exact decision: the fibre of one model over the transfer function of the other at a rational parameter point.
+
+    Both models are in their canonical forms. `left_given`: the point (name, fraction) is of the left model and the right one
+    was searched; `grounds` as in `synthesis.decide`; `solutions`, of which so many real and positive; a numerical finding
+    agrees to that many `decades`.
+    """
+
+    kind: ClassVar[str] = "fibre"
+    left_given: bool
+    point: tuple[tuple[str, str], ...]
+    grounds: str
+    solutions: int
+    real: int
+    positive: int
+    decades: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """What the fibre shows."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        if self.grounds == "refuted":
+            return (
+                f"For one choice of rational parameters of {given} no parameters of {searched}, real or complex, give the same "
+                "transfer function: every branch of the inverse synthesis is refuted."
+            )
+        if self.grounds == "theorem":
+            return (
+                f"{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled, "
+                "over positive parameters too."
+            )
+        how = "proven to exist" if self.grounds == "construction" else f"found to {self.decades} decimal places, not proven"
+        return (
+            f"For one choice of rational parameters of {given}, parameters of {searched} with the same transfer function are "
+            f"{how}: {self.solutions} solutions listed, {self.real} of them real, {self.positive} positive."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The size of the fibre."""
+        if self.grounds == "refuted":
+            return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
+        return "left and right are dual" if self.grounds == "theorem" else f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
+
+
+Evidence = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel | FibreAt
+_ALL: tuple[type[Evidence], ...] = (Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel, FibreAt)
+_KINDS = {c.kind: c for c in _ALL}
 
 
 def to_dict(evidence: Evidence) -> dict[str, object]:

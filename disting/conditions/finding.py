@@ -16,11 +16,15 @@ class Outcome(StrEnum):
 
 
 class Certainty(StrEnum):
-    """THEOREM: holds by a stated theorem. PROVEN: exact computation. BOUNDED: but for a computed probability."""
+    """THEOREM: holds by a stated theorem. PROVEN: exact computation. BOUNDED: but for a computed probability.
+
+    NUMERICAL: all equations hold within small balls, which proves neither that they hold nor that they fail.
+    """
 
     THEOREM = "theorem"
     PROVEN = "proven"
     BOUNDED = "bounded"
+    NUMERICAL = "numerical"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,8 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
+from disting.conditions.exact import EXACT, exact_finding
+from disting.conditions.finding import Finding, Outcome
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
@@ -13,21 +15,30 @@ from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.settings import Settings
 
+ExactSource = Callable[[Chain, Chain, Settings], Finding]
 ProfileSource = Callable[[Structure, Representation, int, Settings], Profile]
 
 
 @dataclass(frozen=True)
 class Subject:
-    """`source` yields profiles; a cache may stand in for the computation."""
+    """`source` yields profiles, `exact_source` exact decisions; a cache may stand in for both computations."""
 
     name: str
     chain: Chain
     settings: Settings = field(default_factory=Settings)
     source: ProfileSource = profile
+    exact_source: ExactSource = exact_finding
 
     def profile(self, representation: Representation, count: int) -> Profile:
         """Profile of the canonical form, which all symmetric chains share."""
         return self.source(self.canonical.chain.structure, representation, count, self.settings)
+
+    def exact(self, other: "Subject") -> Finding:
+        """The exact decision on the canonical forms of both, for equal ranks."""
+        ranks = {s.profile(Representation.TF, 0).rank for s in (self, other)}
+        if len(ranks) > 1:
+            return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
+        return self.exact_source(self.canonical.chain, other.canonical.chain, self.settings)
 
     @cached_property
     def canonical(self) -> Form:

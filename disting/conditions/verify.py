@@ -2,12 +2,18 @@
 
 from dataclasses import dataclass, field
 
-from disting.conditions.evidence import Counts, Embedding, Evidence, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.conditions.evidence import Counts, Embedding, Evidence, FibreAt, Forms, FreeChoice, Ranks, Renaming, Supermodel
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation, Sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
+from disting.model.symmetry import canonical
+from disting.synthesis.decide import Grounds
+from disting.synthesis.duality import are_dual
+from disting.synthesis.fibre import fibre
+from disting.synthesis.result import Status
+from disting.synthesis.target import fraction, target
 
 POINTS = 3
 
@@ -42,6 +48,8 @@ class Witness:
                 part, whole = (a, b) if evidence.left_is_submodel else (b, a)
                 fits = dict(evidence.numbering) in list(part.embeddings(whole))
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
+            case FibreAt():
+                return self._fibre(evidence, left, right)
             case Supermodel():
                 third = a.united(b)
                 same = (a.ports, a.sensor_order) == (
@@ -49,6 +57,16 @@ class Witness:
                     b.sensor_order,
                 ) and third.parameters == evidence.parameters
                 return same and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b, third))
+
+    def _fibre(self, evidence: FibreAt, a: Chain, b: Chain) -> bool:
+        """The fibre over the stored point once more, or the theorem."""
+        a, b = canonical(a).chain, canonical(b).chain
+        given, searched = (a, b) if evidence.left_given else (b, a)
+        if evidence.grounds == Grounds.THEOREM:
+            return are_dual(a, b)
+        found = fibre(searched, target(given.structure, {name: fraction(value) for name, value in evidence.point}))
+        refuted = evidence.grounds == Grounds.REFUTED
+        return found.status is Status.EMPTY if refuted else len(found.solutions) == evidence.solutions > 0
 
     def _samples(self, structure: Structure, representation: str, count: int) -> tuple[Sample, ...]:
         key = (structure, representation, count)

@@ -11,16 +11,18 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.conditions.exact import EXACT
 from disting.conditions.finding import Grade
 from disting.conditions.subject import Subject
-from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
+from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
-from disting.verdict import Query, Relation, Step, Verdict, decide, verdict_of
+from disting.verdict import FIBRE, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
 
-REPRESENTATIONS = ("", "tf", "markov", STRUCTURE)
+REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE)
 Numbers = NDArray[np.uint8]
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
+PrefetchExact = Callable[[Sequence[tuple[Subject, Subject]]], None]
 Prefetch = Callable[[Sequence[Subject], Representation, int], None]
 
 
@@ -42,6 +44,8 @@ class Decisions:
         number = self.decided_by[min(i, j), max(i, j)]
         if number == 0:
             return Relation.UNDECIDED
+        if number == EXACT:
+            return self.steps[min(i, j), max(i, j)].relation
         return Relation.DISTINGUISHABLE if number <= len(NECESSARY) else Relation.INDISTINGUISHABLE
 
     def verdict(self, i: int, j: int) -> Verdict:
@@ -77,19 +81,23 @@ class Decisions:
             yield i, j, number, REPRESENTATIONS[where], str(grade[0]), grade[1]
 
     def counts(self) -> dict[str, int]:
-        """Number of pairs by deciding condition, "" for the undecided ones."""
-        found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=len(CONDITIONS) + 1)
-        return {str(number or ""): int(n) for number, n in enumerate(found) if n or number == 0}
+        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
+        found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=1)
+        return {RULE_NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
 
 
-def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch) -> Decisions:
-    """Decide all pairs of models with equally many states; `prefetch` computes the profiles that will be asked for."""
+def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, prefetch_exact: PrefetchExact) -> Decisions:
+    """Decide all pairs of models with equally many states; the two callbacks compute what will be asked for."""
     n = len(subjects)
     result = Decisions(tuple(subjects), query, np.zeros((n, n), np.uint8), np.zeros((n, n), np.uint8))
     open_pairs = np.triu(np.ones((n, n), bool), 1)
     for representation in query.view.representations:
         if representation == STRUCTURE:
             _structural(result, open_pairs)
+            continue
+        if representation == FIBRE:
+            prefetch_exact([(subjects[int(i)], subjects[int(j)]) for i, j in zip(*np.nonzero(open_pairs), strict=True)])
+            _each(result, open_pairs, FIBRE, Subject.exact)
             continue
         r = Representation(representation)
         active = np.flatnonzero(open_pairs.any(axis=0) | open_pairs.any(axis=1))

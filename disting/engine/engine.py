@@ -11,7 +11,11 @@ from concurrent.futures import Executor, Future, as_completed
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from typing import Any, TypeVar
 
+from disting.conditions.codec import finding_from_json, finding_to_json
+from disting.conditions.exact import exact_finding
+from disting.conditions.finding import Finding
 from disting.conditions.subject import Subject
 from disting.engine.decisions import Decisions, decisions
 from disting.engine.store import Store
@@ -23,10 +27,11 @@ from disting.model.structure import Structure
 from disting.settings import Settings
 from disting.verdict import Query, Verdict, audit, decide
 
+T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-CODE = ("settings.py", "verdict.py", "algebra", "model", "invariants", "conditions")
+CODE = ("settings.py", "verdict.py", "algebra", "model", "invariants", "synthesis", "conditions")
 
 
 def silent(what: str, done: int, total: int) -> None:
@@ -35,15 +40,16 @@ def silent(what: str, done: int, total: int) -> None:
 
 @dataclass
 class Engine:
-    """Compares models with a store behind it; what is computed once in a process is kept in `memo`."""
+    """Compares models with a store behind it; what is computed once in a process is kept in `memo` and `findings`."""
 
     settings: Settings = field(default_factory=Settings)
     store: Store = field(default_factory=lambda: Store.open(""))
     memo: dict[str, Profile] = field(default_factory=dict)
+    findings: dict[str, Finding] = field(default_factory=dict)
 
     def subject(self, name: str, chain: Chain) -> Subject:
         """A side of a comparison whose profiles come from this engine."""
-        return Subject(name, chain, self.settings, self.profile)
+        return Subject(name, chain, self.settings, self.profile, self.exact)
 
     def profile(self, structure: Structure, representation: Representation, count: int, settings: Settings) -> Profile:
         """The profile, from memory, from the store, or computed and stored."""
@@ -55,6 +61,13 @@ class Engine:
                 self.store.put_many({key: profile_to_json(found[key])})
             self.memo[key] = found[key]
         return self.memo[key]
+
+    def exact(self, left: Chain, right: Chain, settings: Settings) -> Finding:
+        """The exact decision, from memory, from the store, or computed and stored."""
+        key = exact_key(left, right, settings)
+        if key not in self.findings:
+            self._exactly([(left, right)], None, silent)
+        return self.findings[key]
 
     def verdict(self, left: Subject, right: Subject, query: Query, *, audited: bool = False) -> Verdict:
         """The verdict on a pair, from the store or decided and stored; an audited one is always computed."""
@@ -81,7 +94,12 @@ class Engine:
         def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
             self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)
 
-        return decisions(subjects, query, prefetch)
+        def prefetch_exact(pairs: Sequence[tuple[Subject, Subject]]) -> None:
+            ranks = [tuple(s.profile(Representation.TF, 0).rank for s in pair) for pair in pairs]
+            equal = [pair for pair, (one, other) in zip(pairs, ranks, strict=True) if one == other]
+            self._exactly([(a.canonical.chain, b.canonical.chain) for a, b in equal], executor, progress)
+
+        return decisions(subjects, query, prefetch, prefetch_exact)
 
     def profiles_of(
         self, chains: Iterable[Chain], *, executor: Executor | None = None, progress: Progress = silent
@@ -99,12 +117,28 @@ class Engine:
         self.memo |= self._stored([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
-        for batch in _computed([keys[k] for k in missing], r, count, self.settings, executor):
+        absent = [keys[k] for k in missing]
+        batches = [(absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)]
+        for batch in mapped(compute, batches, executor):
             texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
             self.store.put_many(texts)
             self.memo |= {key: profile_from_json(text) for key, text in texts.items()}
             done += len(batch)
             progress(f"{r.value} profiles", done, len(keys))
+
+    def _exactly(self, pairs: Sequence[tuple[Chain, Chain]], executor: Executor | None, progress: Progress) -> None:
+        """Bring exact decisions into memory, as `prefetch` does with profiles."""
+        keys = {exact_key(a, b, self.settings): (a, b) for a, b in pairs}
+        stored = self.store.get_many([key for key in keys if key not in self.findings])
+        self.findings |= {key: finding_from_json(text) for key, text in stored.items()}
+        missing = {key: pair for key, pair in keys.items() if key not in self.findings}
+        done = len(keys) - len(missing)
+        tasks = [(key, *pair, self.settings) for key, pair in missing.items()]
+        for key, text in mapped(compute_exact, tasks, executor):
+            self.store.put_many({key: text})
+            self.findings[key] = finding_from_json(text)
+            done += 1
+            progress("exact decisions", done, len(keys))
 
     def _stored(self, keys: list[str]) -> dict[str, Profile]:
         return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
@@ -113,6 +147,11 @@ class Engine:
 def profile_key(structure: Structure, r: Representation, count: int, settings: Settings) -> str:
     """Content address of a profile."""
     return _key("profile", repr(structure), r.value, str(count), repr(settings))
+
+
+def exact_key(left: Chain, right: Chain, settings: Settings) -> str:
+    """Content address of an exact decision."""
+    return _key("exact", repr(left), repr(right), repr(settings))
 
 
 @cache
@@ -128,16 +167,17 @@ def compute(structures: Sequence[Structure], r: Representation, count: int, sett
     return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
 
 
-def _computed(
-    structures: list[Structure], r: Representation, count: int, settings: Settings, executor: Executor | None
-) -> Iterator[list[tuple[Structure, str]]]:
-    batches = [structures[i : i + BATCH] for i in range(0, len(structures), BATCH)]
+def compute_exact(key: str, left: Chain, right: Chain, settings: Settings) -> tuple[str, str]:
+    """A task for a worker: one exact decision as JSON text."""
+    return key, finding_to_json(exact_finding(left, right, settings))
+
+
+def mapped(function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None) -> Iterator[T]:
+    """Results of the tasks as they come, from the executor's workers or from this process."""
     if executor is None:
-        yield from (compute(batch, r, count, settings) for batch in batches)
+        yield from (function(*task) for task in tasks)
         return
-    futures: list[Future[list[tuple[Structure, str]]]] = [
-        executor.submit(compute, batch, r, count, settings) for batch in batches
-    ]
+    futures: list[Future[T]] = [executor.submit(function, *task) for task in tasks]
     try:
         yield from (future.result() for future in as_completed(futures))
     finally:

@@ -12,7 +12,7 @@ from disting.catalogs import Catalog
 from disting.report.png import png
 from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text
 from disting.report.svg import svg
-from disting.report.words import VIEW_TITLES, headline, title
+from disting.report.words import SIGNS, VIEW_TITLES, headline, title
 from disting.verdict import Relation, View
 
 TOP = 88.0  # room for the figure's and the panels' titles, at letter size 1
@@ -55,14 +55,14 @@ def matrix_png(catalog: Catalog) -> bytes:
 
 
 def figure(catalog: Catalog) -> Scene:
-    """Transfer function, Markov parameters and both combined, side by side, with a legend."""
+    """Every view, side by side, with a legend."""
     size = len(catalog.family)
     cell, k = _cell(size), 1.6 if size > 30 else 1.0
     top, left = TOP * k, MARGIN + 2.2 * cell
     panel = max(size * cell, 150.0) + 3 * cell
     panels = (_panel(Grid(catalog, view, left + i * panel, top, cell), k) for i, view in enumerate(VIEW_TITLES))
     foot = top + size * cell + 26 * k
-    width = max(3 * panel + left - cell, 620.0)
+    width = max(len(VIEW_TITLES) * panel + left - cell, 620.0)
     layers = (_head(catalog, k), *(layer for layers in panels for layer in layers), *_legend(MARGIN, foot, k))
     return Scene(width, foot + 26 * k, layers, f"{title(catalog)}: {headline(catalog)}")
 
@@ -131,7 +131,13 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
     verdict = grid.catalog.verdict(*pair, grid.view)
     x, y = grid.at(*pair)
     half = (grid.cell - 1) / 2
-    return Text(x + half, y + half, verdict.decided_by, 0.62 * grid.cell, LETTERS.get(verdict.relation, Ink.LINE))
+    return Text(
+        x + half,
+        y + half,
+        SIGNS.get(verdict.decided_by, verdict.decided_by),
+        0.62 * grid.cell,
+        LETTERS.get(verdict.relation, Ink.LINE),
+    )
 
 
 def _legend(x: float, y: float, k: float) -> Iterator[Layer]:

@@ -6,14 +6,15 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog, ModelRow
 from disting.conditions import CONDITIONS
+from disting.conditions.exact import EXACT
 from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.payload import payload
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
-from disting.report.words import VIEW_TITLES, coefficients, headline, listed, plural, title, totals
-from disting.verdict import Relation, View
+from disting.report.words import SIGNS, VIEW_TITLES, coefficients, headline, listed, plural, title, totals
+from disting.verdict import RULE_NAMES, Relation, View
 
 SIDE_BY_SIDE = 12  # families up to this size show the three views at once
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
@@ -106,8 +107,9 @@ def page(catalog: Catalog) -> str:
         side_by_side=len(catalog.family) <= SIDE_BY_SIDE,
         counts=counts(catalog),
         undecided=undecided(catalog),
+        still_open=totals(catalog, View.EXACT)[Relation.UNDECIDED],
         listed_pairs=LISTED_PAIRS,
-        groups=[[drawings[m] for m in members] for members in catalog.classes()],
+        groups=[[drawings[m] for m in members] for members in catalog.classes(View.EXACT)],
         models=[Model(r, drawings[r.number], coefficients(r.chain)) for r in catalog.rows],
         sample=example(catalog),
         payload=payload(catalog),
@@ -131,8 +133,10 @@ def summary(catalog: Catalog, view: View) -> str:
     """
     found = {name: n for name, n in catalog.counts(view).items() if n}
     left = found.pop("", 0)
+    exactly = found.pop(RULE_NAMES[EXACT], 0)
     first = iter(["pairs by condition "])
     parts = [f"{n} {next(first, 'by ')}{name}" for name, n in sorted(found.items())]
+    parts += [f"{exactly} by the exact decision"] * bool(exactly)
     return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."
 
 
@@ -140,12 +144,16 @@ def counts(catalog: Catalog) -> list[Count]:
     """Pairs by condition and view, every condition named, the undecided ones last."""
     found = [catalog.counts(view) for view in VIEW_TITLES]
     rows = [(str(c.number), c.title, c.text, _decides(c.number)) for c in CONDITIONS]
-    rows += [("", "undecided", "no condition decides", Relation.UNDECIDED)]
-    return [Count(*row, tuple(f.get(row[0], 0) for f in found)) for row in rows]
+    rows += [(RULE_NAMES[EXACT], "exact decision", "one fibre, by inverse network synthesis", Relation.DISTINGUISHABLE)]
+    rows += [("", "undecided", "nothing decides", Relation.UNDECIDED)]
+    return [
+        Count(SIGNS.get(name, name), title, text, relation, tuple(f.get(name, 0) for f in found))
+        for name, title, text, relation in rows
+    ]
 
 
 def undecided(catalog: Catalog) -> list[tuple[int, int]]:
-    """The pairs that stay open when everything is combined."""
+    """The pairs that stay open after the conditions."""
     return [(low, high) for low, high, v in catalog.pairs(View.COMBINED) if v.relation is Relation.UNDECIDED]
 
 
@@ -157,7 +165,7 @@ def example(catalog: Catalog) -> Drawing:
 
 def _field(catalog: Catalog, low: int, high: int, view: View) -> Field:
     verdict = catalog.verdict(low, high, view)
-    return Field(verdict.relation, verdict.decided_by)
+    return Field(verdict.relation, SIGNS.get(verdict.decided_by, verdict.decided_by))
 
 
 def _decides(condition: int) -> Relation:

@@ -18,6 +18,7 @@ CERTAINTIES = {
     "proven": "Proven by exact computation.",
     "theorem": "Holds by a theorem.",
     "bounded": "Computed at random points; wrong with a probability of at most {bound}.",
+    "numerical": "Found numerically, not proven.",
     "": "",
 }
 

@@ -3,12 +3,19 @@
 import re
 
 from disting.catalogs import Catalog
+from disting.conditions.exact import EXACT
 from disting.invariants.expanded import transfer_function
 from disting.model.chain import Chain
-from disting.verdict import Relation, View
+from disting.verdict import RULE_NAMES, Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
-VIEW_TITLES = {View.TF: "Transfer function", View.MARKOV: "Markov parameters", View.COMBINED: "Combined"}
+VIEW_TITLES = {
+    View.TF: "Transfer function",
+    View.MARKOV: "Markov parameters",
+    View.COMBINED: "Combined",
+    View.EXACT: "With exact decision",
+}
+SIGNS = {RULE_NAMES[EXACT]: "E"}  # what a field of the matrix shows; else the condition's number
 
 
 def title(catalog: Catalog) -> str:

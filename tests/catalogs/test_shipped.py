@@ -76,7 +76,8 @@ def test_tables_agree_with_the_verdicts():
     assert models.loc[7, "rank"] == 6
     assert list(models.index[models["collocated"]]) == [1, 4, 6, 8, 11]
     assert c.classes() == ((2, 5), (9, 10))
-    assert [r.group for r in c.rows] == [0, 1, 0, 0, 1, 0, 0, 0, 2, 2, 0]
+    assert c.classes(View.EXACT) == ((1, 11), (2, 5), (9, 10))
+    assert [r.group for r in c.rows] == [1, 2, 0, 0, 2, 0, 0, 0, 3, 3, 1]
 
 
 def test_csv_and_json_hold_every_pair():
@@ -93,3 +94,22 @@ def test_writing_leaves_no_partial_files(tmp_path):
     paths = write([build(2, damped=False, engine=Engine())], tmp_path)
     assert [p.name for p in paths] == ["chains-2-undamped.jsonl", "provenance.json"]
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(p.name for p in paths)
+
+
+@pytest.mark.parametrize(
+    ("n", "damped", "left_open"), [(2, True, 0), (3, True, 0), (4, False, 0), (4, True, 0), (5, False, 0), (5, True, 6)]
+)
+def test_the_exact_decision_leaves_nothing_open_but_six_pairs(n, damped, left_open):
+    c = catalog(n, damped=damped)
+    counts = c.counts(View.EXACT)
+    assert counts[""] == left_open
+    assert counts["exact"] == c.counts()[""] - left_open
+
+
+def test_what_the_exact_decision_says_and_how_surely():
+    c = catalog(3, damped=True)
+    assert c.verdict(1, 11).relation is Relation.UNDECIDED
+    dual, apart = c.verdict(1, 11, View.EXACT), c.verdict(1, 6, View.EXACT)
+    assert (dual.relation, dual.decided_by, dual.certainty) == (Relation.INDISTINGUISHABLE, "exact", "theorem")
+    assert (apart.relation, apart.certainty) == (Relation.DISTINGUISHABLE, "bounded")
+    assert apart.safety >= 100

@@ -214,3 +214,15 @@ def test_a_closed_pipe_is_no_error():
     done = subprocess.run(["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("left,right")
+
+
+def test_the_exact_decision_settles_what_conditions_leave_open():
+    table = rows(disting("verdicts", 3, "--damped", "--exact", "--csv", "-").stdout)
+    exact = {(int(r["left"]), int(r["right"])): r["relation"] for r in table if r["decided_by"] == "exact"}
+    assert len(exact) == 6
+    assert [pair for pair, relation in exact.items() if relation == "indistinguishable"] == [(1, 11)]
+    assert not any(r["relation"] == "undecided" for r in table)
+    shipped = json.loads(disting("compare", "3:1", "3:6", "--damped", "--exact", "--json").stdout)
+    assert (shipped["relation"], shipped["decided_by"]) == ("distinguishable", "exact")
+    refused = disting("verdicts", 3, "--exact", "--representation", "tf")
+    assert (refused.returncode, refused.stdout) == (2, "")

@@ -5,7 +5,8 @@
   const panel = document.getElementById("detail");
   const grids = [...section.querySelectorAll(".matrix")];
   const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula"];
-  const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure" };
+  const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure", fibre: "one fibre" };
+  const rule = (by) => (by === "exact" ? "the exact decision" : `condition ${by}`);
   const slot = (name) => panel.querySelector(`[data-slot="${name}"]`);
   const viewOf = (grid) => grid.closest(".view").dataset.view;
   let selected = null; // [low, high, view]
@@ -17,7 +18,7 @@
     found.why = found.why.replaceAll("{L}", `A${low}`).replaceAll("{R}", `A${high}`);
     return found;
   };
-  const short = (v) => (v.by ? `${v.relation}, condition ${v.by}` : v.relation);
+  const short = (v) => (v.by ? `${v.relation}, ${rule(v.by)}` : v.relation);
 
   // ---- fields: row and column give the pair
   const pairOf = (td) => [td.cellIndex, td.parentElement.rowIndex + 1];
@@ -53,7 +54,7 @@
     slot("title").textContent = `A${low} and A${high}`;
     slot("badge").textContent = v.relation;
     slot("badge").className = `badge ${v.relation}`;
-    slot("where").textContent = v.by ? `by condition ${v.by}, ${WHERE[v.representation] || v.representation}` : "";
+    slot("where").textContent = v.by ? `by ${rule(v.by)}, ${WHERE[v.representation] || v.representation}` : "";
     slot("why").textContent = v.why;
     slot("formula").textContent = v.formula;
     slot("certainty").textContent = v.by ? `${v.certainty} Over ${v.domain} parameter values.` : "";
@@ -185,14 +186,14 @@
     const [low, high] = [+found[1], +found[2]].sort((a, b) => a - b);
     if (low < 1 || low === high || high > data.models) return;
     const shown = section.dataset.show;
-    select(low, high, shown === "all" ? "combined" : shown);
+    select(low, high, shown === "all" ? "exact" : shown);
     section.scrollIntoView({ behavior: "instant" });
     const grid = grids.find((g) => g.offsetParent);
     fieldOf(grid, low, high).scrollIntoView({ block: "center", inline: "center", behavior: "instant" });
     panel.scrollIntoView({ block: "nearest", behavior: "instant" });
   };
   resize(cell);
-  choose(section.dataset.show === "all" && innerWidth > 700 ? "all" : "combined");
+  choose(section.dataset.show === "all" && innerWidth > 700 ? "all" : "exact");
   addEventListener("hashchange", follow);
   follow();
 })();

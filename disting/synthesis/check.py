@@ -1,0 +1,50 @@
+"""Candidates multiplied out: the coefficients of the chain's receptance, and their derivatives, as balls."""
+
+from dataclasses import dataclass
+
+from flint import acb, acb_poly
+
+from disting.invariants.transfer import Rational, receptance
+from disting.model.chain import Chain
+from disting.synthesis.ball import TOLERANCE, Ball, Imprecise
+from disting.synthesis.leaves import NONZERO, Dead
+from disting.synthesis.target import Exact, Target
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """Parameter values whose receptance agrees with the target within the balls; `width` as in Solution."""
+
+    values: dict[str, Ball]
+    gauges: int
+    width: float
+
+
+def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational:
+    """Receptance and gradients over balls."""
+    lifted = {name: acb_poly([value]) for name, value in values.items()}
+    return receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))
+
+
+def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) -> Checked | Dead:
+    """Compare every coefficient, the denominator made monic; a ball without the given coefficient refutes the candidate."""
+    raw = evaluated(chain, values)
+    lead = raw.den[raw.den.degree()]
+    width = 0.0
+    for ours, given in ((raw.num, target.numerator), (raw.den, target.denominator)):
+        for i, coefficient in enumerate(_padded(given, ours.degree())):
+            gap = ours[i] / lead - acb(coefficient)
+            if not gap.contains(0):
+                return NONZERO
+            width = max(width, float(gap.abs_upper() / acb(coefficient or _largest(given)).abs_lower()))
+    if width > TOLERANCE:
+        raise Imprecise("a solution is not sharp enough")
+    return Checked(values, gauges, width)
+
+
+def _padded(given: Exact, degree: int) -> list[Exact]:
+    return [given[i] for i in range(max(degree, given.degree()) + 1)]
+
+
+def _largest(given: Exact) -> Exact:
+    return max(abs(c) for c in given.coeffs())

@@ -1,0 +1,118 @@
+"""Damped, sensor at the free right end, force one spring before it: a = n - 1, b = n.
+
+The spring k = d (s + rho) between the ports contributes a zero -rho of N = nu A (s + rho). With t = d/m_b the last mass swings
+on its spring with q_t = s^2 + t (s + rho), and q_t divides D/s^2 - m N (free left end) resp. D + d (s + rho) N (wall). Modulo
+q_t both polynomials are linear in s, so their coefficients form a 2 x 2 determinant C(t) of degree 2n - 4 (free) resp. 2n - 3:
+every solution has C(t) = 0, and t gives the masses m_a = t/nu, m_b and the rest by peeling. Degrees: as t grows, q_t has a
+root near -rho and one near -t, and the root s' near -rho has s' + rho of order rho^2/t. For a free chain s^2 H = 1/M + 0 s +
+O(s^2), M the mass of the whole, which says C(0) = 0: a test, and one root less to look for.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from disting.algebra.sampling import residues
+from disting.synthesis.ball import Ball, Poly, cut, is_boundary, poly, product, roots, shifted, vanishes
+from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part
+from disting.synthesis.peel import Stiffness, grounded_at_zero, peel
+from disting.synthesis.segment import Data, Segment, splits
+
+
+@dataclass(frozen=True, slots=True)
+class Linear:
+    """A polynomial modulo q_t: slope (s + rho) + offset, both polynomials in t."""
+
+    slope: Poly
+    offset: Poly
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """One choice of the zero -rho; `others` are the zeros of A; gain = nu."""
+
+    segment: Segment
+    data: Data
+    rho: Ball
+    others: list[Ball]
+    gain: Ball
+
+    @property
+    def upper(self) -> Poly:
+        """D/s^2 (free) or D (wall)."""
+        return self.data.denominator if self.segment.wall else shifted(self.data.denominator, -2)
+
+    @property
+    def lower(self) -> Poly:
+        """N (free) or (s + rho) N (wall)."""
+        return self.data.numerator * poly([self.rho, 1]) if self.segment.wall else self.data.numerator
+
+
+def next_to_end(segment: Segment, data: Data) -> Iterator[Leaf]:
+    """Yield every damped segment with a = n - 1, b = n and this receptance; one-parameter families by a sample."""
+    zeros = roots(data.numerator, segment.numerator_degree)
+    for (z,), others in splits(zeros, 1):
+        gain = data.gain(segment)
+        yield from [BOUNDARY] if is_boundary(z) else _branch(Branch(segment, data, -z, others, gain))
+
+
+def _branch(branch: Branch) -> Iterator[Leaf]:
+    u, v = reduced(branch.upper, branch.rho), reduced(branch.lower, branch.rho)
+    degree = 2 * branch.segment.nodes - (3 if branch.segment.wall else 4)
+    determinant = cut(u.slope * v.offset - u.offset * v.slope, degree)
+    if not branch.segment.wall:
+        if not vanishes(determinant[0], branch.upper[0] * branch.lower[0]):
+            yield NONZERO
+            return
+        determinant, degree = shifted(determinant, -1), degree - 1
+    yield from _any_ratio(branch, u, v) if degree < 0 else _ratios(branch, u, v, roots(determinant, degree))
+
+
+def _ratios(branch: Branch, u: Linear, v: Linear, ratios: list[Ball]) -> Iterator[Leaf]:
+    for t in ratios:
+        yield from [BOUNDARY] if is_boundary(t) else _with_ratio(branch, u, v, t)
+
+
+def _any_ratio(branch: Branch, u: Linear, v: Linear) -> Iterator[Leaf]:
+    """Two free masses: C is zero for all t, a random one is the gauge."""
+    t = branch.rho * 0 + residues("synthesis:ratio", 1, 1 << 12)[0] / 512
+    for leaf in _with_ratio(branch, u, v, t):
+        yield replace(leaf, gauges=1) if isinstance(leaf, Part) else leaf
+
+
+def reduced(p: Poly, rho: Ball) -> Linear:
+    """p modulo s^2 + t (s + rho), from s^(k+1) = s s^k.
+
+    slope' = (rho - t) slope + offset, offset' = -rho^2 slope - rho offset.
+    """
+    slope, offset, total = poly([]), poly([1]), Linear(poly([]), poly([]))
+    for coefficient in p.coeffs():
+        total = Linear(total.slope + coefficient * slope, total.offset + coefficient * offset)
+        slope, offset = poly([rho, -1]) * slope + offset, -rho * rho * slope - rho * offset
+    return total
+
+
+def _with_ratio(branch: Branch, u: Linear, v: Linear, t: Ball) -> Iterator[Leaf]:
+    """The masses from t, then the peel of what is left of node a."""
+    top, bottom = u.slope(t), v.slope(t)
+    if is_boundary(bottom) or is_boundary(top):
+        yield BOUNDARY
+        return
+    ratio = top / bottom
+    m_b = ratio if not branch.segment.wall else -ratio / t
+    m_a = t / branch.gain
+    spring = t * m_b * poly([branch.rho, 1])
+    for leaf in peel(_left(branch, t, m_b, m_a)):
+        yield _attached(leaf, m_a, m_b, spring) if isinstance(leaf, Part) else leaf
+
+
+def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
+    """W_L = (m_a s^2 (D/s^2 - m_b N)/q_t - m_a s^2 A)/A; the remainder of the division is zero by the choice of t and m_b."""
+    nu, wall = branch.segment.nodes - 2, branch.segment.wall
+    denominator = product(branch.others)
+    quotient = (branch.data.denominator - m_b * shifted(branch.data.numerator, 2)) // poly([t * branch.rho, t, 1])
+    numerator = cut(m_a * (quotient - shifted(denominator, 2)), 2 * nu + 1)
+    return Stiffness(numerator if wall else grounded_at_zero(numerator, 2), denominator, nu, wall, 2)
+
+
+def _attached(left: Part, m_a: Ball, m_b: Ball, spring: Poly) -> Part:
+    return Part((*left.masses[::-1], m_a, m_b), (*left.springs[::-1], spring), left.gauges)

@@ -1,0 +1,135 @@
+"""All parameter vectors of a chain that realise a given receptance exactly: inverse network synthesis in ball arithmetic.
+
+The receptance H of a chain with a gap is R + F: the grounded part between the minus ports, the free part between the plus
+ports. 1. every subset of the poles for R (`poles`);  2. every chain with receptance R and every chain with F (`methods`); 3.
+every pair is multiplied out and compared. Where a ball leaves out a zero that every solution has, a branch is refuted; if all
+are, no solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls double the precision;
+what stays undecided at the last one is a special point.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+
+from flint import ctx
+
+from disting.model.chain import Chain
+from disting.model.structure import Damper, Mass, Spring
+from disting.model.symmetry import canonical
+from disting.synthesis.ball import Ball, Imprecise
+from disting.synthesis.check import Checked, checked
+from disting.synthesis.leaves import BOUNDARY, Dead, Leaf, Part, Reason, combined
+from disting.synthesis.methods import synthesise
+from disting.synthesis.poles import Split, pole_splits
+from disting.synthesis.result import Exclusions, Fibre, Solution, Status
+from disting.synthesis.segment import Segment
+from disting.synthesis.solutions import listed
+from disting.synthesis.target import Target, degrees_differ, is_regular
+
+PRECISIONS = (192, 384, 768, 1536, 3072, 5000)
+
+
+def fibre(chain: Chain, target: Target) -> Fibre:
+    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`."""
+    if chain.lag or chain.dead_time or chain.ground_dampers:
+        return Fibre(Status.NOT_COVERED, reason="lag, dead time and ground dampers are not covered")
+    form = canonical(chain)
+    found = _canonical_fibre(form.chain, target)
+    back = {here: given for given, here in form.renaming.items()}
+    return replace(found, solutions=tuple(_renamed(s, back, chain) for s in found.solutions))
+
+
+def segments(chain: Chain) -> tuple[Segment | None, Segment]:
+    """Grounded part (None without a gap) and free part."""
+    q, g = 2 if chain.damped else 1, chain.gap
+    low, high = sorted((chain.act_plus, chain.meas_plus))
+    free = Segment(chain.n_masses - g, low - g, high - g, False, q)
+    below, above = sorted((chain.act_minus, chain.meas_minus))
+    return (Segment(g, below, above, True, q) if g else None), free
+
+
+def _canonical_fibre(chain: Chain, target: Target) -> Fibre:
+    grounded, free = segments(chain)
+    q, n = free.q, chain.n_masses
+    whole = free if grounded is None else None
+    if q == 1 and not target.is_even:
+        return Fibre(Status.EMPTY, reason="a damped receptance has no undamped chain")
+    folded = target.folded(q)
+    if degrees_differ(folded, q, n, whole):
+        return Fibre(Status.EMPTY, reason="the degrees of numerator and denominator differ")
+    if not is_regular(folded, q, n, whole) or (q == 2 and target.is_even):
+        return Fibre(Status.DEGENERATE, reason="multiple or missing poles or zeros")
+    for bits in PRECISIONS:
+        with ctx.workprec(bits):
+            try:
+                return _judged(chain, target, list(_solutions(chain, target, folded, grounded, free)), bits)
+            except Imprecise as failure:
+                reason = str(failure)
+    return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
+
+
+def _solutions(
+    chain: Chain, target: Target, folded: Target, grounded: Segment | None, free: Segment
+) -> Iterator[Checked | Dead]:
+    """Every leaf, the parts multiplied out."""
+    for leaf in _leaves(folded, grounded, free):
+        yield _multiplied(chain, leaf, target) if isinstance(leaf, Part) else leaf
+
+
+def _multiplied(chain: Chain, part: Part, target: Target) -> Checked | Dead:
+    """The part checked; a member of a family that fails refutes nothing but itself."""
+    result = checked(chain, _named(part, chain), part.gauges, target)
+    return BOUNDARY if part.gauges and isinstance(result, Dead) else result
+
+
+def _leaves(folded: Target, grounded: Segment | None, free: Segment) -> Iterator[Leaf]:
+    data = folded.balls
+    if grounded is None:
+        yield from synthesise(free, data)
+        return
+    for split in pole_splits(data, grounded, free):
+        yield from [split] if isinstance(split, Dead) else _both(split, grounded, free)
+
+
+def _both(split: Split, grounded: Segment, free: Segment) -> Iterator[Leaf]:
+    """Every grounded chain with every free one."""
+    return combined(synthesise(grounded, split.grounded), lambda: synthesise(free, split.free), _joined)
+
+
+def _joined(a: Part, b: Part) -> Part:
+    return Part(a.masses + b.masses, a.springs + b.springs, a.gauges + b.gauges)
+
+
+def _named(part: Part, chain: Chain) -> dict[str, Ball]:
+    """Values by parameter name, in the structure's order."""
+    joints = [i for i in range(chain.n_masses) if i != chain.gap]
+    values = {Mass(i).parameter: m for i, m in enumerate(part.masses, 1)}
+    values |= {Spring(i).parameter: k[0] for i, k in zip(joints, part.springs, strict=True)}
+    return values | ({Damper(i).parameter: k[1] for i, k in zip(joints, part.springs, strict=True)} if chain.damped else {})
+
+
+def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solution:
+    """The solution in the parameters of the chain as given."""
+    values = {names[name]: value for name, value in solution.values.items()}
+    return replace(solution, values={name: values[name] for name in chain.parameters})
+
+
+def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], bits: int) -> Fibre:
+    """Status from what the branches ended in."""
+    count = Counter(leaf.reason for leaf in leaves if isinstance(leaf, Dead))
+    tests = Exclusions(count[Reason.NONZERO], count[Reason.BOUNDARY], count[Reason.OPEN])
+    solutions = listed(chain, [leaf for leaf in leaves if isinstance(leaf, Checked)], target, not tests.uncovered)
+    status, reason = _status(solutions, tests)
+    return Fibre(status, solutions, bits, tests, reason)
+
+
+def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status, str]:
+    if tests.uncovered:
+        return Status.NOT_COVERED, "a branch needs a method for non-collocated chains that is not provided"
+    if any(s.gauges for s in solutions):
+        return Status.INFINITE, "a family of solutions; one member per branch is listed"
+    if solutions:
+        return Status.COMPLETE, "all other branches are refuted" if not tests.boundary else "but for elements near zero"
+    if tests.boundary:
+        return Status.DEGENERATE, "an element cannot be told from zero"
+    return Status.EMPTY, "every branch is refuted"

@@ -1,0 +1,62 @@
+"""Which method serves which segment; the ports decide."""
+
+from collections.abc import Callable, Iterator
+
+from disting.synthesis.collocated import collocated
+from disting.synthesis.end import next_to_end
+from disting.synthesis.inner import DEGREE_LIMIT, degree_of, inner_neighbours
+from disting.synthesis.leaves import OPEN, Leaf
+from disting.synthesis.segment import Data, Segment, mirrored
+from disting.synthesis.undamped import neighbours, to_end
+
+Method = Callable[[Segment, Data], Iterator[Leaf]]
+
+
+def synthesise(segment: Segment, data: Data) -> Iterator[Leaf]:
+    """Yield the segments with this receptance; OPEN where no method serves."""
+    turned = not segment.wall and _rank(segment.mirrored) < _rank(segment)
+    method = method_of(segment.mirrored if turned else segment)
+    if method is None:
+        yield OPEN
+    else:
+        yield from map(mirrored, method(segment.mirrored, data)) if turned else method(segment, data)
+
+
+def is_covered(segment: Segment) -> bool:
+    """Whether a method serves this segment or its mirror image."""
+    return cost(segment) < _ORDER.index(None)
+
+
+def cost(segment: Segment) -> int:
+    """Rank of the method that serves this segment or its mirror image, cheapest first."""
+    return min(_rank(segment), _rank(segment if segment.wall else segment.mirrored))
+
+
+def method_of(segment: Segment) -> Method | None:
+    """The method for exactly these ports.
+
+    >>> method_of(Segment(3, 1, 3, wall=True, q=2)) is None
+    True
+    """
+    if segment.distance == 0:
+        return collocated
+    if segment.q == 2:
+        return _damped(segment)
+    if segment.b == segment.nodes:
+        return to_end
+    return neighbours if segment.distance == 1 else None
+
+
+def _damped(segment: Segment) -> Method | None:
+    if segment.distance > 1:
+        return None
+    if segment.b == segment.nodes:
+        return next_to_end
+    return inner_neighbours if degree_of(segment) <= DEGREE_LIMIT else None
+
+
+def _rank(segment: Segment) -> int:
+    return _ORDER.index(method_of(segment))
+
+
+_ORDER = (collocated, next_to_end, to_end, neighbours, inner_neighbours, None)  # cheapest first
