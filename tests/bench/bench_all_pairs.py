@@ -1,0 +1,57 @@
+"""What do conditions 1 to 5 on all pairs cost, and what would listing all sets of rows cost? Cold, one core, a process each."""
+
+import json
+from math import comb
+
+import pytest
+
+from disting import Engine, Family
+from disting.algebra.sampling import residues
+from disting.invariants.profile import samples
+from disting.invariants.sample import Representation
+from disting.model.symmetry import canonical
+from tests.bench.measure import in_fresh_process, seconds, table
+
+pytestmark = pytest.mark.bench
+CLASSES = [(5, True), (6, True), (7, True), (8, False), (8, True)]
+CODE = """
+import json, time
+from disting import Engine, Family, Query, View
+from tests.bench.measure import peak_mebibytes
+start = time.perf_counter()
+engine = Engine()
+subjects = [engine.subject(str(i), c) for i, c in enumerate(Family({n}, {damped}))]
+counts = engine.decisions(subjects, Query(View.TF, (1, 2, 3, 4, 5))).counts()
+print(json.dumps([time.perf_counter() - start, peak_mebibytes(), sum(counts.values())]))
+"""
+
+
+def listing(n: int, damped: bool) -> float:
+    """Seconds that the ranks of all binomial(N_MI, N_R) sets of rows would take, extrapolated from 300 sets a model."""
+    engine, total = Engine(), 0.0
+    chains = {canonical(c).chain for c in Family(n, damped)}
+    for chain in sorted(chains, key=repr)[:: max(1, len(chains) // 12)]:
+        profile = engine.subject("", chain).profile(Representation.TF, 0)
+        rows = [i for i, free in enumerate(profile.free) if free]
+        seen = next(samples(chain.structure, Representation.TF, 0, 1, "bench"))
+        sets = [tuple(rows[j] for j in _some(len(rows), profile.rank, k)) for k in range(300)]
+        each = seconds(lambda seen=seen, sets=sets: [seen.rank(s) for s in sets]) / 300
+        total += each * comb(len(rows), profile.rank)
+    return total * len(Family(n, damped)) / len(sorted(chains, key=repr)[:: max(1, len(chains) // 12)])
+
+
+def _some(size: int, count: int, k: int) -> list[int]:
+    keys = residues(f"subset:{k}", size, 1 << 61)
+    return sorted(sorted(range(size), key=keys.__getitem__)[:count])
+
+
+def test_all_pairs(benchmark) -> None:
+    benchmark.pedantic(lambda: in_fresh_process(CODE.format(n=5, damped=True)), rounds=2)
+    rows = []
+    for n, damped in CLASSES:
+        time, memory, pairs = json.loads(in_fresh_process(CODE.format(n=n, damped=damped)))
+        subsets = listing(n, damped)
+        name = f"{n} masses, {'damped' if damped else 'undamped'}"
+        rows.append((name, str(pairs), f"{time:.2f} s", f"{memory:.0f} MiB", f"{subsets:.2g} s", f"{subsets / time:.2g}"))
+    heads = ("class", "pairs", "time", "peak memory", "listing all row sets (extrapolated)", "ratio")
+    table("Conditions 1 to 5 on transfer-function coefficients, all pairs, cold", heads, rows)
