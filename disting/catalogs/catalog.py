@@ -168,7 +168,8 @@ class Catalog:
         names = (f"A{record['left']}", f"A{record['right']}")
         where, step = _deciding(record, view)
         if not step:
-            return Verdict(*names, Relation.UNDECIDED)
+            notes = ("the exact decision has no method for them",) if view is View.EXACT else ()
+            return Verdict(*names, Relation.UNDECIDED, notes=notes)
         certainty, evidence = Certainty(step["certainty"]), from_dict(step["evidence"])
         return Verdict(*names, _relation(step), step["decided_by"], where, certainty, step["safety"], evidence)
 

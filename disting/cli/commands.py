@@ -86,7 +86,7 @@ def report(options: argparse.Namespace) -> int:
         catalogs = [_catalog(n, damped, engine, pool, progress) for n in options.masses for damped in choices]
     paths = write_report(catalogs, options.out)
     for c in catalogs:
-        print(f"{c.name}: {_counted(c.counts())}, {len(c.classes())} indistinguishable groups")
+        print(f"{c.name}: {_counted(c.counts(View.EXACT))}, {len(c.classes(View.EXACT))} indistinguishable groups")
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
     return 0
 
