@@ -1,0 +1,85 @@
+"""Random points and primes: fixed by their label for ever, and error bounds that are what the formula says."""
+
+from collections import Counter
+from fractions import Fraction
+from math import log2
+
+import pytest
+from flint import fmpz
+from hypothesis import given
+from hypothesis import strategies as st
+
+from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, prime, residues, safety
+
+sizes = st.builds(Size, st.integers(1, 10**6), st.integers(1, 10**6))
+
+
+def test_residues_depend_on_the_label_alone():
+    assert residues("a", 3, 1000) == residues("a", 3, 1000)
+    assert residues("a", 3, 1000) != residues("b", 3, 1000)
+    assert residues("a", 5, 1000)[:3] == residues("a", 3, 1000)
+    assert residues("a", 0, 1000) == []
+
+
+def test_residues_of_today_are_those_of_tomorrow():
+    """Literal: a change would give every stored profile another point."""
+    assert residues("literal", 4, 101) == [3, 88, 14, 14]
+    assert prime("literal") == 2201840542103641267
+
+
+@pytest.mark.parametrize("modulus", [2, 3, 7])
+def test_residues_are_all_but_zero(modulus):
+    assert set(residues("all", 500, modulus)) == set(range(1, modulus))
+
+
+def test_residues_are_even():
+    count = Counter(residues("even", 6000, 7))
+    assert all(850 < count[r] < 1150 for r in range(1, 7))
+
+
+@pytest.mark.parametrize("bits", [SEARCH_BITS, PROOF_BITS])
+@pytest.mark.parametrize("label", ["a", "b", "disting:0"])
+def test_primes_have_their_bits(label, bits):
+    p = prime(label, bits)
+    assert p.bit_length() == bits
+    assert fmpz(p).is_prime()
+    assert prime(label, bits) == p
+
+
+def test_primes_of_different_labels_differ():
+    assert len({prime(str(i)) for i in range(50)}) == 50
+
+
+@given(sizes, st.integers(1, 5))
+def test_safety_is_the_floor_of_the_formula(size, points):
+    """miss = degree/2^60 + (1 + bits/60)/#primes, and b is the largest with miss^points <= 2^-b."""
+    primes = 3 * 2.0**60 / (5 * 61 * 0.6932)
+    miss = size.degree / 2.0**60 + (1 + size.bits / 60) / primes
+    b = safety(size, points)
+    assert miss**points <= 2.0**-b
+    assert miss**points > 2.0 ** -(b + 1)
+
+
+@given(sizes, st.integers(1, 5), st.integers(0, 10**5))
+def test_safety_falls_with_the_size_and_grows_with_the_points(size, points, more):
+    base = safety(size, points)
+    assert safety(Size(size.degree + more, size.bits), points) <= base
+    assert safety(Size(size.degree, size.bits + more), points) <= base
+    assert safety(size, points + 1) > base
+
+
+def test_the_number_of_primes_is_a_lower_bound():
+    """At least 3x/(5 ln x) primes from x to 2x (Rosser and Schoenfeld): so counted for smaller x."""
+    for bits in (8, 12, 16):
+        x = 2 ** (bits - 1)
+        counted = sum(fmpz(n).is_prime() for n in range(x, 2 * x))
+        assert counted >= 3 * x / (5 * bits * 0.6932)
+
+
+def test_vanishing_is_as_rare_as_the_bound_says():
+    """x (x - 1) .. (x - 4) vanishes at 4 of the points 1..p-1: Schwartz and Zippel allow degree/(p - 1)."""
+    p, hits = 101, 0
+    for x in residues("vanish", 10_000, p):
+        hits += any((x - root) % p == 0 for root in range(5))
+    assert Fraction(hits, 10_000) < Fraction(5, 100) * 11 / 10
+    assert log2(10_000 / hits) == pytest.approx(log2(100 / 4), abs=0.2)

@@ -1,0 +1,204 @@
+"""What is a chain and what is none; names of parameters; families."""
+
+from dataclasses import FrozenInstanceError
+
+import pytest
+from hypothesis import given, settings
+
+from disting import Chain, ConstraintViolation, Family, InputError, Relation, Sensor, compare
+from disting.model.constraints import CONSTRAINTS, Indices, violated
+from tests.laws.strategies import chains
+
+VALID = (3, 1, 1, 2, 1, 3)
+
+# --- (36) and (37): refused ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("indices", "equation", "text"),
+    [
+        ((3, 3, 1, 4, 1, 4), 36, "0 <= n_gap <= N_B - 1"),
+        ((3, -1, 0, 1, 0, 1), 36, "0 <= n_gap <= N_B - 1"),
+        ((3, 1, 2, 2, 1, 3), 36, "0 <= n_act- <= n_gap"),
+        ((3, 1, -1, 2, 1, 3), 36, "0 <= n_act- <= n_gap"),
+        ((3, 1, 1, 1, 1, 3), 36, "n_gap + 1 <= n_act+ <= N_B"),
+        ((3, 1, 1, 4, 1, 3), 36, "n_gap + 1 <= n_act+ <= N_B"),
+        ((3, 1, 1, 2, 2, 3), 36, "0 <= n_meas- <= n_gap"),
+        ((3, 1, 1, 2, -1, 3), 36, "0 <= n_meas- <= n_gap"),
+        ((3, 1, 1, 2, 1, 1), 36, "n_gap + 1 <= n_meas+ <= N_B"),
+        ((3, 1, 1, 2, 1, 4), 36, "n_gap + 1 <= n_meas+ <= N_B"),
+        ((3, 1, 0, 2, 1, 3), 37, "n_gap = 0 or n_act- > 0"),
+        ((3, 1, 1, 2, 0, 3), 37, "n_gap = 0 or n_meas- > 0"),
+    ],
+)
+def test_a_broken_constraint_is_named(indices, equation, text):
+    with pytest.raises(ConstraintViolation) as refusal:
+        Chain(*indices)
+    n, gap, act_minus, act_plus, meas_minus, meas_plus = indices
+    assert str(refusal.value) == (
+        f"constraint ({equation}) {text} is violated by N_B={n}, n_gap={gap}, "
+        f"n_act-={act_minus}, n_act+={act_plus}, n_meas-={meas_minus}, n_meas+={meas_plus}"
+    )
+
+
+def test_the_limits_themselves_are_allowed():
+    for indices in [VALID, (3, 2, 1, 3, 2, 3), (3, 2, 2, 3, 1, 3), (3, 0, 0, 1, 0, 3), (3, 0, 0, 3, 0, 1), (1, 0, 0, 1, 0, 1)]:
+        assert Chain(*indices).indices == indices
+
+
+def test_the_example_of_fig_9_is_refused():
+    """N_B = 3, n_gap = 1, n_act+ = 3, n_act- = 1, n_meas+ = 2, n_meas- = 0: the sensor does not see mass 1."""
+    with pytest.raises(ConstraintViolation, match=r"\(37\) n_gap = 0 or n_meas- > 0"):
+        Chain(3, 1, 1, 3, 0, 2)
+
+
+@pytest.mark.parametrize(
+    ("indices", "names"),
+    [
+        (VALID, []),
+        ((3, 0, 0, 2, 0, 1), ["reciprocity-breaking"]),
+        ((3, 1, 1, 3, 1, 3), ["reflection-breaking"]),
+        ((3, 0, 0, 3, 0, 3), ["reflection-breaking"]),
+        ((4, 0, 0, 3, 0, 2), ["reciprocity-breaking", "reflection-breaking"]),
+        ((3, 1, 1, 3, 0, 2), ["sensitivity", "reciprocity-breaking", "reflection-breaking"]),  # Fig. 9
+    ],
+)
+def test_which_constraints_are_broken(indices, names):
+    assert [c.name for c in violated(Indices(*indices), (36, 37, 38))] == names
+
+
+def test_nine_constraints():
+    assert [c.equation for c in CONSTRAINTS] == [36] * 5 + [37] * 2 + [38] * 2
+
+
+# --- (38): another numbering -----------------------------------------------------------------------------------------
+
+
+def test_a_chain_outside_38_is_a_model_with_another_number():
+    outside, listed = Chain(3, 0, 0, 3, 0, 3, damped=True), Family(3, damped=True)[1]
+    found = compare(outside, listed)
+    assert (found.relation, found.decided_by) == (Relation.INDISTINGUISHABLE, "6")
+    with pytest.raises(InputError, match="is not in the 3-mass family"):
+        Family(3).number(outside)
+
+
+# --- bad input -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"n_masses": 0},
+        {"n_masses": -1},
+        {"n_masses": 2.0},
+        {"n_masses": "2"},
+        {"n_masses": True},
+        {"n_masses": 2, "gap": None},
+        {"n_masses": 2, "meas_plus": 1.5},
+        {"n_masses": 2, "sensor": "speed"},
+        {"n_masses": 2, "ground_dampers": (0,)},
+        {"n_masses": 2, "ground_dampers": (3,)},
+        {"n_masses": 2, "ground_dampers": (1, -1)},
+        {"n_masses": 2, "ground_dampers": ("1",)},
+        {"n_masses": 2, "ground_dampers": (1.0,)},
+        {"n_masses": 2, "ground_dampers": (True,)},
+    ],
+    ids=str,
+)
+def test_bad_input(arguments):
+    with pytest.raises(InputError):
+        Chain(**arguments)
+
+
+def test_chains_are_values():
+    one, other = Chain(2, ground_dampers=(2, 1, 2)), Chain(2, ground_dampers=[1, 2], sensor="acceleration")
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one.ground_dampers == (1, 2)
+    assert one.sensor is Sensor.ACCELERATION
+    with pytest.raises(FrozenInstanceError):
+        one.gap = 1
+
+
+# --- parameters, texts -----------------------------------------------------------------------------------------------
+
+
+def test_parameters_in_fixed_order():
+    chain = Chain(3, 1, 1, 2, 1, 3, damped=True, ground_dampers=(3, 1), lag=True, dead_time=True)
+    assert chain.parameters == ("m1", "m2", "m3", "k01", "k23", "d01", "d23", "b1", "b3", "T1", "Td")
+
+
+def test_parameters_beyond_nine_masses_stay_apart():
+    names = Chain(12, damped=True).parameters
+    assert len(set(names)) == len(names) == 34
+    assert {"k89", "k9_10", "k10_11", "k11_12"} <= set(names)
+
+
+@settings(max_examples=50, deadline=None)
+@given(chains(dead_time=True))
+def test_numbers_of_parameters_and_states(chain):
+    springs = chain.n_masses - 1
+    expected = chain.n_masses + springs * (1 + chain.damped) + len(chain.ground_dampers) + chain.lag + chain.dead_time
+    assert len(set(chain.parameters)) == len(chain.parameters) == expected
+    assert chain.structure.n_states == 2 * chain.n_masses + chain.lag
+
+
+@pytest.mark.parametrize(("sensor", "order"), [("position", 0), ("velocity", 1), ("acceleration", 2)])
+def test_sensor_orders(sensor, order):
+    assert Sensor(sensor).order == order == Chain(1, sensor=sensor).structure.sensor_order
+
+
+def test_collocated_models_of_table_3():
+    assert [i for i, chain in enumerate(Family(3), 1) if chain.collocated] == [1, 4, 6, 8, 11]
+
+
+def test_a_chain_in_words():
+    assert str(Chain(2)) == "2 masses, gap 0, force 1-0, sensor 1-0"
+    assert str(Chain(2, 1, 1, 2, 1, 2, sensor="velocity", damped=True, ground_dampers=(1, 2), lag=True, dead_time=True)) == (
+        "2 masses, gap 1, force 2-1, sensor 2-1, velocity, damped, ground dampers 1+2, lag, dead time"
+    )
+
+
+# --- families --------------------------------------------------------------------------------------------------------
+
+
+def test_three_masses():
+    assert [chain.indices[1:] for chain in Family(3)] == [
+        (0, 0, 1, 0, 1),
+        (0, 0, 1, 0, 2),
+        (0, 0, 1, 0, 3),
+        (0, 0, 2, 0, 2),
+        (0, 0, 2, 0, 3),
+        (1, 1, 2, 1, 2),
+        (1, 1, 2, 1, 3),
+        (2, 1, 3, 1, 3),
+        (2, 1, 3, 2, 3),
+        (2, 2, 3, 1, 3),
+        (2, 2, 3, 2, 3),
+    ]
+
+
+@pytest.mark.parametrize("n_masses", [1, 2, 3, 4, 5])
+def test_numbers_and_order(n_masses):
+    family = Family(n_masses, damped=True, sensor=Sensor.POSITION)
+    assert [family.number(chain) for chain in family] == list(range(1, len(family) + 1))
+    assert [chain.indices for chain in family] == sorted({chain.indices for chain in family})
+    assert all(chain.damped and chain.sensor is Sensor.POSITION for chain in family)
+    assert family[1] == family.models[0]
+
+
+@pytest.mark.parametrize("number", [0, 12, -1, True, "1", 1.0])
+def test_numbers_that_are_none(number):
+    with pytest.raises(InputError, match="models 1 to 11"):
+        Family(3)[number]
+
+
+@pytest.mark.parametrize("n_masses", [0, -2, "3", True, 2.0])
+def test_families_that_are_none(n_masses):
+    with pytest.raises(InputError, match="at least one mass"):
+        Family(n_masses)
+
+
+def test_a_chain_with_extras_is_in_no_family():
+    with pytest.raises(InputError, match="not in the 2-mass family"):
+        Family(2).number(Chain(2, ground_dampers=(1,)))

@@ -1,0 +1,164 @@
+"""Structures as graphs: parts, unions, blocks; and the drawing in one line."""
+
+import pytest
+from hypothesis import given, settings
+
+from disting import Chain, Family
+from disting.model.drawing import LEGEND, text_drawing
+from disting.model.structure import GroundDamper, Spring, Structure
+from tests.laws.strategies import chains
+
+quick = settings(max_examples=40, deadline=None)
+
+
+def embeddings(part, whole):
+    return list(part.structure.embeddings(whole.structure))
+
+
+def without(structure, *elements):
+    kept = tuple(e for e in structure.elements if e not in elements)
+    return Structure(structure.n_masses, kept, structure.ports, structure.sensor_order, structure.lag, structure.dead_time)
+
+
+# --- embeddings ------------------------------------------------------------------------------------------------------
+
+
+@quick
+@given(chains(dead_time=True))
+def test_every_structure_is_a_part_of_itself(chain):
+    assert {i: i for i in range(chain.n_masses + 1)} in embeddings(chain, chain)
+
+
+@quick
+@given(chains())
+def test_a_structure_without_an_element_is_a_part_and_not_the_other_way_round(chain):
+    for element in chain.structure.elements:
+        if element.kind != "m":
+            part = without(chain.structure, element)
+            assert {i: i for i in range(chain.n_masses + 1)} in list(part.embeddings(chain.structure))
+            assert list(chain.structure.embeddings(part)) == []
+
+
+def test_a_shorter_chain_is_a_part_of_a_longer_one():
+    assert embeddings(Chain(2), Chain(3)) == [{0: 0, 1: 1, 2: 2}]
+    assert embeddings(Chain(3), Chain(2)) == []
+
+
+def test_a_shifted_run_in_the_middle():
+    """Force and sensor at mass 2 of 3: the pair to its left and the pair to its right."""
+    found = embeddings(Chain(2), Chain(3, act_plus=2, meas_plus=2))
+    assert sorted(sorted(m.items()) for m in found) == [[(0, 0), (1, 2), (2, 1)], [(0, 0), (1, 2), (2, 3)]]
+
+
+def test_a_grounded_part_stays_at_the_ground():
+    part = Chain(2, 1, 1, 2, 1, 2)
+    assert embeddings(part, Chain(3, 1, 1, 2, 1, 2)) == [{0: 0, 1: 1, 2: 2}]
+    assert embeddings(part, Chain(3, 2, 2, 3, 2, 3)) == []  # mass 2 is not joined to the ground
+
+
+def test_undamped_is_a_part_of_damped():
+    assert embeddings(Chain(3), Chain(3, damped=True)) == [{0: 0, 1: 1, 2: 2, 3: 3}]
+    assert embeddings(Chain(3, damped=True), Chain(3)) == []
+
+
+def test_without_lag_is_a_part_of_with_lag():
+    assert len(embeddings(Chain(2), Chain(2, lag=True))) == 1
+    assert embeddings(Chain(2, lag=True), Chain(2)) == []
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        Chain(3, meas_plus=2),
+        Chain(3, sensor="position"),
+        Chain(3, dead_time=True),
+        Chain(4, 1, 1, 2, 1, 2),
+    ],
+    ids=str,
+)
+def test_other_ports_sensors_and_dead_times_are_no_whole(other):
+    assert embeddings(Chain(3), other) == []
+
+
+@pytest.mark.parametrize(
+    ("mine", "theirs", "fits"),
+    [((), (1,), True), ((1,), (1,), True), ((1,), (2,), False), ((1,), (1, 3), True), ((1, 3), (3,), False)],
+)
+def test_ground_dampers_must_be_there(mine, theirs, fits):
+    left, right = (Chain(3, meas_plus=3, ground_dampers=masses) for masses in (mine, theirs))
+    assert bool(embeddings(left, right)) == fits
+
+
+# --- unions ----------------------------------------------------------------------------------------------------------
+
+
+@quick
+@given(chains(dead_time=True))
+def test_united_with_itself(chain):
+    assert chain.structure.united(chain.structure) == chain.structure
+
+
+@pytest.mark.parametrize(("one", "other", "both"), [((1,), (2,), (1, 2)), ((), (3,), (3,)), ((1, 2), (2, 3), (1, 2, 3))])
+def test_united_ground_dampers(one, other, both):
+    left, right, union = (Chain(3, damped=True, ground_dampers=masses).structure for masses in (one, other, both))
+    assert left.united(right) == right.united(left) == union
+
+
+def test_united_gaps_have_none():
+    left, right = Family(4, damped=True)[11].structure, Family(4, damped=True)[13].structure
+    whole = left.united(right)
+    assert whole.parameters == ("m1", "m2", "m3", "m4", "k01", "k12", "k23", "k34", "d01", "d12", "d23", "d34")
+    assert (left.blocks, right.blocks, whole.blocks) == (((1, 1), (2, 4)), ((1, 2), (3, 4)), ((1, 4),))
+    assert all(list(part.embeddings(whole)) for part in (left, right))
+
+
+def test_united_sizes_and_extras():
+    left, right = Chain(2, lag=True).structure, Chain(3, ground_dampers=(3,), dead_time=True).structure
+    whole = left.united(right)
+    assert (whole.n_masses, whole.lag, whole.dead_time, whole.n_states) == (3, True, True, 7)
+    assert whole.parameters == ("m1", "m2", "m3", "k12", "k23", "b3", "T1", "Td")
+
+
+# --- blocks ----------------------------------------------------------------------------------------------------------
+
+
+@quick
+@given(chains(max_masses=6))
+def test_a_gap_makes_two_blocks(chain):
+    n, gap = chain.n_masses, chain.gap
+    assert chain.structure.blocks == (((1, gap), (gap + 1, n)) if gap else ((1, n),))
+
+
+def test_blocks_of_a_structure_with_few_springs():
+    chain = Chain(4).structure
+    assert without(chain, Spring(2)).blocks == ((1, 2), (3, 4))
+    assert without(chain, Spring(1), Spring(3)).blocks == ((1, 1), (2, 3), (4, 4))
+    assert without(chain, GroundDamper(1)).blocks == ((1, 4),)
+
+
+# --- drawings --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("damped", [False, True])
+@pytest.mark.parametrize("n_masses", [1, 2, 3, 4, 5])
+def test_drawings_of_a_family_are_distinct(n_masses, damped):
+    drawings = [text_drawing(chain) for chain in Family(n_masses, damped)]
+    assert len(set(drawings)) == len(drawings)
+    assert not set(drawings) & {text_drawing(chain) for chain in Family(n_masses, not damped)} or n_masses == 1
+
+
+@pytest.mark.parametrize(
+    ("chain", "drawing"),
+    [
+        (Chain(1), "[1FS]"),
+        (Chain(2, damped=True, ground_dampers=(2,)), "[1FS]=[2],"),
+        (Chain(3, 2, 1, 3, 2, 3), "#~[1f]~[2s]   [3FS]"),
+        (Chain(3, 1, 1, 3, 1, 2, damped=True, ground_dampers=(1, 3)), "#=[1fs],   [2S]=[3F],"),
+    ],
+)
+def test_drawings(chain, drawing):
+    assert text_drawing(chain) == drawing
+
+
+def test_the_legend_names_every_sign():
+    assert all(sign in LEGEND for sign in "#~=,FfSs")
