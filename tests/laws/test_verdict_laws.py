@@ -178,8 +178,8 @@ def test_verdicts_do_not_depend_on_the_number_of_points(points):
 # --- all pairs at once are the pairs one by one ----------------------------------------------------------------------
 
 
-def assert_bucketed_as_pairwise(subjects, query):
-    found = ENGINE.decisions(subjects, query)
+def assert_bucketed_as_pairwise(subjects, query, engine=ENGINE):
+    found = engine.decisions(subjects, query)
     for i, j in combinations(range(len(subjects)), 2):
         one = decide(subjects[i], subjects[j], query)
         assert found.verdict(i, j) == found.verdict(j, i) == one
@@ -191,6 +191,12 @@ def assert_bucketed_as_pairwise(subjects, query):
 @pytest.mark.parametrize(("n_masses", "damped"), [(2, True), (3, False), (3, True), (4, False), (4, True)])
 def test_buckets_decide_as_pairs_do(n_masses, damped, view):
     assert_bucketed_as_pairwise(family(n_masses, damped), Query(view))
+
+
+@pytest.mark.parametrize("limit", [0, 36, 84])
+def test_buckets_decide_as_pairs_do_where_matroids_are_too_large(limit):
+    engine = Engine(Settings(subset_limit=limit))
+    assert_bucketed_as_pairwise([subject(chain, engine) for chain in Family(3, damped=True)], Query(), engine)
 
 
 def queries():

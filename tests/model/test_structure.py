@@ -115,6 +115,7 @@ def test_united_gaps_have_none():
 def test_united_sizes_and_extras():
     left, right = Chain(2, lag=True).structure, Chain(3, ground_dampers=(3,), dead_time=True).structure
     whole = left.united(right)
+    assert right.united(left).parameters == whole.parameters
     assert (whole.n_masses, whole.lag, whole.dead_time, whole.n_states) == (3, True, True, 7)
     assert whole.parameters == ("m1", "m2", "m3", "k12", "k23", "b3", "T1", "Td")
 
