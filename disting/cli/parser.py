@@ -4,6 +4,7 @@ import argparse
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from disting import __version__
 from disting.catalogs.files import shipped_folder
@@ -12,7 +13,9 @@ from disting.conditions.table import CONDITIONS
 from disting.model.chain import Sensor
 from disting.verdict import ALL_CONDITIONS
 
+LIST = "such as 1-5,8 (default: 1-9)"
 EXACTLY = "after the conditions, decide what they leave open by inverse network synthesis"
+Groups = Any  # the object that argparse gives for sub-commands has no public type
 DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
 EPILOG = (
     "conditions:\n"
@@ -46,12 +49,18 @@ def parser() -> argparse.ArgumentParser:
     top = _Parser(prog="disting", description=DESCRIPTION, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("--version", action="version", version=f"disting {__version__}")
     groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
-    masses = _whole(1)
+    for add in (_add_models, _add_compare, _add_verdicts, _add_report, _add_catalog, _add_cache):
+        add(groups)
+    return top
 
+
+def _add_models(groups: Groups) -> None:
     p = _command(groups, "models", commands.models, "the numbered list of all models of one size")
-    p.add_argument("masses", type=masses, metavar="N", help="number of masses")
+    p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
     _shared(p, damped=True, work=True)
 
+
+def _add_compare(groups: Groups) -> None:
     p = _command(groups, "compare", commands.compare, "one verdict, explained")
     p.add_argument("left", metavar="N:I", help="a model: masses:number, as 'disting models' lists it")
     p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
@@ -60,20 +69,24 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
     p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
 
+
+def _add_verdicts(groups: Groups) -> None:
     p = _command(groups, "verdicts", commands.verdicts, "all pairs of one size")
-    p.add_argument("masses", type=masses, metavar="N", help="number of masses")
+    p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
     _shared(p, damped=True, sensor=True, work=True)
-    p.add_argument(
-        "--conditions", type=_conditions, default=ALL_CONDITIONS, metavar="LIST", help="such as 1-5,8 (default: 1-9)"
-    )
+    p.add_argument("--conditions", type=_conditions, default=ALL_CONDITIONS, metavar="LIST", help=LIST)
     p.add_argument("--exact", action="store_true", help=EXACTLY)
     p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
-    p.add_argument("--markov", type=masses, default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)")
+    p.add_argument(
+        "--markov", type=_whole(1), default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)"
+    )
     p.add_argument("--csv", metavar="FILE", help="write the verdicts as CSV; - is standard output")
     p.add_argument("--json", metavar="FILE", help="write the verdicts with evidence as JSON; - is standard output")
 
+
+def _add_report(groups: Groups) -> None:
     p = _command(groups, "report", commands.report, "HTML pages, figures and tables of whole catalogues")
-    p.add_argument("masses", type=masses, nargs="+", metavar="N", help="numbers of masses")
+    p.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
     choice = p.add_mutually_exclusive_group()
     for name in ("damped", "undamped", "both"):
         choice.add_argument(f"--{name}", dest="damping", action="store_const", const=name, help=f"{name} models")
@@ -81,28 +94,27 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--out", type=Path, default=Path("reports"), metavar="DIR", help="folder to write to (default: reports)")
     _shared(p, work=True)
 
-    p = groups.add_parser("catalog", help="build or verify the precomputed catalogues", description="Precomputed catalogues.")
+
+def _add_catalog(groups: Groups) -> None:
+    what = "Precomputed catalogues."
+    p: argparse.ArgumentParser = groups.add_parser("catalog", help="build or verify them", description=what)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     q = _command(actions, "build", commands.build, "compute catalogues, undamped and damped")
-    q.add_argument("masses", type=masses, nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
     q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
     _shared(q, work=True)
     q = _command(actions, "verify", commands.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
-    q.add_argument("masses", type=masses, nargs="+", metavar="N", help="numbers of masses")
-    q.add_argument(
-        "--catalog",
-        type=Path,
-        default=shipped_folder(),
-        metavar="DIR",
-        help="folder to verify (default: the shipped one)",
-    )
+    q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("--catalog", type=Path, default=shipped_folder(), metavar="DIR", help="folder (default: the shipped one)")
     _shared(q, work=True)
 
-    p = groups.add_parser("cache", help="look at or empty the cache", description="The cache of profiles and verdicts.")
+
+def _add_cache(groups: Groups) -> None:
+    what = "The cache of profiles and verdicts."
+    p: argparse.ArgumentParser = groups.add_parser("cache", help="look at or empty the cache", description=what)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     _command(actions, "info", commands.cache_info, "where the cache is and what it holds")
     _command(actions, "clear", commands.cache_clear, "remove all entries")
-    return top
 
 
 class _Parser(argparse.ArgumentParser):
@@ -112,7 +124,7 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"disting: {message}; see '{self.prog} --help'\n")
 
 
-def _command(groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
+def _command(groups: Groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
     parser: argparse.ArgumentParser = groups.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
     parser.set_defaults(run=run)
     return parser
