@@ -418,6 +418,16 @@ def test_witnesses_use_points_of_their_own():
     assert all(one.memo[key] != other.memo[key] for key in one.memo)
 
 
+@often
+@with_examples
+@given(pair=any_pair)
+def test_every_condition_reports_in_order_under_its_own_number(pair):
+    found = list(steps(*(subject(chain) for chain in pair), Query()))
+    expected = [("tf", range(1, 8)), ("markov", range(1, 8)), ("structure", (8, 9))]
+    assert [(s.representation, s.finding.number) for s in found] == [(where, n) for where, numbers in expected for n in numbers]
+    assert all(bool(s.finding.evidence) == (s.relation is not Relation.UNDECIDED) for s in found)
+
+
 # --- plain data ------------------------------------------------------------------------------------------------------
 
 
