@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from disting import Chain, Engine, Family, Settings
 from disting.algebra.matroid import rank_in
-from disting.algebra.sampling import Size, safety
+from disting.algebra.sampling import Size, prime, safety
 from disting.invariants.codec import profile_from_json, profile_to_json
 from disting.invariants.expanded import expanded
 from disting.invariants.profile import Unsearched, from_samples, minor_size, profile, samples
@@ -160,6 +160,13 @@ def test_one_special_point_among_others_does_no_harm():
     assert (expected.rank, expected.free) == (2, (True, True, True))
     for seen in ([good, bad], [bad, good]):
         assert from_samples(seen, search, frozenset(), (2, 0), 0, 1, Size(4, 4), Settings()) == expected
+
+
+def test_constants_are_fractions_whatever_the_primes():
+    primes, names = [prime("one"), LARGE, SMALL], ("b0", "b1")
+    *seen, search = (sample([[1], [0]], [5, 2 * pow(3, -1, p)], names, p) for p in primes)
+    found = from_samples(seen, search, frozenset(), (1, 0), 0, 1, Size(4, 4), Settings())
+    assert found.constants == ("", "2/3")
 
 
 def test_points_and_primes_are_independent_of_each_other():

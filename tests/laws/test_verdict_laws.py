@@ -398,6 +398,19 @@ def test_evidence_of_another_pair_is_refused(kind):
     assert not WITNESS.confirms(found.evidence, found.representation, pair[0], OTHER[1])
 
 
+def test_a_supermodel_of_larger_rank_is_refused():
+    """The chain without gap has rank 8, its two parts have 7."""
+    left, right = Family(4)[11], Family(4)[13]
+    names = left.structure.united(right.structure).parameters
+    assert not any(WITNESS.confirms(Supermodel(names, rank), "structure", left, right) for rank in (6, 7, 8))
+
+
+def test_a_whole_of_larger_rank_is_refused():
+    part, whole = Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(1, 2))
+    numbering = ((0, 0), (1, 1), (2, 2))
+    assert not any(WITNESS.confirms(Embedding(True, numbering, rank), "structure", part, whole) for rank in (5, 6))
+
+
 @quick
 @given(pair=similar_pairs(), other=similar_pairs())
 def test_evidence_of_one_pair_never_decides_another_one_wrongly(pair, other):
@@ -422,10 +435,12 @@ def test_witnesses_use_points_of_their_own():
 @with_examples
 @given(pair=any_pair)
 def test_every_condition_reports_in_order_under_its_own_number(pair):
-    found = list(steps(*(subject(chain) for chain in pair), Query()))
-    expected = [("tf", range(1, 8)), ("markov", range(1, 8)), ("structure", (8, 9))]
-    assert [(s.representation, s.finding.number) for s in found] == [(where, n) for where, numbers in expected for n in numbers]
-    assert all(bool(s.finding.evidence) == (s.relation is not Relation.UNDECIDED) for s in found)
+    parts = [("tf", range(1, 8)), ("markov", range(1, 8)), ("structure", (8, 9))]
+    expected = [(where, number) for where, numbers in parts for number in numbers]
+    for count in (0, 3):
+        found = list(steps(*(subject(chain) for chain in pair), Query(markov=count)))
+        assert [(s.representation, s.finding.number) for s in found] == expected
+        assert all(bool(s.finding.evidence) == (s.relation is not Relation.UNDECIDED) for s in found)
 
 
 # --- plain data ------------------------------------------------------------------------------------------------------
