@@ -1,7 +1,7 @@
 """Profiles as JSON text and back: what a cache keeps. Never pickled, so that a foreign file can do no harm."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from typing import Any
 
 from disting.algebra.matroid import Component, Matroid
@@ -11,7 +11,8 @@ from disting.invariants.sample import Representation
 
 def profile_to_json(profile: Profile) -> str:
     """Compact JSON text of a profile."""
-    data = asdict(profile) | {"proven_zeros": sorted(profile.proven_zeros)}
+    data = {f.name: getattr(profile, f.name) for f in fields(profile)} | {"proven_zeros": sorted(profile.proven_zeros)}
+    data["matroid"] = asdict(profile.matroid) if isinstance(profile.matroid, Unsearched) else _plain(profile.matroid)
     return json.dumps(data, separators=(",", ":"))
 
 
@@ -30,6 +31,11 @@ def profile_from_json(text: str) -> Profile:
             "proven_zeros": frozenset(data["proven_zeros"]),
         }
     )
+
+
+def _plain(m: Matroid) -> dict[str, Any]:
+    components = [{"rows": c.rows, "rank": c.rank, "dual": c.dual, "flats": c.flats} for c in m.components]
+    return {"size": m.size, "rank": m.rank, "components": components}
 
 
 def _matroid(data: dict[str, Any]) -> Matroid | Unsearched:

@@ -38,17 +38,23 @@ def forms(chain: Chain) -> Iterator[Form]:
     >>> len({form.chain for form in forms(Chain(3, 0, 0, 1, 0, 2))})
     4
     """
-    for chosen in product((False, True), repeat=3):
-        symmetries = tuple(s for s, on in zip(Symmetry, chosen, strict=True) if on)
-        yield _apply(chain, symmetries)
+    for chosen in _choices():
+        yield Form(_moved(chain, chosen), chosen, _renaming(chain, chosen))
 
 
 def canonical(chain: Chain) -> Form:
     """The equivalent form with the smallest indices and ground dampers: equal for chains that are renamings by symmetry."""
-    return min(forms(chain), key=lambda form: (form.chain.indices, form.chain.ground_dampers, len(form.symmetries)))
+    moved = {chosen: _moved(chain, chosen) for chosen in _choices()}
+    best = min(moved, key=lambda chosen: (moved[chosen].indices, moved[chosen].ground_dampers, len(chosen)))
+    return Form(moved[best], best, _renaming(chain, best))
 
 
-def _apply(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Form:
+def _choices() -> Iterator[tuple[Symmetry, ...]]:
+    for chosen in product((False, True), repeat=3):
+        yield tuple(s for s, on in zip(Symmetry, chosen, strict=True) if on)
+
+
+def _moved(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Chain:
     act, meas = chain.act_plus, chain.meas_plus
     act_minus, meas_minus = chain.act_minus, chain.meas_minus
     if Symmetry.RECIPROCITY_FREE in symmetries:
@@ -60,7 +66,7 @@ def _apply(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Form:
     def fold(i: int) -> int:
         return chain.gap + 1 + chain.n_masses - i if mirrored and i > chain.gap else i
 
-    moved = replace(
+    return replace(
         chain,
         act_minus=act_minus,
         act_plus=fold(act),
@@ -68,9 +74,12 @@ def _apply(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Form:
         meas_plus=fold(meas),
         ground_dampers=tuple(fold(i) for i in chain.ground_dampers),
     )
+
+
+def _renaming(chain: Chain, symmetries: tuple[Symmetry, ...]) -> dict[str, str]:
+    mirrored = Symmetry.REFLECTION in symmetries
     renaming = {e.parameter: _folded(e, chain, mirrored).parameter for e in chain.structure.elements}
-    renaming |= {p: p for p in chain.parameters if p not in renaming}
-    return Form(moved, symmetries, renaming)
+    return renaming | {p: p for p in chain.parameters if p not in renaming}
 
 
 def _folded(element: Element, chain: Chain, mirrored: bool) -> Element:
