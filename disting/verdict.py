@@ -2,7 +2,7 @@
 
 Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then structure (8 and 9). A
 necessary condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is
-UNDECIDED, or, where it is asked for, left to the exact decision.
+left to the exact decision; what it cannot settle is UNDECIDED. The paper's view ends with the conditions.
 All of it is over the complex numbers: distinguishable models are so over real and positive parameters too (real and positive
 points are Zariski dense), while indistinguishable ones need be so over positive parameters only where a renaming tells it.
 """
@@ -35,7 +35,7 @@ class Relation(StrEnum):
 
 
 class View(StrEnum):
-    """Which representations may decide; `combined` also lets the structure decide, `exact` then the exact decision."""
+    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds the exact decision."""
 
     TF = "tf"
     MARKOV = "markov"
@@ -60,7 +60,7 @@ class Domain(StrEnum):
 class Query:
     """What may be used to decide: the view, the conditions' numbers, the number of Markov parameters (0 = all)."""
 
-    view: View = View.COMBINED
+    view: View = View.EXACT
     conditions: tuple[int, ...] = ALL_CONDITIONS
     markov: int = 0
 
@@ -122,7 +122,7 @@ class Verdict:
             return f"{head} (exact decision): {self.evidence.sentence(self.left, self.right)}"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
-            return f"{self.left} and {self.right} are undecided: no condition settles them{why}."
+            return f"{self.left} and {self.right} are undecided: nothing settles them{why}."
         where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
         return f"{head} (condition {self.decided_by}, {where}): {self.evidence.sentence(self.left, self.right)}"
 

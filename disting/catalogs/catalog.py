@@ -77,19 +77,19 @@ class Catalog:
         header = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self.records[0].items()}
         return header | {f"software {k}": v for k, v in _software().items()}
 
-    def verdict(self, left: int, right: int, view: View = View.COMBINED) -> Verdict:
+    def verdict(self, left: int, right: int, view: View = View.EXACT) -> Verdict:
         """The stored verdict on two different models, numbered from 1; `left` and `right` as asked, evidence in order."""
         low, high = sorted((left, right))
         if low == high or not 1 <= low <= high <= len(self.family):
             raise InputError(f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not {left}:{right}")
         return self._verdict(self._pair(low, high), view)
 
-    def pairs(self, view: View = View.COMBINED) -> Iterator[tuple[int, int, Verdict]]:
+    def pairs(self, view: View = View.EXACT) -> Iterator[tuple[int, int, Verdict]]:
         """Yield (left, right, verdict) for all pairs left < right."""
         for record in self.records[1 + len(self.family) :]:
             yield record["left"], record["right"], self._verdict(record, view)
 
-    def relation(self, left: int, right: int, view: View = View.COMBINED) -> Relation:
+    def relation(self, left: int, right: int, view: View = View.EXACT) -> Relation:
         """Relation of two models, without building the verdict."""
         low, high = sorted((left, right))
         return _relation(_deciding(self._pair(low, high), view)[1])
@@ -100,7 +100,7 @@ class Catalog:
         group = {m: number for number, members in enumerate(self.classes(View.EXACT), 1) for m in members}
         return tuple(self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)])
 
-    def classes(self, view: View = View.COMBINED) -> tuple[tuple[int, ...], ...]:
+    def classes(self, view: View = View.EXACT) -> tuple[tuple[int, ...], ...]:
         """Groups of two or more mutually indistinguishable models.
 
         Indistinguishability is transitive, so the groups are the connected components; raises CatalogError where the
@@ -118,12 +118,12 @@ class Catalog:
                 raise CatalogError(f"{self.name} is inconsistent: the group {members} holds a distinguishable pair")
         return tuple(groups)
 
-    def counts(self, view: View = View.COMBINED) -> dict[str, int]:
+    def counts(self, view: View = View.EXACT) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
         found = Counter(_deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
         return {"": 0} | dict(sorted(found.items()))
 
-    def matrix(self, view: View = View.COMBINED) -> "pd.DataFrame":
+    def matrix(self, view: View = View.EXACT) -> "pd.DataFrame":
         """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the diagonal."""
         import pandas as pd
 
@@ -144,13 +144,13 @@ class Catalog:
         ]
         return pd.DataFrame(rows).set_index("model")
 
-    def to_csv(self, view: View = View.COMBINED) -> str:
+    def to_csv(self, view: View = View.EXACT) -> str:
         """All verdicts as CSV text."""
         return csv_text(
             (i, j, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound) for i, j, v in self.pairs(view)
         )
 
-    def to_json(self, view: View = View.COMBINED) -> str:
+    def to_json(self, view: View = View.EXACT) -> str:
         """All verdicts with evidence and sentences as JSON text."""
         verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
         return json.dumps({"header": self.records[0], "view": view.value, "verdicts": verdicts}, ensure_ascii=False) + "\n"

@@ -20,7 +20,7 @@ from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.verdict import RULE_NAMES, Query, Verdict, View
 
-VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.COMBINED}
+VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
 
 
 def models(options: argparse.Namespace) -> int:
@@ -52,11 +52,11 @@ def compare(options: argparse.Namespace) -> int:
     sensor = Sensor(options.sensor)
     references = [_reference(text) for text in (options.left, options.right)]
     chains = [Family(n, options.damped, sensor)[number] for n, number in references]
-    view = View.EXACT if options.exact else View.COMBINED
-    verdict = _shipped(references, options.damped, view) if sensor is Sensor.ACCELERATION else None
+    query = _query(options.conditions, View.EXACT)
+    verdict = _shipped(references, options.damped, query) if sensor is Sensor.ACCELERATION else None
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
-            verdict = compare_chains(*chains, query=Query(view), engine=engine)
+            verdict = compare_chains(*chains, query=query, engine=engine)
     print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False) if options.json else _explained(verdict, chains))
     return 0
 
@@ -64,7 +64,7 @@ def compare(options: argparse.Namespace) -> int:
 def verdicts(options: argparse.Namespace) -> int:
     """Decide all pairs of one size."""
     family = Family(options.masses, options.damped, Sensor(options.sensor))
-    query = Query(_view(options), options.conditions, options.markov)
+    query = _query(options.conditions, VIEWS[options.representation], options.markov)
     with engine_for(options) as (engine, pool, progress):
         subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
         decided = engine.decisions(subjects, query, executor=pool, progress=progress)
@@ -135,16 +135,18 @@ def cache_clear(options: argparse.Namespace) -> int:
     return 0
 
 
-def _view(options: argparse.Namespace) -> View:
-    if options.exact and options.representation != "all":
-        raise InputError("--exact comes after all conditions, so it goes with --representation all")
-    return View.EXACT if options.exact else VIEWS[options.representation]
+def _query(conditions: tuple[int, ...] | None, view: View, markov: int = 0) -> Query:
+    """Conditions that are named decide alone: the exact decision belongs to the default."""
+    if conditions is None:
+        return Query(view, markov=markov)
+    return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
 
 
-def _shipped(references: list[tuple[int, int]], damped: bool, view: View) -> Verdict | None:
-    """The stored verdict of a shipped pair."""
+def _shipped(references: list[tuple[int, int]], damped: bool, query: Query) -> Verdict | None:
+    """The stored verdict of a shipped pair, if all conditions may decide."""
     (n, left), (m, right) = references
-    return catalog(n, damped=damped).verdict(left, right, view) if n == m in SHIPPED_SIZES and left != right else None
+    stored = n == m in SHIPPED_SIZES and left != right and query == Query(query.view)
+    return catalog(n, damped=damped).verdict(left, right, query.view) if stored else None
 
 
 def _catalog(n: int, damped: bool, engine: Engine, pool: Executor | None, progress: Progress) -> Catalog:

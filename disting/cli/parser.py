@@ -11,10 +11,8 @@ from disting.catalogs.files import shipped_folder
 from disting.cli import commands
 from disting.conditions.table import CONDITIONS
 from disting.model.chain import Sensor
-from disting.verdict import ALL_CONDITIONS
 
-LIST = "such as 1-5,8 (default: 1-9)"
-EXACTLY = "after the conditions, decide what they leave open by inverse network synthesis"
+LIST = "decide by these conditions only, such as 1-5,8; 1-9 is the paper's view (default: all, then the exact decision)"
 Groups = Any  # the object that argparse gives for sub-commands has no public type
 DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
 EPILOG = (
@@ -65,7 +63,7 @@ def _add_compare(groups: Groups) -> None:
     p.add_argument("left", metavar="N:I", help="a model: masses:number, as 'disting models' lists it")
     p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
     _shared(p, damped=True, sensor=True)
-    p.add_argument("--exact", action="store_true", help=EXACTLY)
+    p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
     p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
     p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
 
@@ -74,8 +72,7 @@ def _add_verdicts(groups: Groups) -> None:
     p = _command(groups, "verdicts", commands.verdicts, "all pairs of one size")
     p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
     _shared(p, damped=True, sensor=True, work=True)
-    p.add_argument("--conditions", type=_conditions, default=ALL_CONDITIONS, metavar="LIST", help=LIST)
-    p.add_argument("--exact", action="store_true", help=EXACTLY)
+    p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
     p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
     p.add_argument(
         "--markov", type=_whole(1), default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)"

@@ -157,6 +157,28 @@ class Supermodel:
 
 
 @dataclass(frozen=True, slots=True)
+class Theorem:
+    """Exact decision: a theorem of that `name` says that both models are the same for all parameters."""
+
+    kind: ClassVar[str] = "theorem"
+    name: str
+
+    def sentence(self, left: str, right: str) -> str:
+        """What the theorem says of this pair."""
+        if self.name == "duality":
+            return (
+                f"{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled, "
+                "over positive parameters too."
+            )
+        return f"{left} and {right} are one model after exchanging ports or mirroring a part, over positive parameters too."
+
+    @property
+    def formula(self) -> str:
+        """The theorem by name."""
+        return f"{self.name} theorem"
+
+
+@dataclass(frozen=True, slots=True)
 class FibreAt:
     """Exact decision: the fibre of one model over the transfer function of the other at a rational parameter point.
 
@@ -182,11 +204,6 @@ class FibreAt:
                 f"For one choice of rational parameters of {given} no parameters of {searched}, real or complex, give the same "
                 "transfer function: every branch of the inverse synthesis is refuted."
             )
-        if self.grounds == "theorem":
-            return (
-                f"{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled, "
-                "over positive parameters too."
-            )
         how = "proven to exist" if self.grounds == "construction" else f"found to {self.decades} decimal places, not proven"
         return (
             f"For one choice of rational parameters of {given}, parameters of {searched} with the same transfer function are "
@@ -198,11 +215,11 @@ class FibreAt:
         """The size of the fibre."""
         if self.grounds == "refuted":
             return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
-        return "left and right are dual" if self.grounds == "theorem" else f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
+        return f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
 
 
-Evidence = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel | FibreAt
-_ALL: tuple[type[Evidence], ...] = (Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel, FibreAt)
+Evidence = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel | Theorem | FibreAt
+_ALL: tuple[type[Evidence], ...] = (Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel, Theorem, FibreAt)
 _KINDS = {c.kind: c for c in _ALL}
 
 

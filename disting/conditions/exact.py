@@ -14,19 +14,25 @@ have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a
 up to DRAWS points are drawn.
 """
 
+from dataclasses import replace
 from math import ceil, log2, log10
 
-from disting.conditions.evidence import FibreAt
+from disting.conditions.evidence import FibreAt, Theorem
 from disting.conditions.finding import Certainty, Finding, Grade, Outcome
 from disting.model.chain import Chain
+from disting.model.symmetry import canonical
 from disting.settings import Settings
 from disting.synthesis.decide import DRAWS, POINT_BITS, Direction, Exact, Grounds, Membership, decide
+from disting.synthesis.duality import are_dual
 
 EXACT = 10  # number of the exact decision, after the nine conditions
 
 
 def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """Exact decision for two chains of equal rank; equal size, damping and sensor, no lag, dead time or ground dampers."""
+    named = theorem(a, b)
+    if named:
+        return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
     if not _covered(a, b):
         return Finding(EXACT, Outcome.INAPPLICABLE, note="the exact decision covers plain chains of equal size and damping")
     found = decide(a, b, settings.seed)
@@ -34,6 +40,24 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
     outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
     return Finding(EXACT, outcome, *_grade(found, a.n_masses), _evidence(found))
+
+
+def mirrored(finding: Finding) -> Finding:
+    """The finding on the pair in the other order."""
+    if not isinstance(finding.evidence, FibreAt):
+        return finding
+    return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
+
+
+def theorem(a: Chain, b: Chain) -> str:
+    """Name of the theorem by which two chains are the same for all parameters; "" if there is none.
+
+    >>> theorem(Chain(2), Chain(2, 1, 1, 2, 1, 2))
+    'duality'
+    """
+    if canonical(a).chain == canonical(b).chain:
+        return "symmetry"
+    return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
 
 
 def safety_of_point(n_masses: int, unknowns: int) -> int:
@@ -47,8 +71,6 @@ def _covered(a: Chain, b: Chain) -> bool:
 
 
 def _grade(found: Exact, n_masses: int) -> Grade:
-    if found.grounds in (Grounds.THEOREM, Grounds.RENAMING):
-        return Certainty.THEOREM, 0
     if found.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION):
         return Certainty.BOUNDED, safety_of_point(n_masses, len(found.point))
     return Certainty.NUMERICAL, 0

@@ -6,8 +6,10 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
-from disting.conditions.exact import EXACT, exact_finding
+from disting.conditions.codec import finding_from_json, finding_to_json
+from disting.conditions.exact import EXACT, exact_finding, mirrored
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.question import Answerer, Question, computed
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
@@ -15,30 +17,37 @@ from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.settings import Settings
 
-ExactSource = Callable[[Chain, Chain, Settings], Finding]
 ProfileSource = Callable[[Structure, Representation, int, Settings], Profile]
+EXACTLY = Question("exact decisions", exact_finding, finding_to_json, finding_from_json)
 
 
 @dataclass(frozen=True)
 class Subject:
-    """`source` yields profiles, `exact_source` exact decisions; a cache may stand in for both computations."""
+    """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both computations."""
 
     name: str
     chain: Chain
     settings: Settings = field(default_factory=Settings)
     source: ProfileSource = profile
-    exact_source: ExactSource = exact_finding
+    answerer: Answerer = computed
 
     def profile(self, representation: Representation, count: int) -> Profile:
         """Profile of the canonical form, which all symmetric chains share."""
         return self.source(self.canonical.chain.structure, representation, count, self.settings)
 
     def exact(self, other: "Subject") -> Finding:
-        """The exact decision on the canonical forms of both, for equal ranks."""
+        """The exact decision on the canonical forms of both, for equal ranks; the pair's order does not matter."""
         ranks = {s.profile(Representation.TF, 0).rank for s in (self, other)}
         if len(ranks) > 1:
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
-        return self.exact_source(self.canonical.chain, other.canonical.chain, self.settings)
+        first, second = self.in_order(other)
+        found = self.answerer(EXACTLY, first, second, self.settings)
+        return found if first == self.canonical.chain else mirrored(found)
+
+    def in_order(self, other: "Subject") -> tuple[Chain, Chain]:
+        """The canonical forms of both, in an order of their own, so that a pair is asked about once."""
+        here, there = sorted((self.canonical.chain, other.canonical.chain), key=lambda c: (c.indices, c.ground_dampers, c.lag))
+        return here, there
 
     @cached_property
     def canonical(self) -> Form:

@@ -2,7 +2,19 @@
 
 from dataclasses import dataclass, field
 
-from disting.conditions.evidence import Counts, Embedding, Evidence, FibreAt, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.conditions.evidence import (
+    Counts,
+    Embedding,
+    Evidence,
+    FibreAt,
+    Forms,
+    FreeChoice,
+    Ranks,
+    Renaming,
+    Supermodel,
+    Theorem,
+)
+from disting.conditions.exact import theorem
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation, Sample
@@ -10,7 +22,6 @@ from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.synthesis.decide import Grounds
-from disting.synthesis.duality import are_dual
 from disting.synthesis.fibre import fibre
 from disting.synthesis.result import Status
 from disting.synthesis.target import fraction, target
@@ -48,6 +59,8 @@ class Witness:
                 part, whole = (a, b) if evidence.left_is_submodel else (b, a)
                 fits = dict(evidence.numbering) in list(part.embeddings(whole))
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
+            case Theorem():
+                return theorem(left, right) == evidence.name
             case FibreAt():
                 return self._fibre(evidence, left, right)
             case Supermodel():
@@ -59,11 +72,9 @@ class Witness:
                 return same and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b, third))
 
     def _fibre(self, evidence: FibreAt, a: Chain, b: Chain) -> bool:
-        """The fibre over the stored point once more, or the theorem."""
+        """The fibre over the stored point once more."""
         a, b = canonical(a).chain, canonical(b).chain
         given, searched = (a, b) if evidence.left_given else (b, a)
-        if evidence.grounds == Grounds.THEOREM:
-            return are_dual(a, b)
         found = fibre(searched, target(given.structure, {name: fraction(value) for name, value in evidence.point}))
         refuted = evidence.grounds == Grounds.REFUTED
         return found.status is Status.EMPTY if refuted else len(found.solutions) == evidence.solutions > 0

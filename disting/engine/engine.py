@@ -13,10 +13,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import exact_finding
-from disting.conditions.finding import Finding
-from disting.conditions.subject import Subject
+from disting.conditions.question import Question
+from disting.conditions.subject import EXACTLY, Subject
 from disting.engine.decisions import Decisions, decisions
 from disting.engine.store import Store
 from disting.invariants.codec import profile_from_json, profile_to_json
@@ -40,16 +38,16 @@ def silent(what: str, done: int, total: int) -> None:
 
 @dataclass
 class Engine:
-    """Compares models with a store behind it; what is computed once in a process is kept in `memo` and `findings`."""
+    """Compares models with a store behind it; what is computed once in a process is kept in `memo` and `answers`."""
 
     settings: Settings = field(default_factory=Settings)
     store: Store = field(default_factory=lambda: Store.open(""))
     memo: dict[str, Profile] = field(default_factory=dict)
-    findings: dict[str, Finding] = field(default_factory=dict)
+    answers: dict[str, Any] = field(default_factory=dict)
 
     def subject(self, name: str, chain: Chain) -> Subject:
         """A side of a comparison whose profiles come from this engine."""
-        return Subject(name, chain, self.settings, self.profile, self.exact)
+        return Subject(name, chain, self.settings, self.profile, self.answer)
 
     def profile(self, structure: Structure, representation: Representation, count: int, settings: Settings) -> Profile:
         """The profile, from memory, from the store, or computed and stored."""
@@ -62,12 +60,13 @@ class Engine:
             self.memo[key] = found[key]
         return self.memo[key]
 
-    def exact(self, left: Chain, right: Chain, settings: Settings) -> Finding:
-        """The exact decision, from memory, from the store, or computed and stored."""
-        key = exact_key(left, right, settings)
-        if key not in self.findings:
-            self._exactly([(left, right)], None, silent)
-        return self.findings[key]
+    def answer(self, question: Question[T], left: Chain, right: Chain, settings: Settings) -> T:
+        """The answer about a pair, from memory, from the store, or computed and stored."""
+        key = question_key(question, left, right, settings)
+        if key not in self.answers:
+            self.answer_all(question, [(left, right)])
+        found: T = self.answers[key]
+        return found
 
     def verdict(self, left: Subject, right: Subject, query: Query, *, audited: bool = False) -> Verdict:
         """The verdict on a pair, from the store or decided and stored; an audited one is always computed."""
@@ -97,7 +96,7 @@ class Engine:
         def prefetch_exact(pairs: Sequence[tuple[Subject, Subject]]) -> None:
             ranks = [tuple(s.profile(Representation.TF, 0).rank for s in pair) for pair in pairs]
             equal = [pair for pair, (one, other) in zip(pairs, ranks, strict=True) if one == other]
-            self._exactly([(a.canonical.chain, b.canonical.chain) for a, b in equal], executor, progress)
+            self.answer_all(EXACTLY, [a.in_order(b) for a, b in equal], executor=executor, progress=progress)
 
         return decisions(subjects, query, prefetch, prefetch_exact)
 
@@ -126,19 +125,26 @@ class Engine:
             done += len(batch)
             progress(f"{r.value} profiles", done, len(keys))
 
-    def _exactly(self, pairs: Sequence[tuple[Chain, Chain]], executor: Executor | None, progress: Progress) -> None:
-        """Bring exact decisions into memory, as `prefetch` does with profiles."""
-        keys = {exact_key(a, b, self.settings): (a, b) for a, b in pairs}
-        stored = self.store.get_many([key for key in keys if key not in self.findings])
-        self.findings |= {key: finding_from_json(text) for key, text in stored.items()}
-        missing = {key: pair for key, pair in keys.items() if key not in self.findings}
+    def answer_all(
+        self,
+        question: Question[Any],
+        pairs: Sequence[tuple[Chain, Chain]],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> None:
+        """Bring answers into memory, as `prefetch` does with profiles."""
+        keys = {question_key(question, a, b, self.settings): (a, b) for a, b in pairs}
+        stored = self.store.get_many([key for key in keys if key not in self.answers])
+        self.answers |= {key: question.decode(text) for key, text in stored.items()}
+        missing = {key: pair for key, pair in keys.items() if key not in self.answers}
         done = len(keys) - len(missing)
-        tasks = [(key, *pair, self.settings) for key, pair in missing.items()]
-        for key, text in mapped(compute_exact, tasks, executor):
+        tasks = [(question, key, *pair, self.settings) for key, pair in missing.items()]
+        for key, text in mapped(compute_answer, tasks, executor):
             self.store.put_many({key: text})
-            self.findings[key] = finding_from_json(text)
+            self.answers[key] = question.decode(text)
             done += 1
-            progress("exact decisions", done, len(keys))
+            progress(question.name, done, len(keys))
 
     def _stored(self, keys: list[str]) -> dict[str, Profile]:
         return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
@@ -149,9 +155,9 @@ def profile_key(structure: Structure, r: Representation, count: int, settings: S
     return _key("profile", repr(structure), r.value, str(count), repr(settings))
 
 
-def exact_key(left: Chain, right: Chain, settings: Settings) -> str:
-    """Content address of an exact decision."""
-    return _key("exact", repr(left), repr(right), repr(settings))
+def question_key(question: Question[Any], left: Chain, right: Chain, settings: Settings) -> str:
+    """Content address of an answer."""
+    return _key(question.name, repr(left), repr(right), repr(settings))
 
 
 @cache
@@ -167,9 +173,9 @@ def compute(structures: Sequence[Structure], r: Representation, count: int, sett
     return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
 
 
-def compute_exact(key: str, left: Chain, right: Chain, settings: Settings) -> tuple[str, str]:
-    """A task for a worker: one exact decision as JSON text."""
-    return key, finding_to_json(exact_finding(left, right, settings))
+def compute_answer(question: Question[Any], key: str, left: Chain, right: Chain, settings: Settings) -> tuple[str, str]:
+    """A task for a worker: one answer as text."""
+    return key, question.encode(question.answer(left, right, settings))
 
 
 def mapped(function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None) -> Iterator[T]:

@@ -40,7 +40,7 @@ def headline(catalog: Catalog) -> str:
     return f"{plural(len(catalog.family), 'model')}, {pairs}: " + ", ".join(f"{n} {relation}" for relation, n in found.items())
 
 
-def totals(catalog: Catalog, view: View = View.COMBINED) -> dict[Relation, int]:
+def totals(catalog: Catalog, view: View = View.EXACT) -> dict[Relation, int]:
     """Number of pairs by relation."""
     numbers = range(1, len(catalog.family) + 1)
     found = [catalog.relation(low, high, view) for high in numbers for low in range(1, high)]

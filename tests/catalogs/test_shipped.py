@@ -75,8 +75,8 @@ def test_tables_agree_with_the_verdicts():
     models = c.models()
     assert models.loc[7, "rank"] == 6
     assert list(models.index[models["collocated"]]) == [1, 4, 6, 8, 11]
-    assert c.classes() == ((2, 5), (9, 10))
-    assert c.classes(View.EXACT) == ((1, 11), (2, 5), (9, 10))
+    assert c.classes(View.COMBINED) == ((2, 5), (9, 10))
+    assert c.classes() == ((1, 11), (2, 5), (9, 10))
     assert [r.group for r in c.rows] == [1, 2, 0, 0, 2, 0, 0, 0, 3, 3, 1]
 
 
@@ -101,15 +101,15 @@ def test_writing_leaves_no_partial_files(tmp_path):
 )
 def test_the_exact_decision_leaves_nothing_open_but_six_pairs(n, damped, left_open):
     c = catalog(n, damped=damped)
-    counts = c.counts(View.EXACT)
+    counts = c.counts()
     assert counts[""] == left_open
-    assert counts["exact"] == c.counts()[""] - left_open
+    assert counts["exact"] == c.counts(View.COMBINED)[""] - left_open
 
 
 def test_what_the_exact_decision_says_and_how_surely():
     c = catalog(3, damped=True)
-    assert c.verdict(1, 11).relation is Relation.UNDECIDED
-    dual, apart = c.verdict(1, 11, View.EXACT), c.verdict(1, 6, View.EXACT)
+    assert c.verdict(1, 11, View.COMBINED).relation is Relation.UNDECIDED
+    dual, apart = c.verdict(1, 11), c.verdict(1, 6)
     assert (dual.relation, dual.decided_by, dual.certainty) == (Relation.INDISTINGUISHABLE, "exact", "theorem")
     assert (apart.relation, apart.certainty) == (Relation.DISTINGUISHABLE, "bounded")
     assert apart.safety >= 100

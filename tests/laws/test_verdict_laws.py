@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from disting import Chain, ContradictionError, Engine, Family, Query, Relation, Sensor, Settings, Verdict, View, compare
 from disting.conditions import Subject
 from disting.conditions.evidence import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel, from_dict, to_dict
+from disting.conditions.exact import EXACT
 from disting.conditions.finding import Certainty
 from disting.conditions.verify import Witness
 from disting.model.symmetry import forms
@@ -226,7 +227,7 @@ def test_grades_are_those_of_the_verdicts(damped):
     found = ENGINE.decisions(family(3, damped), Query())
     for i, j, number, where, certainty, safety in found.grades():
         one = decide(*(family(3, damped)[k] for k in (i, j)), Query())
-        assert (str(number or ""), where, certainty, safety) == (
+        assert (RULE_NAMES[number], where, certainty, safety) == (
             one.decided_by,
             one.representation,
             one.certainty or "",
@@ -435,7 +436,7 @@ def test_witnesses_use_points_of_their_own():
 @with_examples
 @given(pair=any_pair)
 def test_every_condition_reports_in_order_under_its_own_number(pair):
-    parts = [("tf", range(1, 8)), ("markov", range(1, 8)), ("structure", (8, 9))]
+    parts = [("tf", range(1, 8)), ("markov", range(1, 8)), ("structure", (8, 9)), ("fibre", (EXACT,))]
     expected = [(where, number) for where, numbers in parts for number in numbers]
     for count in (0, 3):
         found = list(steps(*(subject(chain) for chain in pair), Query(markov=count)))
@@ -505,7 +506,7 @@ def test_a_decided_verdict_lacks_nothing(missing):
 def test_an_undecided_verdict_has_no_proof():
     with pytest.raises(ValueError, match="exactly a decided verdict"):
         Verdict("a", "b", Relation.UNDECIDED, **DECIDED)
-    assert Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided: no condition settles them."
+    assert Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided: nothing settles them."
 
 
 def test_verdicts_are_values():

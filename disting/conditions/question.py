@@ -1,0 +1,32 @@
+"""What is asked of a pair of chains beyond conditions 1 to 9: computed by a pure function, kept as text by whoever keeps it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+from disting.model.chain import Chain
+from disting.settings import Settings
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Question(Generic[T]):
+    """A question by its `name`; `answer` computes, `encode` and `decode` turn an answer into text and back."""
+
+    name: str
+    answer: Callable[[Chain, Chain, Settings], T]
+    encode: Callable[[T], str]
+    decode: Callable[[str], T]
+
+
+class Answerer(Protocol):
+    """Whoever answers questions: by computing, or from a store."""
+
+    def __call__(self, question: Question[T], left: Chain, right: Chain, settings: Settings) -> T:
+        """The answer for this ordered pair."""
+
+
+def computed(question: Question[T], left: Chain, right: Chain, settings: Settings) -> T:
+    """The answer, computed now."""
+    return question.answer(left, right, settings)
