@@ -8,10 +8,10 @@
 from disting.catalogs import Catalog as Catalog
 from disting.catalogs import ModelRow as ModelRow
 from disting.catalogs import catalog as catalog
+from disting.certainty import Certainty as Certainty
 from disting.comparison import compare as compare
 from disting.comparison import findings as findings
 from disting.conditions import CONDITIONS as CONDITIONS
-from disting.conditions import Certainty as Certainty
 from disting.conditions import Finding as Finding
 from disting.conditions import Outcome as Outcome
 from disting.engine import CacheWarning as CacheWarning

@@ -11,11 +11,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
+from disting.certainty import Certainty
 from disting.conditions.evidence import Evidence
 from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
 from disting.conditions.exact import EXACT
-from disting.conditions.finding import Certainty, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError, InputError

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from disting.catalogs.export import csv_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
+from disting.certainty import Certainty
 from disting.conditions.evidence import from_dict
 from disting.conditions.exact import EXACT
-from disting.conditions.finding import Certainty
 from disting.conditions.table import NECESSARY
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain

@@ -2,8 +2,9 @@
 
 import json
 
+from disting.certainty import Certainty
 from disting.conditions.evidence import from_dict, to_dict
-from disting.conditions.finding import Certainty, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
 
 
 def finding_to_json(finding: Finding) -> str:

@@ -17,8 +17,9 @@ up to DRAWS points are drawn.
 from dataclasses import replace
 from math import ceil, log2, log10
 
+from disting.certainty import Certainty, Grade
 from disting.conditions.evidence import FibreAt, Theorem
-from disting.conditions.finding import Certainty, Finding, Grade, Outcome
+from disting.conditions.finding import Finding, Outcome
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
 from disting.settings import Settings

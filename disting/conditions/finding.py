@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from disting.certainty import Certainty
 from disting.conditions.evidence import Evidence
 
 
@@ -13,18 +14,6 @@ class Outcome(StrEnum):
     FAILS = "fails"
     INAPPLICABLE = "inapplicable"
     ABANDONED = "abandoned"
-
-
-class Certainty(StrEnum):
-    """THEOREM: holds by a stated theorem. PROVEN: exact computation. BOUNDED: but for a computed probability.
-
-    NUMERICAL: all equations hold within small balls, which proves neither that they hold nor that they fail.
-    """
-
-    THEOREM = "theorem"
-    PROVEN = "proven"
-    BOUNDED = "bounded"
-    NUMERICAL = "numerical"
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,11 +33,3 @@ class Finding:
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its outcome")
-
-
-Grade = tuple[Certainty, int]
-
-
-def graded(proven: bool, safety: int) -> Grade:
-    """Certainty and error bits: none needed where the finding is proven."""
-    return (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, safety)

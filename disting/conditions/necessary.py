@@ -7,8 +7,9 @@ into buckets. That a condition holds proves nothing.
 from collections.abc import Hashable
 
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
+from disting.certainty import Grade, graded
 from disting.conditions.evidence import Counts, Evidence, Forms, Ranks
-from disting.conditions.finding import Finding, Grade, Outcome, graded
+from disting.conditions.finding import Finding, Outcome
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 

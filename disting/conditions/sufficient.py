@@ -3,8 +3,9 @@
 from itertools import islice
 
 from disting.algebra.colouring import renamings
+from disting.certainty import Certainty, graded
 from disting.conditions.evidence import FreeChoice, Renaming
-from disting.conditions.finding import Certainty, Finding, Outcome, graded
+from disting.conditions.finding import Finding, Outcome
 from disting.conditions.subject import Subject
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import Profile

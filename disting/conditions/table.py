@@ -3,8 +3,9 @@
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
+from disting.certainty import Grade
 from disting.conditions import necessary, structural, sufficient
-from disting.conditions.finding import Finding, Grade
+from disting.conditions.finding import Finding
 from disting.conditions.subject import Subject
 from disting.invariants.profile import Profile
 from disting.invariants.sample import Representation

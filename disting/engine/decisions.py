@@ -11,8 +11,8 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.certainty import Grade
 from disting.conditions.exact import EXACT
-from disting.conditions.finding import Grade
 from disting.conditions.subject import Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.invariants.profile import Profile, Unsearched

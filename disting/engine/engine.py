@@ -29,7 +29,7 @@ T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-CODE = ("settings.py", "verdict.py", "algebra", "model", "invariants", "synthesis", "conditions")
+CODE = ("settings.py", "certainty.py", "verdict.py", "algebra", "model", "invariants", "synthesis", "conditions")
 
 
 def silent(what: str, done: int, total: int) -> None:

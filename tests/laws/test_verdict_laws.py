@@ -12,10 +12,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from disting import Chain, ContradictionError, Engine, Family, Query, Relation, Sensor, Settings, Verdict, View, compare
+from disting.certainty import Certainty
 from disting.conditions import Subject
 from disting.conditions.evidence import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel, from_dict, to_dict
 from disting.conditions.exact import EXACT
-from disting.conditions.finding import Certainty
 from disting.conditions.verify import Witness
 from disting.model.symmetry import forms
 from disting.verdict import ALL_CONDITIONS, RULE_NAMES, audit, decide, steps
