@@ -14,6 +14,7 @@ from disting.comparison import findings as findings
 from disting.conditions import CONDITIONS as CONDITIONS
 from disting.conditions import Finding as Finding
 from disting.conditions import Outcome as Outcome
+from disting.domain import Domain as Domain
 from disting.engine import CacheWarning as CacheWarning
 from disting.engine import Decisions as Decisions
 from disting.engine import Engine as Engine
@@ -29,7 +30,6 @@ from disting.model.chain import Sensor as Sensor
 from disting.model.family import Family as Family
 from disting.model.symmetry import Symmetry as Symmetry
 from disting.settings import Settings as Settings
-from disting.verdict import Domain as Domain
 from disting.verdict import Query as Query
 from disting.verdict import Relation as Relation
 from disting.verdict import Step as Step

@@ -4,14 +4,15 @@ Transfer-function coefficients first (conditions 1 to 7), then Markov parameters
 necessary condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is
 left to the exact decision; what it cannot settle is UNDECIDED. The paper's view ends with the conditions.
 All of it is over the complex numbers: distinguishable models are so over real and positive parameters too (real and positive
-points are Zariski dense), while indistinguishable ones need be so over positive parameters only where a renaming tells it.
+points are Zariski dense), while for indistinguishable ones the admissible values are asked for (see `conditions.admissible`).
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from disting.certainty import Certainty
+from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.evidence import Evidence
 from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
@@ -19,42 +20,49 @@ from disting.conditions.exact import EXACT
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
+from disting.domain import Domain
 from disting.errors import ContradictionError, InputError
 from disting.invariants.sample import Representation
 
 ALL_CONDITIONS = tuple(c.number for c in CONDITIONS)
-RULE_NAMES = {0: "", **{n: str(n) for n in ALL_CONDITIONS}, EXACT: "exact"}  # what `decided_by` says
+RULE_NAMES = {0: "", **{n: str(n) for n in ALL_CONDITIONS}, EXACT: "exact", ADMISSIBLE: "admissible"}  # what `decided_by` says
 FIBRE = "fibre"  # the representation of the exact decision
+PARAMETERS = "parameters"  # and of the question whether equivalents have admissible parameters
 
 
 class Relation(StrEnum):
-    """What is known of a pair."""
+    """What is known of a pair; SOMETIMES: for some admissible parameters there is an equivalent, for others there is none."""
 
     DISTINGUISHABLE = "distinguishable"
     INDISTINGUISHABLE = "indistinguishable"
+    SOMETIMES = "sometimes"
     UNDECIDED = "undecided"
 
 
 class View(StrEnum):
-    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds the exact decision."""
+    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds the exact decision.
+
+    `real` and `positive` are `exact`, and then look whether equivalents with such parameters exist.
+    """
 
     TF = "tf"
     MARKOV = "markov"
     COMBINED = "combined"
     EXACT = "exact"
+    REAL = "real"
+    POSITIVE = "positive"
+
+    @property
+    def domain(self) -> Domain:
+        """Parameter values that this view speaks of."""
+        return Domain(self.value) if self in (View.REAL, View.POSITIVE) else Domain.COMPLEX
 
     @property
     def representations(self) -> tuple[str, ...]:
         """The representations of this view, in order."""
         if self in (View.TF, View.MARKOV):
             return (self.value,)
-        return ("tf", "markov", STRUCTURE, FIBRE) if self is View.EXACT else ("tf", "markov", STRUCTURE)
-
-
-class Domain(StrEnum):
-    """Parameter values over which a verdict is stated."""
-
-    COMPLEX = "complex"
+        return ("tf", "markov", STRUCTURE) if self is View.COMBINED else ("tf", "markov", STRUCTURE, FIBRE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,14 +126,20 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """The verdict in words an engineer understands."""
-        head = f"{self.left} and {self.right} are {self.relation}"
-        if self.decided_by == RULE_NAMES[EXACT] and self.evidence:
-            return f"{head} (exact decision): {self.evidence.sentence(self.left, self.right)}"
+        over = "" if self.domain is Domain.COMPLEX else f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
-            return f"{self.left} and {self.right} are undecided: nothing settles them{why}."
-        where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
-        return f"{head} (condition {self.decided_by}, {where}): {self.evidence.sentence(self.left, self.right)}"
+            return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
+        says = "agree for some parameters only" if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
+        return f"{self.left} and {self.right} {says} ({self.rule}): {self.evidence.sentence(self.left, self.right)}"
+
+    @property
+    def rule(self) -> str:
+        """What decided, in words; "" if nothing did."""
+        if self.decided_by.isdigit():
+            where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
+            return f"condition {self.decided_by}, {where}"
+        return {"": "", RULE_NAMES[EXACT]: "exact decision"}.get(self.decided_by, f"equivalents with {self.domain} parameters")
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""
@@ -174,7 +188,9 @@ class Step:
     def relation(self) -> Relation:
         """What this finding alone decides."""
         number, outcome = self.finding.number, self.finding.outcome
-        if outcome is Outcome.FAILS and (number <= len(NECESSARY) or number == EXACT):
+        if outcome is Outcome.SOMETIMES:
+            return Relation.SOMETIMES
+        if outcome is Outcome.FAILS and (number <= len(NECESSARY) or number in (EXACT, ADMISSIBLE)):
             return Relation.DISTINGUISHABLE
         if outcome is Outcome.HOLDS and number > len(NECESSARY):
             return Relation.INDISTINGUISHABLE
@@ -193,7 +209,18 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
 
 
 def decide(left: Subject, right: Subject, query: Query) -> Verdict:
-    """Verdict of the first step that decides."""
+    """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
+    found, domain = _decided(left, right, query), query.view.domain
+    if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
+        return replace(found, domain=domain)
+    step = Step(PARAMETERS, left.admissible(right, domain))
+    if step.relation is not Relation.UNDECIDED:
+        return verdict_of(left.name, right.name, step, domain)
+    note = f"over complex parameters they are indistinguishable; {step.finding.note}"
+    return Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(note,))
+
+
+def _decided(left: Subject, right: Subject, query: Query) -> Verdict:
     notes: list[str] = []
     for step in steps(left, right, query):
         if step.relation is not Relation.UNDECIDED:
@@ -217,10 +244,10 @@ def audit(left: Subject, right: Subject, query: Query) -> Verdict:
     return decide(left, right, query)
 
 
-def verdict_of(left: str, right: str, step: Step) -> Verdict:
+def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLEX) -> Verdict:
     """The verdict that a deciding step gives."""
-    f = step.finding
-    return Verdict(left, right, step.relation, RULE_NAMES[f.number], step.representation, f.certainty, f.safety, f.evidence)
+    f, rule = step.finding, RULE_NAMES[step.finding.number]
+    return Verdict(left, right, step.relation, rule, step.representation, f.certainty, f.safety, f.evidence, domain)
 
 
 def _step(

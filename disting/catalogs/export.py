@@ -5,8 +5,9 @@ import io
 import json
 from collections.abc import Iterable
 
+from disting.domain import Domain
 from disting.engine import Decisions
-from disting.verdict import RULE_NAMES, Domain, Relation, error_bound
+from disting.verdict import RULE_NAMES, Relation, error_bound
 
 CSV_COLUMNS = ("left", "right", "relation", "decided_by", "representation", "certainty", "error_bound", "domain")
 Row = tuple[int, int, Relation, str, str, str, str]

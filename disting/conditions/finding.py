@@ -8,12 +8,16 @@ from disting.conditions.evidence import Evidence
 
 
 class Outcome(StrEnum):
-    """A condition holds, fails, does not apply to this pair or representation, or was given up at a limit."""
+    """A condition holds, fails, does not apply to this pair or representation, or was given up at a limit.
+
+    SOMETIMES: it holds for some parameter values and fails for others.
+    """
 
     HOLDS = "holds"
     FAILS = "fails"
     INAPPLICABLE = "inapplicable"
     ABANDONED = "abandoned"
+    SOMETIMES = "sometimes"
 
 
 @dataclass(frozen=True, slots=True)

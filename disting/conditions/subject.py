@@ -6,10 +6,12 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
+from disting.conditions.admissible import ADMISSIBLY
 from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.exact import EXACT, exact_finding, mirrored
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.question import Answerer, Question, computed
+from disting.domain import Domain
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
@@ -35,13 +37,24 @@ class Subject:
         """Profile of the canonical form, which all symmetric chains share."""
         return self.source(self.canonical.chain.structure, representation, count, self.settings)
 
+    @property
+    def rank(self) -> int:
+        """Number of determinable parameters."""
+        return self.profile(Representation.TF, 0).rank
+
     def exact(self, other: "Subject") -> Finding:
         """The exact decision on the canonical forms of both, for equal ranks; the pair's order does not matter."""
-        ranks = {s.profile(Representation.TF, 0).rank for s in (self, other)}
-        if len(ranks) > 1:
+        if self.rank != other.rank:
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
+        return self._asked(EXACTLY, other)
+
+    def admissible(self, other: "Subject", domain: Domain) -> Finding:
+        """Whether two models that are indistinguishable over complex parameters are so over this domain."""
+        return self._asked(ADMISSIBLY[domain], other)
+
+    def _asked(self, question: Question[Finding], other: "Subject") -> Finding:
         first, second = self.in_order(other)
-        found = self.answerer(EXACTLY, first, second, self.settings)
+        found = self.answerer(question, first, second, self.settings)
         return found if first == self.canonical.chain else mirrored(found)
 
     def in_order(self, other: "Subject") -> tuple[Chain, Chain]:

@@ -7,22 +7,27 @@ only pairs that share all buckets are looked at one by one. Evidence is made whe
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Grade
+from disting.conditions.admissible import ADMISSIBLY
 from disting.conditions.exact import EXACT
-from disting.conditions.subject import Subject
+from disting.conditions.question import Question
+from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
+from disting.domain import Domain
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
-from disting.verdict import FIBRE, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
+from disting.model.chain import Chain
+from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
 
-REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE)
+REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE, PARAMETERS)
 Numbers = NDArray[np.uint8]
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
-PrefetchExact = Callable[[Sequence[tuple[Subject, Subject]]], None]
+Ask = Callable[[Question[Any], Sequence[tuple[Chain, Chain]]], None]
 Prefetch = Callable[[Sequence[Subject], Representation, int], None]
 
 
@@ -44,7 +49,7 @@ class Decisions:
         number = self.decided_by[min(i, j), max(i, j)]
         if number == 0:
             return Relation.UNDECIDED
-        if number == EXACT:
+        if number >= EXACT:
             return self.steps[min(i, j), max(i, j)].relation
         return Relation.DISTINGUISHABLE if number <= len(NECESSARY) else Relation.INDISTINGUISHABLE
 
@@ -53,13 +58,14 @@ class Decisions:
         i, j = min(i, j), max(i, j)
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
-            return verdict_of(left.name, right.name, self.steps[i, j])
+            return verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain)
         number, where = int(self.decided_by[i, j]), REPRESENTATIONS[self.representation[i, j]]
         if number == 0:
             return decide(left, right, self.query)
         r = Representation(where)
         profiles = [s.profile(r, _count(r, self.query, self.subjects)) for s in (left, right)]
-        return verdict_of(left.name, right.name, Step(where, NECESSARY[number - 1].check(*profiles)))
+        step = Step(where, NECESSARY[number - 1].check(*profiles))
+        return verdict_of(left.name, right.name, step, self.query.view.domain)
 
     def grades(self) -> Iterator[tuple[int, int, int, str, str, int]]:
         """Yield (i, j, number, representation, certainty, safety) of all pairs, without evidence."""
@@ -86,7 +92,7 @@ class Decisions:
         return {RULE_NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
 
 
-def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, prefetch_exact: PrefetchExact) -> Decisions:
+def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask: Ask) -> Decisions:
     """Decide all pairs of models with equally many states; the two callbacks compute what will be asked for."""
     n = len(subjects)
     result = Decisions(tuple(subjects), query, np.zeros((n, n), np.uint8), np.zeros((n, n), np.uint8))
@@ -96,7 +102,7 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, pre
             _structural(result, open_pairs)
             continue
         if representation == FIBRE:
-            prefetch_exact([(subjects[int(i)], subjects[int(j)]) for i, j in zip(*np.nonzero(open_pairs), strict=True)])
+            ask(EXACTLY, [a.in_order(b) for a, b in _pairs(result, open_pairs) if a.rank == b.rank])
             _each(result, open_pairs, FIBRE, Subject.exact)
             continue
         r = Representation(representation)
@@ -104,7 +110,30 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, pre
         prefetch([subjects[int(i)] for i in active], r, _count(r, query, subjects))
         _necessary(result, open_pairs, r, active)
         _sufficient(result, open_pairs, r)
+    if query.view.domain is not Domain.COMPLEX:
+        _admissible(result, ask)
     return result
+
+
+def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Subject, Subject]]:
+    return [(result.subjects[int(i)], result.subjects[int(j)]) for i, j in zip(*np.nonzero(where), strict=True)]
+
+
+def _admissible(result: Decisions, ask: Ask) -> None:
+    """Ask again about the pairs that are indistinguishable over complex parameters."""
+    domain, n = result.query.view.domain, len(result.subjects)
+    same = np.zeros((n, n), bool)
+    for i, j in combinations(range(n), 2):
+        same[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
+    ask(ADMISSIBLY[domain], [a.in_order(b) for a, b in _pairs(result, same)])
+    for i, j in zip(*np.nonzero(same), strict=True):
+        step = Step(PARAMETERS, result.subjects[i].admissible(result.subjects[j], domain))
+        known = step.relation is not Relation.UNDECIDED
+        result.steps.pop((int(i), int(j)))
+        if known:
+            result.steps[int(i), int(j)] = step
+        result.decided_by[i, j] = step.finding.number if known else 0
+        result.representation[i, j] = REPRESENTATIONS.index(PARAMETERS if known else "")
 
 
 def _necessary(result: Decisions, open_pairs: NDArray[np.bool_], r: Representation, active: NDArray[np.intp]) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from disting.conditions.question import Question
-from disting.conditions.subject import EXACTLY, Subject
+from disting.conditions.subject import Subject
 from disting.engine.decisions import Decisions, decisions
 from disting.engine.store import Store
 from disting.invariants.codec import profile_from_json, profile_to_json
@@ -29,7 +29,7 @@ T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-CODE = ("settings.py", "certainty.py", "verdict.py", "algebra", "model", "invariants", "synthesis", "conditions")
+CODE = ("settings.py", "certainty.py", "domain.py", "verdict.py", "algebra", "model", "invariants", "synthesis", "conditions")
 
 
 def silent(what: str, done: int, total: int) -> None:
@@ -93,12 +93,10 @@ class Engine:
         def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
             self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)
 
-        def prefetch_exact(pairs: Sequence[tuple[Subject, Subject]]) -> None:
-            ranks = [tuple(s.profile(Representation.TF, 0).rank for s in pair) for pair in pairs]
-            equal = [pair for pair, (one, other) in zip(pairs, ranks, strict=True) if one == other]
-            self.answer_all(EXACTLY, [a.in_order(b) for a, b in equal], executor=executor, progress=progress)
+        def ask(question: Question[Any], pairs: Sequence[tuple[Chain, Chain]]) -> None:
+            self.answer_all(question, pairs, executor=executor, progress=progress)
 
-        return decisions(subjects, query, prefetch, prefetch_exact)
+        return decisions(subjects, query, prefetch, ask)
 
     def profiles_of(
         self, chains: Iterable[Chain], *, executor: Executor | None = None, progress: Progress = silent

@@ -17,7 +17,7 @@ from tests.conditions.handmade import handmade, markov
 
 ENGINE = Engine()
 PAPER = Query(View.COMBINED)
-HOLDS, FAILS, INAPPLICABLE, ABANDONED = Outcome
+HOLDS, FAILS, INAPPLICABLE, ABANDONED, _ = Outcome
 INDEPENDENT = [[1, 0], [0, 1]]
 PARALLEL = [[1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 0, 1]]
 GENERAL = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 2, 3]]
