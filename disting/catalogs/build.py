@@ -12,12 +12,14 @@ from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest, lines, name_of
 from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
+from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.invariants.sample import Representation
 from disting.model.family import Family
-from disting.verdict import FIBRE, Query, Relation, View
+from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
+PARTS |= {view.value: view for view in (View.REAL, View.POSITIVE)}
 
 
 def build(
@@ -95,14 +97,18 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
 
 
 def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:
-    return (i, j) in decided.steps and decided.steps[i, j].representation == part
+    """Whether this part decides, not an earlier one."""
+    domain = decided.query.view.domain
+    where = part if domain is Domain.COMPLEX else PARAMETERS
+    return (i, j) in decided.steps and decided.steps[i, j].representation == where
 
 
 def _step(decided: Decisions, i: int, j: int) -> Record:
     verdict = decided.verdict(i, j)
     assert verdict.evidence is not None  # only decided pairs get here
     assert verdict.certainty is not None
-    relation = {"relation": verdict.relation.value} if verdict.representation == FIBRE else {}  # else the number tells it
+    told = verdict.representation not in (FIBRE, PARAMETERS)  # the condition's number tells the relation
+    relation = {} if told else {"relation": verdict.relation.value}
     return relation | {
         "decided_by": verdict.decided_by,
         "certainty": verdict.certainty.value,

@@ -8,16 +8,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from disting.catalogs.export import csv_text
+from disting.catalogs.export import Row, csv_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.certainty import Certainty
 from disting.conditions.evidence import from_dict
-from disting.conditions.exact import EXACT
 from disting.conditions.table import NECESSARY
+from disting.domain import Domain
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.verdict import RULE_NAMES, Relation, Verdict, View
+from disting.verdict import PARAMETERS, Relation, Verdict, View
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -146,9 +146,7 @@ class Catalog:
 
     def to_csv(self, view: View = View.EXACT) -> str:
         """All verdicts as CSV text."""
-        return csv_text(
-            (i, j, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound) for i, j, v in self.pairs(view)
-        )
+        return csv_text(_csv_row(i, j, v) for i, j, v in self.pairs(view))
 
     def to_json(self, view: View = View.EXACT) -> str:
         """All verdicts with evidence and sentences as JSON text."""
@@ -168,10 +166,9 @@ class Catalog:
         names = (f"A{record['left']}", f"A{record['right']}")
         where, step = _deciding(record, view)
         if not step:
-            notes = ("the exact decision has no method for them",) if view is View.EXACT else ()
-            return Verdict(*names, Relation.UNDECIDED, notes=notes)
+            return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_NOTES.get(view, ()))
         certainty, evidence = Certainty(step["certainty"]), from_dict(step["evidence"])
-        return Verdict(*names, _relation(step), step["decided_by"], where, certainty, step["safety"], evidence)
+        return Verdict(*names, _relation(step), step["decided_by"], where, certainty, step["safety"], evidence, view.domain)
 
 
 def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) -> Catalog:
@@ -185,18 +182,31 @@ def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) 
     return Catalog.from_records(read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl"))
 
 
+_NOTES = {View.EXACT: ("the exact decision has no method for them",)}
 _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
+
+
+def _csv_row(left: int, right: int, v: Verdict) -> Row:
+    return left, right, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound, v.domain
 
 
 def _deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:
     """The first representation of the view that decides, and its step; ("", {}) if none does."""
+    if view.domain is not Domain.COMPLEX:
+        return (PARAMETERS, record[view.value]) if view.value in record else _distinguishing(record)
     return next(((r, record[r]) for r in view.representations if r in record), ("", {}))
+
+
+def _distinguishing(record: Record) -> tuple[str, dict[str, Any]]:
+    """What distinguishes over complex parameters does so over all."""
+    where, step = _deciding(record, View.EXACT)
+    return (where, step) if _relation(step) is Relation.DISTINGUISHABLE else ("", {})
 
 
 def _relation(step: dict[str, Any]) -> Relation:
     if not step:
         return Relation.UNDECIDED
-    if step["decided_by"] == RULE_NAMES[EXACT]:
+    if "relation" in step:
         return Relation(step["relation"])
     return Relation.DISTINGUISHABLE if int(step["decided_by"]) <= len(NECESSARY) else Relation.INDISTINGUISHABLE
 

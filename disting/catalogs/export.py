@@ -10,14 +10,14 @@ from disting.engine import Decisions
 from disting.verdict import RULE_NAMES, Relation, error_bound
 
 CSV_COLUMNS = ("left", "right", "relation", "decided_by", "representation", "certainty", "error_bound", "domain")
-Row = tuple[int, int, Relation, str, str, str, str]
-"""left, right, relation, decided_by, representation, certainty, error bound"""
+Row = tuple[int, int, Relation, str, str, str, str, Domain]
+"""left, right, relation, decided_by, representation, certainty, error bound, domain"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0")]), end="")
+    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX)]), end="")
     left,right,relation,decided_by,representation,certainty,error_bound,domain
     1,2,distinguishable,1,tf,proven,0,complex
     """
@@ -25,14 +25,15 @@ def csv_text(rows: Iterable[Row]) -> str:
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(CSV_COLUMNS)
     for left, right, relation, *rest in rows:
-        writer.writerow((left, right, relation.value, *rest, Domain.COMPLEX.value))
+        writer.writerow((left, right, relation.value, *map(str, rest)))
     return out.getvalue()
 
 
 def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1."""
+    domain = decided.query.view.domain
     graded = (
-        (i + 1, j + 1, decided.relation(i, j), RULE_NAMES[number], where, certainty, error_bound(certainty, safety))
+        (i + 1, j + 1, decided.relation(i, j), RULE_NAMES[number], where, certainty, error_bound(certainty, safety), domain)
         for i, j, number, where, certainty, safety in decided.grades()
     )
     return csv_text(graded)

@@ -12,7 +12,9 @@ from disting.catalogs.export import decisions_csv, decisions_json
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.work import engine_for
 from disting.comparison import compare as compare_chains
+from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
+from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, Store
 from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
@@ -20,6 +22,7 @@ from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.verdict import RULE_NAMES, Query, Verdict, View
 
+RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "a look at admissible parameters"}
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
 
 
@@ -52,7 +55,7 @@ def compare(options: argparse.Namespace) -> int:
     sensor = Sensor(options.sensor)
     references = [_reference(text) for text in (options.left, options.right)]
     chains = [Family(n, options.damped, sensor)[number] for n, number in references]
-    query = _query(options.conditions, View.EXACT)
+    query = _query(options.conditions, View.EXACT, options.domain)
     verdict = _shipped(references, options.damped, query) if sensor is Sensor.ACCELERATION else None
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
@@ -64,7 +67,7 @@ def compare(options: argparse.Namespace) -> int:
 def verdicts(options: argparse.Namespace) -> int:
     """Decide all pairs of one size."""
     family = Family(options.masses, options.damped, Sensor(options.sensor))
-    query = _query(options.conditions, VIEWS[options.representation], options.markov)
+    query = _query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
     with engine_for(options) as (engine, pool, progress):
         subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
         decided = engine.decisions(subjects, query, executor=pool, progress=progress)
@@ -135,8 +138,12 @@ def cache_clear(options: argparse.Namespace) -> int:
     return 0
 
 
-def _query(conditions: tuple[int, ...] | None, view: View, markov: int = 0) -> Query:
+def _query(conditions: tuple[int, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
     """Conditions that are named decide alone: the exact decision belongs to the default."""
+    if domain != Domain.COMPLEX:
+        if conditions is not None or view is not View.EXACT:
+            raise InputError(f"--domain {domain} comes after the exact decision: leave --conditions and --representation away")
+        return Query(View(domain), markov=markov)
     if conditions is None:
         return Query(view, markov=markov)
     return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
@@ -174,9 +181,8 @@ def _summary(decided: Decisions) -> str:
 
 
 def _counted(counts: dict[str, int]) -> str:
-    exactly = counts.get(RULE_NAMES[EXACT], 0)
     parts = [f"{n} by condition {number}" for number, n in counts.items() if number.isdigit()]
-    parts += [f"{exactly} by the exact decision"] * bool(exactly)
+    parts += [f"{counts[rule]} by {text}" for rule, text in RULES.items() if counts.get(rule)]
     return ", ".join([*parts, f"{counts.get('', 0)} undecided"])
 
 

@@ -10,6 +10,7 @@ from disting import __version__
 from disting.catalogs.files import shipped_folder
 from disting.cli import commands
 from disting.conditions.table import CONDITIONS
+from disting.domain import Domain
 from disting.model.chain import Sensor
 
 LIST = "decide by these conditions only, such as 1-5,8; 1-9 is the paper's view (default: all, then the exact decision)"
@@ -64,6 +65,7 @@ def _add_compare(groups: Groups) -> None:
     p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
     _shared(p, damped=True, sensor=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
+    _domain(p)
     p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
     p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
 
@@ -73,6 +75,7 @@ def _add_verdicts(groups: Groups) -> None:
     p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
     _shared(p, damped=True, sensor=True, work=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
+    _domain(p)
     p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
     p.add_argument(
         "--markov", type=_whole(1), default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)"
@@ -112,6 +115,12 @@ def _add_cache(groups: Groups) -> None:
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     _command(actions, "info", commands.cache_info, "where the cache is and what it holds")
     _command(actions, "clear", commands.cache_clear, "remove all entries")
+
+
+def _domain(parser: argparse.ArgumentParser) -> None:
+    names = [domain.value for domain in Domain]
+    text = "parameter values that the verdict is about (default: complex, generic values)"
+    parser.add_argument("--domain", choices=names, default=Domain.COMPLEX.value, help=text)
 
 
 class _Parser(argparse.ArgumentParser):

@@ -1,7 +1,8 @@
 """The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, and as a thumbnail.
 
 Row and column of a field are the two models; the number is the condition that decided. Relations differ in colour and in
-shape: distinguishable is a plain field, indistinguishable has a dark corner, undecided is crossed out and has no number.
+shape: distinguishable is a plain field, indistinguishable has a dark upper corner, what depends on the parameters a dark lower
+one, undecided is crossed out and has no number.
 """
 
 from collections.abc import Iterator
@@ -19,8 +20,21 @@ TOP = 88.0  # room for the figure's and the panels' titles, at letter size 1
 MARGIN = 16.0
 WIDEST_PNG = 5200  # pixels
 
-FILLS = {Relation.DISTINGUISHABLE: Ink.DISTINGUISHABLE, Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE}
-LETTERS = {Relation.DISTINGUISHABLE: Ink.ON_DISTINGUISHABLE, Relation.INDISTINGUISHABLE: Ink.ON_INDISTINGUISHABLE}
+FILLS = {
+    Relation.DISTINGUISHABLE: Ink.DISTINGUISHABLE,
+    Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE,
+    Relation.SOMETIMES: Ink.SOMETIMES,
+}
+LETTERS = {
+    Relation.DISTINGUISHABLE: Ink.ON_DISTINGUISHABLE,
+    Relation.INDISTINGUISHABLE: Ink.ON_INDISTINGUISHABLE,
+    Relation.SOMETIMES: Ink.ON_SOMETIMES,
+}
+CORNERS = {Relation.INDISTINGUISHABLE: True, Relation.SOMETIMES: False}  # upper right, lower left
+SAID = {relation: f"{relation} by condition n" for relation in FILLS} | {
+    Relation.SOMETIMES: "for some parameters only",
+    Relation.UNDECIDED: "undecided",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,12 +106,12 @@ def _panel(grid: Grid, k: float) -> Iterator[Layer]:
     view, pairs = grid.view, list(grid.pairs)
     relations = {pair: grid.catalog.relation(*pair, view) for pair in pairs}
     grouped = sorted(pairs, key=lambda pair: list(Relation).index(relations[pair]))  # equal style in a row: a smaller file
-    same = [pair for pair in grouped if relations[pair] is Relation.INDISTINGUISHABLE]
+    marked = [pair for pair in grouped if relations[pair] in CORNERS]
     numbers = sorted((_number(grid, pair) for pair in pairs), key=lambda text: text.fill)
     yield Layer(f"{view}-title", (Text(grid.x, grid.y - 14 * k, VIEW_TITLES[view], 13 * k, anchor=Anchor.START, bold=True),))
     yield Layer(f"{view}-labels", tuple(_labels(grid)))
     yield Layer(f"{view}-fields", tuple(s for pair in grouped for s in _field(*grid.at(*pair), relations[pair], grid.cell)))
-    yield Layer(f"{view}-corners", tuple(_corner(*grid.at(*pair), grid.cell) for pair in same))
+    yield Layer(f"{view}-corners", tuple(_corner(*grid.at(*pair), relations[pair], grid.cell) for pair in marked))
     yield Layer(f"{view}-numbers", tuple(text for text in numbers if text.text))
 
 
@@ -121,10 +135,11 @@ def _field(x: float, y: float, relation: Relation, cell: float) -> tuple[Shape, 
     return Rect(x + 0.5, y + 0.5, side - 1, side - 1, Ink.NONE, Ink.UNDECIDED, line=1), cross
 
 
-def _corner(x: float, y: float, cell: float) -> Path:
-    """The dark corner, upper right."""
-    right, leg = x + cell - 1, 0.28 * cell
-    return Path(((right - leg, y), (right, y), (right, y + leg)), Ink.NONE, Ink.ON_INDISTINGUISHABLE)
+def _corner(x: float, y: float, relation: Relation, cell: float) -> Path:
+    """The dark corner, upper right or lower left."""
+    far, leg = cell - 1, 0.28 * cell
+    corner = ((far - leg, 0.0), (far, 0.0), (far, leg)) if CORNERS[relation] else ((0.0, far - leg), (0.0, far), (leg, far))
+    return Path(tuple((x + dx, y + dy) for dx, dy in corner), Ink.NONE, LETTERS[relation])
 
 
 def _number(grid: Grid, pair: tuple[int, int]) -> Text:
@@ -144,9 +159,9 @@ def _legend(x: float, y: float, k: float) -> Iterator[Layer]:
     """A field of each relation, with its name."""
     side = 17 * k
     for relation in Relation:
-        corner = (_corner(x, y - side / 2, side),) if relation is Relation.INDISTINGUISHABLE else ()
+        corner = (_corner(x, y - side / 2, relation, side),) if relation in CORNERS else ()
         number = (Text(x + side / 2, y, "n", 10.5 * k, LETTERS[relation]),) if relation in LETTERS else ()
-        said = Text(x + 24 * k, y, f"{relation} by condition n" if number else relation.value, 12 * k, anchor=Anchor.START)
+        said = Text(x + 24 * k, y, SAID[relation], 12 * k, anchor=Anchor.START)
         yield Layer(f"legend-{relation}", (*_field(x, y - side / 2, relation, side), *corner, *number, said))
         x += (46 + 6.6 * len(said.text)) * k
 

@@ -6,6 +6,7 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog, ModelRow
 from disting.conditions import CONDITIONS
+from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.model.chain import Chain
 from disting.report.drawing import draw
@@ -17,6 +18,7 @@ from disting.report.words import SIGNS, VIEW_TITLES, coefficients, headline, lis
 from disting.verdict import RULE_NAMES, Relation, View
 
 SIDE_BY_SIDE = 12  # families up to this size show the three views at once
+RULES = {RULE_NAMES[EXACT]: "by the exact decision", RULE_NAMES[ADMISSIBLE]: "by their positive equivalents"}
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
 
 
@@ -104,10 +106,11 @@ def page(catalog: Catalog) -> str:
         totals=found,
         compared=sum(found.values()),
         matrices=[matrix(catalog, view) for view in VIEW_TITLES],
+        domains=[view for view in VIEW_TITLES if view in (View.EXACT, View.POSITIVE)],
         side_by_side=len(catalog.family) <= SIDE_BY_SIDE,
         counts=counts(catalog),
         undecided=undecided(catalog),
-        still_open=totals(catalog, View.EXACT)[Relation.UNDECIDED],
+        still_open=found[Relation.UNDECIDED],
         listed_pairs=LISTED_PAIRS,
         groups=[[drawings[m] for m in members] for members in catalog.classes(View.EXACT)],
         models=[Model(r, drawings[r.number], coefficients(r.chain)) for r in catalog.rows],
@@ -133,10 +136,10 @@ def summary(catalog: Catalog, view: View) -> str:
     """
     found = {name: n for name, n in catalog.counts(view).items() if n}
     left = found.pop("", 0)
-    exactly = found.pop(RULE_NAMES[EXACT], 0)
+    others = [(found.pop(rule, 0), text) for rule, text in RULES.items()]
     first = iter(["pairs by condition "])
     parts = [f"{n} {next(first, 'by ')}{name}" for name, n in sorted(found.items())]
-    parts += [f"{exactly} by the exact decision"] * bool(exactly)
+    parts += [f"{n} {text}" for n, text in others if n]
     return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."
 
 
@@ -145,6 +148,7 @@ def counts(catalog: Catalog) -> list[Count]:
     found = [catalog.counts(view) for view in VIEW_TITLES]
     rows = [(str(c.number), c.title, c.text, _decides(c.number)) for c in CONDITIONS]
     rows += [(RULE_NAMES[EXACT], "exact decision", "one fibre, by inverse network synthesis", Relation.DISTINGUISHABLE)]
+    rows += [(RULE_NAMES[ADMISSIBLE], "positive equivalents", "theorems and certified points", Relation.INDISTINGUISHABLE)]
     rows += [("", "undecided", "nothing decides", Relation.UNDECIDED)]
     return [
         Count(SIGNS.get(name, name), title, text, relation, tuple(f.get(name, 0) for f in found))

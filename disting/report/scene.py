@@ -26,6 +26,8 @@ class Ink(StrEnum):
     ON_DISTINGUISHABLE = "on-distinguishable"
     INDISTINGUISHABLE = "indistinguishable"
     ON_INDISTINGUISHABLE = "on-indistinguishable"
+    SOMETIMES = "sometimes"
+    ON_SOMETIMES = "on-sometimes"
     UNDECIDED = "undecided"
     OPEN = "open"
 
@@ -44,6 +46,8 @@ FILE_PALETTE: Palette = {
     Ink.ON_DISTINGUISHABLE: "#ffffff",
     Ink.INDISTINGUISHABLE: "#f0a818",
     Ink.ON_INDISTINGUISHABLE: "#16130a",
+    Ink.SOMETIMES: "#cc79a7",
+    Ink.ON_SOMETIMES: "#16130a",
     Ink.UNDECIDED: "#818c98",
     Ink.OPEN: "#cdd5dd",
 }

@@ -3,19 +3,22 @@
 import re
 
 from disting.catalogs import Catalog
+from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
+from disting.domain import Domain
 from disting.invariants.expanded import transfer_function
 from disting.model.chain import Chain
 from disting.verdict import RULE_NAMES, Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
+    View.EXACT: "Complex parameters",
+    View.POSITIVE: "Positive parameters",
     View.TF: "Transfer function",
     View.MARKOV: "Markov parameters",
-    View.COMBINED: "Combined",
-    View.EXACT: "With exact decision",
+    View.COMBINED: "Conditions 1 to 9",
 }
-SIGNS = {RULE_NAMES[EXACT]: "E"}  # what a field of the matrix shows; else the condition's number
+SIGNS = {RULE_NAMES[EXACT]: "E", RULE_NAMES[ADMISSIBLE]: "+"}  # what a field of the matrix shows; else the condition's number
 
 
 def title(catalog: Catalog) -> str:
@@ -41,10 +44,11 @@ def headline(catalog: Catalog) -> str:
 
 
 def totals(catalog: Catalog, view: View = View.EXACT) -> dict[Relation, int]:
-    """Number of pairs by relation."""
+    """Number of pairs by relation; SOMETIMES only where it can occur."""
     numbers = range(1, len(catalog.family) + 1)
     found = [catalog.relation(low, high, view) for high in numbers for low in range(1, high)]
-    return {relation: found.count(relation) for relation in Relation}
+    shown = [r for r in Relation if r is not Relation.SOMETIMES or view.domain is not Domain.COMPLEX]
+    return {relation: found.count(relation) for relation in shown}
 
 
 def coefficients(chain: Chain) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ import pytest
 
 from disting.catalogs import catalog
 from disting.report import page
-from disting.verdict import View
+from disting.report.words import VIEW_TITLES
 
 playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -60,6 +60,7 @@ def _field(view: str, low: int, high: int) -> str:
 def test_a_click_shows_both_chains_and_the_reason(visit, small: Path) -> None:  # type: ignore[no-untyped-def]
     tab = visit(small)
     assert not tab.is_visible("#detail")
+    tab.check('input[value="all"]')
     tab.click(_field("markov", 1, 4))
     verdict = catalog(3, damped=True).verdict(1, 4)
     assert verdict.evidence is not None
@@ -76,6 +77,7 @@ def test_a_click_shows_both_chains_and_the_reason(visit, small: Path) -> None:  
 
 def test_the_keyboard_moves_opens_and_closes(visit, small: Path) -> None:  # type: ignore[no-untyped-def]
     tab = visit(small)
+    tab.check('input[value="all"]')
     tab.focus(_field("tf", 1, 2))
     for key in ("ArrowDown", "ArrowDown", "ArrowRight", "End", "ArrowRight", "Control+End", "Home", "ArrowUp", "ArrowRight"):
         tab.keyboard.press(key)
@@ -110,12 +112,20 @@ def test_links_to_undecided_pairs_open_them(visit, small: Path) -> None:  # type
 
 def test_the_views_switch(visit, small: Path) -> None:  # type: ignore[no-untyped-def]
     tab = visit(small, "#1:4")
-    assert [tab.is_visible(f'[data-view="{v}"]') for v in ("tf", "markov", "combined")] == [True, True, True]
+
+    def visible() -> list[str]:
+        return [view for view in VIEW_TITLES if tab.is_visible(f'[data-view="{view}"]')]
+
+    assert visible() == ["exact", "positive"]
+    assert tab.inner_text("#detail .badge") == "distinguishable"
     tab.check('input[value="tf"]')
-    assert [tab.is_visible(f'[data-view="{v}"]') for v in ("tf", "markov", "combined")] == [True, False, False]
+    assert visible() == ["tf"]
     assert tab.inner_text("#detail .badge") == "undecided"
     tab.check('input[value="combined"]')
+    assert visible() == ["combined"]
     assert tab.inner_text("#detail .badge") == "distinguishable"
+    tab.check('input[value="all"]')
+    assert visible() == list(VIEW_TITLES)
 
 
 @pytest.mark.parametrize("width", [390, 1280])
@@ -135,7 +145,7 @@ def test_printing_shows_all_views_and_no_controls(visit, small: Path) -> None:  
     tab = visit(small, "#1:4")
     tab.check('input[value="tf"]')
     tab.emulate_media(media="print")
-    assert all(tab.is_visible(f'[data-view="{v}"]') for v in View)
+    assert all(tab.is_visible(f'[data-view="{v}"]') for v in VIEW_TITLES)
     assert not any(tab.is_visible(s) for s in ("#detail", ".controls", ".hint"))
 
 
@@ -143,7 +153,7 @@ def test_without_script_everything_static_is_there(browser, small: Path) -> None
     context = browser.new_context(java_script_enabled=False)
     tab = context.new_page()
     tab.goto(small.as_uri())
-    assert all(tab.is_visible(f'[data-view="{v}"]') for v in View)
+    assert all(tab.is_visible(f'[data-view="{v}"]') for v in VIEW_TITLES)
     assert not tab.is_visible(".controls") and tab.is_visible("#A11 .chain")
     context.close()
 

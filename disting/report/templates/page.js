@@ -5,8 +5,11 @@
   const panel = document.getElementById("detail");
   const grids = [...section.querySelectorAll(".matrix")];
   const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula"];
-  const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure", fibre: "one fibre" };
-  const rule = (by) => (by === "exact" ? "the exact decision" : `condition ${by}`);
+  const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure", fibre: "one fibre", parameters: "equivalents" };
+  const RULES = { exact: "the exact decision", admissible: "positive equivalents" };
+  const rule = (by) => RULES[by] || `condition ${by}`;
+  const PANELS = { domains: ["exact", "positive"], all: Object.keys(data.views) };
+  const first = (show) => (PANELS[show] || [show])[0];
   const slot = (name) => panel.querySelector(`[data-slot="${name}"]`);
   const viewOf = (grid) => grid.closest(".view").dataset.view;
   let selected = null; // [low, high, view]
@@ -157,7 +160,8 @@
   const fit = () => {
     const shown = grids.find((grid) => grid.offsetParent);
     if (!shown) return;
-    const room = shown.closest(".scroll").parentElement.parentElement.clientWidth - 3.2 * cell;
+    const beside = section.dataset.show === "domains" && innerWidth > 700 ? 2 : 1;
+    const room = (shown.closest(".scroll").parentElement.parentElement.clientWidth - 26) / beside - Math.max(3.2 * cell, 46);
     resize(Math.max(5, Math.min(30, Math.floor(room / (data.models - 1)) - 1)));
   };
   const ZOOM = {
@@ -169,7 +173,7 @@
   const show = (view) => {
     section.dataset.show = view;
     if (!selected) return;
-    selected[2] = view === "all" ? selected[2] : view;
+    if (!(PANELS[view] || [view]).includes(selected[2])) selected[2] = first(view);
     fill(...selected);
   };
   const radios = [...section.querySelectorAll('input[name="show"]')];
@@ -185,15 +189,15 @@
     if (!found) return;
     const [low, high] = [+found[1], +found[2]].sort((a, b) => a - b);
     if (low < 1 || low === high || high > data.models) return;
-    const shown = section.dataset.show;
-    select(low, high, shown === "all" ? "exact" : shown);
+    select(low, high, first(section.dataset.show));
     section.scrollIntoView({ behavior: "instant" });
     const grid = grids.find((g) => g.offsetParent);
     fieldOf(grid, low, high).scrollIntoView({ block: "center", inline: "center", behavior: "instant" });
     panel.scrollIntoView({ block: "nearest", behavior: "instant" });
   };
   resize(cell);
-  choose(section.dataset.show === "all" && innerWidth > 700 ? "all" : "exact");
+  choose(innerWidth > 700 ? section.dataset.show : "exact");
+  if (data.models > 12) fit();
   addEventListener("hashchange", follow);
   follow();
 })();
