@@ -162,7 +162,8 @@
     if (!shown) return;
     const beside = section.dataset.show === "domains" && innerWidth > 700 ? 2 : 1;
     const room = (shown.closest(".scroll").parentElement.parentElement.clientWidth - 26) / beside - Math.max(3.2 * cell, 46);
-    resize(Math.max(5, Math.min(30, Math.floor(room / (data.models - 1)) - 1)));
+    const size = Math.floor(room / (data.models - 1));
+    resize(Math.max(5, Math.min(30, size < 14 ? size : size - 1))); // small fields have no space between them
   };
   const ZOOM = {
     out: () => resize(SIZES.filter((s) => s < cell).pop() || cell),
