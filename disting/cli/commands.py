@@ -20,6 +20,7 @@ from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
+from disting.proof import prove, prove_all
 from disting.verdict import RULE_NAMES, Query, Verdict, View
 
 RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "a look at admissible parameters"}
@@ -60,6 +61,8 @@ def compare(options: argparse.Namespace) -> int:
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
             verdict = compare_chains(*chains, query=query, engine=engine)
+    if options.prove:
+        verdict = prove(verdict, chains[0], chains[1])
     print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False) if options.json else _explained(verdict, chains))
     return 0
 
@@ -71,6 +74,8 @@ def verdicts(options: argparse.Namespace) -> int:
     with engine_for(options) as (engine, pool, progress):
         subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
         decided = engine.decisions(subjects, query, executor=pool, progress=progress)
+        if options.prove:
+            decided = prove_all(decided, progress=progress)
     if options.csv:
         _emit(options.csv, decisions_csv(decided))
     if options.json:

@@ -65,7 +65,7 @@ def _add_compare(groups: Groups) -> None:
     p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
     _shared(p, damped=True, sensor=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
-    _domain(p)
+    _deciding(p)
     p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
     p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
 
@@ -75,7 +75,7 @@ def _add_verdicts(groups: Groups) -> None:
     p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
     _shared(p, damped=True, sensor=True, work=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
-    _domain(p)
+    _deciding(p)
     p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
     p.add_argument(
         "--markov", type=_whole(1), default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)"
@@ -117,10 +117,12 @@ def _add_cache(groups: Groups) -> None:
     _command(actions, "clear", commands.cache_clear, "remove all entries")
 
 
-def _domain(parser: argparse.ArgumentParser) -> None:
+def _deciding(parser: argparse.ArgumentParser) -> None:
     names = [domain.value for domain in Domain]
     text = "parameter values that the verdict is about (default: complex, generic values)"
     parser.add_argument("--domain", choices=names, default=Domain.COMPLEX.value, help=text)
+    text = "prove by exact elimination what was computed at random points, where that ends in time"
+    parser.add_argument("--prove", action="store_true", help=text)
 
 
 class _Parser(argparse.ArgumentParser):

@@ -5,14 +5,14 @@ only pairs that share all buckets are looked at one by one. Evidence is made whe
 """
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.certainty import Grade
+from disting.certainty import Certainty, Grade
 from disting.conditions.admissible import ADMISSIBLY
 from disting.conditions.exact import EXACT
 from disting.conditions.question import Question
@@ -35,7 +35,8 @@ Prefetch = Callable[[Sequence[Subject], Representation, int], None]
 class Decisions:
     """For subjects i < j: `decided_by[i, j]` is the condition's number or 0, `representation[i, j]` indexes REPRESENTATIONS.
 
-    `steps` holds the findings of the pairs that a sufficient condition decided.
+    `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs whose bounded finding by a
+    necessary condition was proven afterwards.
     """
 
     subjects: tuple[Subject, ...]
@@ -43,6 +44,7 @@ class Decisions:
     decided_by: Numbers
     representation: Numbers
     steps: dict[tuple[int, int], Step] = field(default_factory=dict)
+    proven: frozenset[tuple[int, int]] = frozenset()
 
     def relation(self, i: int, j: int) -> Relation:
         """Relation of subjects i and j (counted from 0, in any order)."""
@@ -64,8 +66,10 @@ class Decisions:
             return decide(left, right, self.query)
         r = Representation(where)
         profiles = [s.profile(r, _count(r, self.query, self.subjects)) for s in (left, right)]
-        step = Step(where, NECESSARY[number - 1].check(*profiles))
-        return verdict_of(left.name, right.name, step, self.query.view.domain)
+        finding = NECESSARY[number - 1].check(*profiles)
+        if (i, j) in self.proven:
+            finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
+        return verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain)
 
     def grades(self) -> Iterator[tuple[int, int, int, str, str, int]]:
         """Yield (i, j, number, representation, certainty, safety) of all pairs, without evidence."""
@@ -80,7 +84,9 @@ class Decisions:
         for i, j in combinations(range(len(self.subjects)), 2):
             number, where = int(self.decided_by[i, j]), int(self.representation[i, j])
             grade: Grade | tuple[str, int] = ("", 0)
-            if (i, j) in self.steps:
+            if (i, j) in self.proven:
+                grade = (Certainty.PROVEN, 0)
+            elif (i, j) in self.steps:
                 grade = (self.steps[i, j].finding.certainty, self.steps[i, j].finding.safety)
             elif number:
                 grade = NECESSARY[number - 1].grade(profile(where, i), profile(where, j))

@@ -1,0 +1,60 @@
+"""Exact rank of a matrix of polynomials by fraction-free elimination (Bareiss 1968): every division leaves no remainder.
+
+The pivot is the entry with the fewest terms, and the common factor of each row is taken out first, which keeps entries short.
+"""
+
+from collections.abc import Sequence
+from time import monotonic
+from typing import Any
+
+Polynomial = Any  # an element of a ring without zero divisors, with exact division, gcd and a number of terms
+
+
+class OutOfTimeError(Exception):
+    """The elimination was given up."""
+
+
+def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
+    """Rank over the field of fractions; raises OutOfTimeError after about `seconds`.
+
+    >>> from disting.algebra.symbols import symbols
+    >>> x, y = symbols(["x", "y"]).values()
+    >>> rank([[x, y], [x * y, y**2], [x - x, x]], 1.0), rank([[x, y], [x**2, x * y]], 1.0)
+    (2, 1)
+    """
+    end = monotonic() + seconds
+    work = [_primitive(row) for row in rows]
+    columns = list(range(len(work[0]))) if work else []
+    previous: Polynomial | None = None
+    done = 0
+    while pivots := [(len(work[i][j]), i, j) for i in range(done, len(work)) for j in columns if work[i][j] != 0]:
+        _, at, column = min(pivots)
+        work[done], work[at] = work[at], work[done]
+        columns.remove(column)
+        for i in range(done + 1, len(work)):
+            if monotonic() > end:
+                raise OutOfTimeError(f"more than {seconds:g} s")
+            work[i] = _reduced(work[i], work[done], column, columns, previous)
+        previous = work[done][column]
+        done += 1
+    return done
+
+
+def _reduced(
+    row: Sequence[Polynomial], pivot: Sequence[Polynomial], column: int, columns: list[int], previous: Polynomial | None
+) -> list[Polynomial]:
+    """Bareiss' step: (pivot * entry - factor * above) / previous pivot."""
+    found = list(row)
+    for j in columns:
+        entry = pivot[column] * row[j] - row[column] * pivot[j]
+        found[j] = entry if previous is None else entry // previous
+    return found
+
+
+def _primitive(row: Sequence[Polynomial]) -> list[Polynomial]:
+    """The row without its common factor."""
+    common: Polynomial | None = None
+    for entry in row:
+        if entry != 0:
+            common = entry if common is None else common.gcd(entry)
+    return [entry // common for entry in row] if common is not None else list(row)
