@@ -14,6 +14,7 @@ from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
+from disting.identifiability import Identifiability
 from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
@@ -42,7 +43,9 @@ def build(
         "conditions": "1-9",
         "settings": engine.settings.to_dict(),
     }
-    records = [header, *(_model(number, s) for number, s in enumerate(subjects, 1)), *_pairs(found)]
+    known = engine.identifiabilities(list(family), executor=executor, progress=progress)
+    models = (_model(number, s, i) for number, (s, i) in enumerate(zip(subjects, known, strict=True), 1))
+    records = [header, *models, *_pairs(found)]
     return Catalog.from_records(records)
 
 
@@ -70,7 +73,7 @@ def provenance_of(folder: Path) -> Record:
     }
 
 
-def _model(number: int, subject: Subject) -> Record:
+def _model(number: int, subject: Subject, identifiability: Identifiability) -> Record:
     profile = subject.profile(Representation.TF, 0)
     return {
         "model": number,
@@ -81,6 +84,7 @@ def _model(number: int, subject: Subject) -> Record:
         "rank": profile.rank,
         "rank_certainty": "proven" if profile.rank_proven else "bounded",
         "safety": 0 if profile.rank_proven else profile.safety,
+        "identifiability": identifiability.to_dict(),
     }
 
 

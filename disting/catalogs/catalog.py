@@ -15,6 +15,7 @@ from disting.conditions.evidence import from_dict
 from disting.conditions.table import NECESSARY
 from disting.domain import Domain
 from disting.errors import CatalogError, InputError
+from disting.identifiability import Identifiability
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.verdict import PARAMETERS, Relation, Verdict, View
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ModelRow:
-    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in `classes(View.EXACT)` or 0."""
+    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in `classes()` or 0."""
 
     number: int
     chain: Chain
@@ -34,6 +35,7 @@ class ModelRow:
     n_parameters: int
     rank: int
     group: int
+    identifiability: Identifiability
 
 
 @dataclass(frozen=True)
@@ -97,7 +99,7 @@ class Catalog:
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
         """The models with their properties."""
-        group = {m: number for number, members in enumerate(self.classes(View.EXACT), 1) for m in members}
+        group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
         return tuple(self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)])
 
     def classes(self, view: View = View.EXACT) -> tuple[tuple[int, ...], ...]:
@@ -139,7 +141,12 @@ class Catalog:
             {"model": r.number, **dict(zip(_INDEX_NAMES, r.chain.indices[1:], strict=True))}
             | {"parameters": " ".join(r.chain.parameters), "numerator_degree": r.numerator_degree}
             | {"denominator_degree": r.denominator_degree, "n_parameters": r.n_parameters}
-            | {"rank": r.rank, "collocated": r.chain.collocated, "group": r.group}
+            | {
+                "rank": r.rank,
+                "collocated": r.chain.collocated,
+                "group": r.group,
+                "identifiable": r.identifiability.level.value,
+            }
             for r in self.rows
         ]
         return pd.DataFrame(rows).set_index("model")
@@ -155,7 +162,9 @@ class Catalog:
 
     def _row(self, record: Record, group: int) -> ModelRow:
         number, (numerator, denominator) = record["model"], record["degrees"]
-        return ModelRow(number, self.family[number], numerator, denominator, len(record["parameters"]), record["rank"], group)
+        known = Identifiability.from_dict(record["identifiability"])
+        chain, count = self.family[number], len(record["parameters"])
+        return ModelRow(number, chain, numerator, denominator, count, record["rank"], group, known)
 
     def _pair(self, low: int, high: int) -> Record:
         n = len(self.family)

@@ -11,7 +11,7 @@ from typing import Any
 
 from disting.errors import CatalogError
 
-SCHEMA = 1
+SCHEMA = 2
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
 PROVENANCE = "provenance.json"
 Record = dict[str, Any]

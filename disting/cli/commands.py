@@ -4,6 +4,7 @@ import argparse
 import json
 import re
 import sys
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from disting.conditions.exact import EXACT
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, Store
 from disting.errors import InputError
+from disting.identifiability import Identifiability, Level
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
@@ -34,12 +36,14 @@ def models(options: argparse.Namespace) -> int:
 
     family = Family(options.masses, options.damped)
     with engine_for(options) as (engine, pool, progress):
-        rows = engine.profiles_of(family, executor=pool, progress=progress)
-    table = Table("model", "gap", "act-", "act+", "meas-", "meas+", "degree", "free", "params", "rank", "drawing", box=None)
-    for number, (chain, profile) in enumerate(zip(family, rows, strict=True), 1):
+        profiles = engine.profiles_of(family, executor=pool, progress=progress)
+        known = _identifiabilities(family, engine, pool, progress)
+    names = ("model", "gap", "act-", "act+", "meas-", "meas+", "degree", "free", "params", "rank", "sets", "drawing")
+    table = Table(*names, box=None)
+    for number, (chain, profile, found) in enumerate(zip(family, profiles, known, strict=True), 1):
         n, m = profile.degrees
         numbers = (number, *chain.indices[1:], f"{n}/{m}", len(profile.form), profile.n_parameters, profile.rank)
-        table.add_row(*map(str, numbers), text_drawing(chain).replace("[", r"\["))
+        table.add_row(*map(str, numbers), _sets(found), text_drawing(chain).replace("[", r"\["))
     console = Console(highlight=False)
     console.width = max(console.width, 74 + 8 * family.n_masses)  # drawings are not cut, they may run over
     console.print(table)
@@ -47,8 +51,28 @@ def models(options: argparse.Namespace) -> int:
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         console.print(f"parameters, gap {gap}: {' '.join(parameters)}", markup=False)
     console.print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters", markup=False)
+    console.print("sets = parameter sets with the same behaviour: 1 identifiable, ∞ not, ? not known", markup=False)
     console.print(LEGEND, markup=False)
+    if options.identifiability:
+        for number, found in enumerate(known, 1):
+            console.print(f"A{number}: {found.sentence}", markup=False, soft_wrap=True)
     return 0
+
+
+def _identifiabilities(family: Family, engine: Engine, pool: Executor | None, progress: Progress) -> Sequence[Identifiability]:
+    """From the shipped catalogue where there is one."""
+    if family.n_masses in SHIPPED_SIZES:
+        return [row.identifiability for row in catalog(family.n_masses, damped=family.damped).rows]
+    return engine.identifiabilities(list(family), executor=pool, progress=progress)
+
+
+def _sets(found: Identifiability) -> str:
+    """How many parameter sets have one behaviour."""
+    if found.level is Level.NOT:
+        return "∞"
+    if found.most is None:
+        return "?"
+    return str(found.most) if found.least == found.most else f"{found.least}–{found.most}"
 
 
 def compare(options: argparse.Namespace) -> int:

@@ -56,6 +56,7 @@ def parser() -> argparse.ArgumentParser:
 def _add_models(groups: Groups) -> None:
     p = _command(groups, "models", commands.models, "the numbered list of all models of one size")
     p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
+    p.add_argument("--identifiability", action="store_true", help="say for each model which parameters can be determined")
     _shared(p, damped=True, work=True)
 
 

@@ -39,8 +39,11 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     found = decide(a, b, settings.seed)
     if found.membership is Membership.UNKNOWN:
         return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
+    grade = _grade(found, a.n_masses)
+    if grade[0] is Certainty.BOUNDED and grade[1] <= 0:
+        return Finding(EXACT, Outcome.ABANDONED, note="one point gives no bound for chains of this size")
     outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, *_grade(found, a.n_masses), _evidence(found))
+    return Finding(EXACT, outcome, *grade, _evidence(found))
 
 
 def mirrored(finding: Finding) -> Finding:

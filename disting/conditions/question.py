@@ -1,4 +1,4 @@
-"""What is asked of a pair of chains beyond conditions 1 to 9: computed by a pure function, kept as text by whoever keeps it."""
+"""What is asked of chains beyond conditions 1 to 9: computed by a pure function, kept as text by whoever keeps it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,14 +8,18 @@ from disting.model.chain import Chain
 from disting.settings import Settings
 
 T = TypeVar("T")
+Chains = tuple[Chain, ...]
 
 
 @dataclass(frozen=True)
 class Question(Generic[T]):
-    """A question by its `name`; `answer` computes, `encode` and `decode` turn an answer into text and back."""
+    """A question by its `name`, about one chain or an ordered pair.
+
+    `answer` computes (of the chains and the settings), `encode` and `decode` turn an answer into text and back.
+    """
 
     name: str
-    answer: Callable[[Chain, Chain, Settings], T]
+    answer: Callable[..., T]
     encode: Callable[[T], str]
     decode: Callable[[str], T]
 
@@ -23,10 +27,10 @@ class Question(Generic[T]):
 class Answerer(Protocol):
     """Whoever answers questions: by computing, or from a store."""
 
-    def __call__(self, question: Question[T], left: Chain, right: Chain, settings: Settings) -> T:
-        """The answer for this ordered pair."""
+    def __call__(self, question: Question[T], chains: Chains, settings: Settings) -> T:
+        """The answer for these chains in this order."""
 
 
-def computed(question: Question[T], left: Chain, right: Chain, settings: Settings) -> T:
+def computed(question: Question[T], chains: Chains, settings: Settings) -> T:
     """The answer, computed now."""
-    return question.answer(left, right, settings)
+    return question.answer(*chains, settings)

@@ -54,7 +54,7 @@ class Subject:
 
     def _asked(self, question: Question[Finding], other: "Subject") -> Finding:
         first, second = self.in_order(other)
-        found = self.answerer(question, first, second, self.settings)
+        found = self.answerer(question, (first, second), self.settings)
         return found if first == self.canonical.chain else mirrored(found)
 
     def in_order(self, other: "Subject") -> tuple[Chain, Chain]:

@@ -15,19 +15,18 @@ from numpy.typing import NDArray
 from disting.certainty import Certainty, Grade
 from disting.conditions.admissible import ADMISSIBLY
 from disting.conditions.exact import EXACT
-from disting.conditions.question import Question
+from disting.conditions.question import Chains, Question
 from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
-from disting.model.chain import Chain
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
 
 REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE, PARAMETERS)
 Numbers = NDArray[np.uint8]
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
-Ask = Callable[[Question[Any], Sequence[tuple[Chain, Chain]]], None]
+Ask = Callable[[Question[Any], Sequence[Chains]], None]
 Prefetch = Callable[[Sequence[Subject], Representation, int], None]
 
 

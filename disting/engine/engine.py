@@ -13,15 +13,17 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from disting.conditions.question import Question
+from disting.conditions.question import Chains, Question
 from disting.conditions.subject import Subject
 from disting.engine.decisions import Decisions, decisions
 from disting.engine.store import Store
+from disting.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.invariants.codec import profile_from_json, profile_to_json
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.model.structure import Structure
+from disting.model.symmetry import canonical
 from disting.settings import Settings
 from disting.verdict import Query, Verdict, audit, decide
 
@@ -29,7 +31,8 @@ T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-CODE = ("settings.py", "certainty.py", "domain.py", "verdict.py", "algebra", "model", "invariants", "synthesis", "conditions")
+FILES = ("settings.py", "certainty.py", "domain.py", "verdict.py")
+CODE = (*FILES, "algebra", "model", "invariants", "synthesis", "ideals", "conditions", "identifiability")
 
 
 def silent(what: str, done: int, total: int) -> None:
@@ -60,11 +63,11 @@ class Engine:
             self.memo[key] = found[key]
         return self.memo[key]
 
-    def answer(self, question: Question[T], left: Chain, right: Chain, settings: Settings) -> T:
-        """The answer about a pair, from memory, from the store, or computed and stored."""
-        key = question_key(question, left, right, settings)
+    def answer(self, question: Question[T], chains: Chains, settings: Settings) -> T:
+        """The answer, from memory, from the store, or computed and stored."""
+        key = question_key(question, chains, settings)
         if key not in self.answers:
-            self.answer_all(question, [(left, right)])
+            self.answer_all(question, [chains])
         found: T = self.answers[key]
         return found
 
@@ -93,7 +96,7 @@ class Engine:
         def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
             self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)
 
-        def ask(question: Question[Any], pairs: Sequence[tuple[Chain, Chain]]) -> None:
+        def ask(question: Question[Any], pairs: Sequence[Chains]) -> None:
             self.answer_all(question, pairs, executor=executor, progress=progress)
 
         return decisions(subjects, query, prefetch, ask)
@@ -105,6 +108,14 @@ class Engine:
         subjects = [self.subject("", chain) for chain in chains]
         self.prefetch({s.canonical.chain.structure for s in subjects}, Representation.TF, 0, executor, progress)
         return [s.profile(Representation.TF, 0) for s in subjects]
+
+    def identifiabilities(
+        self, chains: Sequence[Chain], *, executor: Executor | None = None, progress: Progress = silent
+    ) -> list[Identifiability]:
+        """Identifiability of chains, in order; each canonical form is looked at once."""
+        formed = [(chain, canonical(chain)) for chain in chains]
+        self.answer_all(IDENTIFIABILITY, [(form.chain,) for _, form in formed], executor=executor, progress=progress)
+        return [as_given(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain) for chain, form in formed]
 
     def prefetch(
         self, structures: set[Structure], r: Representation, count: int, executor: Executor | None, progress: Progress
@@ -126,18 +137,18 @@ class Engine:
     def answer_all(
         self,
         question: Question[Any],
-        pairs: Sequence[tuple[Chain, Chain]],
+        asked: Sequence[Chains],
         *,
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> None:
         """Bring answers into memory, as `prefetch` does with profiles."""
-        keys = {question_key(question, a, b, self.settings): (a, b) for a, b in pairs}
+        keys = {question_key(question, chains, self.settings): chains for chains in asked}
         stored = self.store.get_many([key for key in keys if key not in self.answers])
         self.answers |= {key: question.decode(text) for key, text in stored.items()}
-        missing = {key: pair for key, pair in keys.items() if key not in self.answers}
+        missing = {key: chains for key, chains in keys.items() if key not in self.answers}
         done = len(keys) - len(missing)
-        tasks = [(question, key, *pair, self.settings) for key, pair in missing.items()]
+        tasks = [(question, key, chains, self.settings) for key, chains in missing.items()]
         for key, text in mapped(compute_answer, tasks, executor):
             self.store.put_many({key: text})
             self.answers[key] = question.decode(text)
@@ -153,9 +164,9 @@ def profile_key(structure: Structure, r: Representation, count: int, settings: S
     return _key("profile", repr(structure), r.value, str(count), repr(settings))
 
 
-def question_key(question: Question[Any], left: Chain, right: Chain, settings: Settings) -> str:
+def question_key(question: Question[Any], chains: Chains, settings: Settings) -> str:
     """Content address of an answer."""
-    return _key(question.name, repr(left), repr(right), repr(settings))
+    return _key(question.name, *map(repr, chains), repr(settings))
 
 
 @cache
@@ -171,9 +182,9 @@ def compute(structures: Sequence[Structure], r: Representation, count: int, sett
     return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
 
 
-def compute_answer(question: Question[Any], key: str, left: Chain, right: Chain, settings: Settings) -> tuple[str, str]:
+def compute_answer(question: Question[Any], key: str, chains: Chains, settings: Settings) -> tuple[str, str]:
     """A task for a worker: one answer as text."""
-    return key, question.encode(question.answer(left, right, settings))
+    return key, question.encode(question.answer(*chains, settings))
 
 
 def mapped(function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None) -> Iterator[T]:
