@@ -5,7 +5,9 @@ Each kind says itself in a sentence and in a formula, and turns into plain data 
 
 from dataclasses import asdict, dataclass
 from itertools import groupby
-from typing import ClassVar
+from typing import ClassVar, get_args
+
+from disting.ideals import Refuted, Solved
 
 Labels = tuple[str, ...]
 
@@ -183,8 +185,8 @@ class FibreAt:
     """Exact decision: the fibre of one model over the transfer function of the other at a rational parameter point.
 
     Both models are in their canonical forms. `left_given`: the point (name, fraction) is of the left model and the right one
-    was searched; `grounds` as in `synthesis.decide`; `solutions`, of which so many real and positive; a numerical finding
-    agrees to that many `decades`.
+    was searched; `grounds`: "refuted" or "construction" (see `synthesis.decide`); so many of the `solutions` listed are real,
+    so many positive.
     """
 
     kind: ClassVar[str] = "fibre"
@@ -194,7 +196,6 @@ class FibreAt:
     solutions: int
     real: int
     positive: int
-    decades: int
 
     def sentence(self, left: str, right: str) -> str:
         """What the fibre shows."""
@@ -204,10 +205,9 @@ class FibreAt:
                 f"For one choice of rational parameters of {given} no parameters of {searched}, real or complex, give the same "
                 "transfer function: every branch of the inverse synthesis is refuted."
             )
-        how = "proven to exist" if self.grounds == "construction" else f"found to {self.decades} decimal places, not proven"
         return (
             f"For one choice of rational parameters of {given}, parameters of {searched} with the same transfer function are "
-            f"{how}: {self.solutions} solutions listed, {self.real} of them real, {self.positive} positive."
+            f"proven to exist: {self.solutions} solutions listed, {self.real} of them real, {self.positive} positive."
         )
 
     @property
@@ -218,9 +218,8 @@ class FibreAt:
         return f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
 
 
-Evidence = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel | Theorem | FibreAt
-_ALL: tuple[type[Evidence], ...] = (Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel, Theorem, FibreAt)
-_KINDS = {c.kind: c for c in _ALL}
+Evidence = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel | Theorem | FibreAt | Solved | Refuted
+_KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 
 def to_dict(evidence: Evidence) -> dict[str, object]:

@@ -1,4 +1,4 @@
-"""The exact decision where conditions 1 to 9 stay silent: one fibre, by inverse network synthesis.
+"""The exact decision where conditions 1 to 9 stay silent: one fibre, by inverse network synthesis or as a polynomial ideal.
 
 Both sets of behaviours have irreducible closures V1 and V2; of equal dimension they are equal exactly if a generic point of one
 lies in the image of the other. So a random rational point of one model is taken and all parameters of the other model with the
@@ -12,43 +12,68 @@ and the points p without an equivalent lie where its projection is not proper: o
 equivalent lie on the pull-back of an equation of V2, of degree D^(n+1) at most too. Coordinates are fractions whose numerators
 have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a probability of at most D^(n+1) / 2^POINT_BITS;
 up to DRAWS points are drawn.
+
+Where the synthesis has no method (ground dampers, lag, force and sensor two or more masses apart inside a part) or finds only
+numbers, the fibre's ideal decides, modulo random primes and with bounds of its own (see `disting.ideals`).
 """
 
 from dataclasses import replace
-from math import ceil, log2, log10
+from math import ceil, log2
 
-from disting.certainty import Certainty, Grade
+from disting import ideals
+from disting.certainty import Certainty
 from disting.conditions.evidence import FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
+from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
 from disting.settings import Settings
 from disting.synthesis.decide import DRAWS, POINT_BITS, Direction, Exact, Grounds, Membership, decide
 from disting.synthesis.duality import are_dual
 
+LIMITS = Limits(seconds=60.0, entries=4_000_000, safety=100)  # of one ideal; the work is limited first, so that runs repeat
 EXACT = 10  # number of the exact decision, after the nine conditions
 
 
 def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Exact decision for two chains of equal rank; equal size, damping and sensor, no lag, dead time or ground dampers."""
+    """Exact decision for two chains of equal rank, size, sensor and dead time."""
     named = theorem(a, b)
     if named:
         return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    if not _covered(a, b):
-        return Finding(EXACT, Outcome.INAPPLICABLE, note="the exact decision covers plain chains of equal size and damping")
+    if (a.n_masses, a.sensor, a.dead_time) != (b.n_masses, b.sensor, b.dead_time):
+        note = "the exact decision compares chains of equal size, sensor and dead time"
+        return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
+    found = _by_synthesis(a, b, settings) if _covered(a, b) else None
+    return _by_ideals(a, b, settings) if found is None else found
+
+
+def _by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the synthesis proves, but for a bound."""
     found = decide(a, b, settings.seed)
-    if found.membership is Membership.UNKNOWN:
-        return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
-    grade = _grade(found, a.n_masses)
-    if grade[0] is Certainty.BOUNDED and grade[1] <= 0:
-        return Finding(EXACT, Outcome.ABANDONED, note="one point gives no bound for chains of this size")
+    safety = safety_of_point(a.n_masses, len(found.point))
+    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION) or safety <= 0:
+        return None
     outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, *grade, _evidence(found))
+    return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
+
+
+def _by_ideals(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper, sometimes the other."""
+    reasons: list[str] = []
+    for coordinates in (coefficient_map, normalised):
+        found = ideals.decide(
+            coordinates(a.structure), coordinates(b.structure), equal_rank=True, seed=settings.seed, limits=LIMITS
+        )
+        if found.evidence and found.safety >= LIMITS.safety:
+            outcome = Outcome.HOLDS if found.membership is ideals.Membership.MEMBER else Outcome.FAILS
+            return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, found.evidence)
+        reasons.append(found.reason)
+    return Finding(EXACT, Outcome.ABANDONED, note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})")
 
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 
@@ -74,16 +99,6 @@ def _covered(a: Chain, b: Chain) -> bool:
     return plain and (a.n_masses, a.damped, a.sensor) == (b.n_masses, b.damped, b.sensor)
 
 
-def _grade(found: Exact, n_masses: int) -> Grade:
-    if found.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION):
-        return Certainty.BOUNDED, safety_of_point(n_masses, len(found.point))
-    return Certainty.NUMERICAL, 0
-
-
-def _is_numerical(found: Exact) -> bool:
-    return found.grounds in (Grounds.SUBSYSTEM, Grounds.BALLS)
-
-
 def _evidence(found: Exact) -> FibreAt:
     return FibreAt(
         left_given=found.direction is Direction.LEFT_IN_RIGHT,
@@ -92,5 +107,4 @@ def _evidence(found: Exact) -> FibreAt:
         solutions=found.solutions,
         real=found.real,
         positive=found.positive,
-        decades=int(-log10(found.width)) if _is_numerical(found) and found.width else 0,
     )

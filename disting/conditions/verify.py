@@ -15,6 +15,7 @@ from disting.conditions.evidence import (
     Theorem,
 )
 from disting.conditions.exact import theorem
+from disting.ideals import Refuted, Solved, coefficient_map, confirms, normalised
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation, Sample
@@ -59,6 +60,9 @@ class Witness:
                 part, whole = (a, b) if evidence.left_is_submodel else (b, a)
                 fits = dict(evidence.numbering) in list(part.embeddings(whole))
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
+            case Solved() | Refuted():
+                a, b = canonical(left).chain.structure, canonical(right).chain.structure
+                return any(confirms(evidence, coordinates(a), coordinates(b)) for coordinates in (coefficient_map, normalised))
             case Theorem():
                 return theorem(left, right) == evidence.name
             case FibreAt():

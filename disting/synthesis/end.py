@@ -92,8 +92,13 @@ def reduced(p: Poly, rho: Ball) -> Linear:
 
 
 def _with_ratio(branch: Branch, u: Linear, v: Linear, t: Ball) -> Iterator[Leaf]:
-    """The masses from t, then the peel of what is left of node a."""
+    """The masses from t, then the peel of what is left of node a.
+
+    Slopes and offsets have one ratio; at special points both slopes are zero, and the offsets still tell it.
+    """
     top, bottom = u.slope(t), v.slope(t)
+    if is_boundary(bottom) and is_boundary(top):
+        top, bottom = u.offset(t), v.offset(t)
     if is_boundary(bottom) or is_boundary(top):
         yield BOUNDARY
         return

@@ -7,7 +7,7 @@ from disting.errors import InputError
 from disting.model.family import Family
 from disting.synthesis.decide import Direction, Grounds, Membership, decide, member
 from disting.synthesis.result import Status
-from disting.verdict import Relation
+from disting.verdict import Relation, View
 
 OPEN_MEMBERS = {
     (3, True): {(1, 11)},
@@ -19,14 +19,14 @@ AGREES = {Relation.DISTINGUISHABLE: Membership.EXCLUDED, Relation.INDISTINGUISHA
 
 
 def undecided(c: Catalog) -> list[tuple[int, int]]:
-    return [(i, j) for i, j, v in c.pairs() if v.relation is Relation.UNDECIDED]
+    return [(i, j) for i, j, v in c.pairs(View.COMBINED) if v.relation is Relation.UNDECIDED]
 
 
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False), (4, True)])
 def test_agrees_with_the_conditions_on_all_pairs_of_equal_rank(n: int, damped: bool) -> None:
     c = catalog(n, damped=damped)
     rank = {row.number: row.rank for row in c.rows}
-    decided = [(i, j, v) for i, j, v in c.pairs() if rank[i] == rank[j] and v.relation in AGREES]
+    decided = [(i, j, v) for i, j, v in c.pairs(View.COMBINED) if rank[i] == rank[j] and v.relation in AGREES]
     assert len(decided) > 15
     for i, j, verdict in decided:
         assert decide(c.family[i], c.family[j]).membership is AGREES[verdict.relation], (i, j)

@@ -1,0 +1,17 @@
+"""Engine B of the exact decision: the fibre of one model over a generic point of another as a polynomial ideal.
+
+For any two models that are given as coefficient maps, not only chains; independent of `disting.synthesis`.
+"""
+
+from disting.ideals.decide import Decision as Decision
+from disting.ideals.decide import Limits as Limits
+from disting.ideals.decide import Membership as Membership
+from disting.ideals.decide import decide as decide
+from disting.ideals.evidence import Evidence as Evidence
+from disting.ideals.evidence import Refuted as Refuted
+from disting.ideals.evidence import Solved as Solved
+from disting.ideals.evidence import confirms as confirms
+from disting.ideals.fibre_ideal import generic_rank as generic_rank
+from disting.ideals.system import CoefficientMap as CoefficientMap
+from disting.ideals.system import coefficient_map as coefficient_map
+from disting.ideals.system import normalised as normalised
