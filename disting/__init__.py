@@ -29,6 +29,8 @@ from disting.model.chain import Chain as Chain
 from disting.model.chain import Sensor as Sensor
 from disting.model.family import Family as Family
 from disting.model.symmetry import Symmetry as Symmetry
+from disting.parametric import Model as Model
+from disting.parametric import local_identifiability as local_identifiability
 from disting.settings import Settings as Settings
 from disting.verdict import Query as Query
 from disting.verdict import Relation as Relation

@@ -1,19 +1,23 @@
-"""`compare` and `findings`: any two chains, named as the paper names them."""
+"""`compare` and `findings`: any two chains, named as the paper names them, or general models."""
 
+from disting import parametric
 from disting.conditions import Subject
 from disting.engine import Engine
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.parametric import Model
 from disting.verdict import Query, Step, Verdict, steps
 
 NUMBERED_UP_TO = 8  # masses; larger families are long to list, so their chains are named by their indices
 
 
 def compare(
-    left: Chain, right: Chain, *, query: Query | None = None, audit: bool = False, engine: Engine | None = None
+    left: Chain | Model, right: Chain | Model, *, query: Query | None = None, audit: bool = False, engine: Engine | None = None
 ) -> Verdict:
     """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store once it is there).
+
+    General models (`Model`) are compared likewise, with each other or with chains; their verdicts are not stored.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every representation and raises
     ContradictionError where two decide differently; `engine` brings settings and a store (default: none).
@@ -24,18 +28,29 @@ def compare(
     ('indistinguishable', 'distinguishable')
     """
     engine = engine or Engine()
+    if isinstance(left, Model) or isinstance(right, Model):
+        return parametric.compare(_model(left), _model(right), query=query, audit=audit, settings=engine.settings)
     subjects = _subjects(left, right, engine)
     return engine.verdict(*subjects, query or Query(), audited=audit)
 
 
-def findings(left: Chain, right: Chain, *, query: Query | None = None, engine: Engine | None = None) -> tuple[Step, ...]:
+def findings(
+    left: Chain | Model, right: Chain | Model, *, query: Query | None = None, engine: Engine | None = None
+) -> tuple[Step, ...]:
     """What every condition finds in every representation, in order, whether it decides or not.
 
     >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
     >>> [(s.representation, s.finding.number, s.finding.outcome.value) for s in steps][:3]
     [('tf', 1, 'fails'), ('tf', 2, 'fails'), ('tf', 3, 'fails')]
     """
-    return tuple(steps(*_subjects(left, right, engine or Engine()), query or Query()))
+    engine = engine or Engine()
+    if isinstance(left, Model) or isinstance(right, Model):
+        return parametric.findings(_model(left), _model(right), query=query, settings=engine.settings)
+    return tuple(steps(*_subjects(left, right, engine), query or Query()))
+
+
+def _model(given: Chain | Model) -> Model:
+    return given if isinstance(given, Model) else Model.from_chain(given, name=name_of(given, short=False))
 
 
 def _subjects(left: Chain, right: Chain, engine: Engine) -> tuple[Subject, Subject]:

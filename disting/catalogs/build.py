@@ -10,6 +10,7 @@ from pathlib import Path
 import disting
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest, lines, name_of
+from disting.catalogs.settle import Settled, preload
 from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
@@ -24,11 +25,21 @@ PARTS |= {view.value: view for view in (View.REAL, View.POSITIVE)}
 
 
 def build(
-    n_masses: int, *, damped: bool, engine: Engine, executor: Executor | None = None, progress: Progress = silent
+    n_masses: int,
+    *,
+    damped: bool,
+    engine: Engine,
+    settled: Settled | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
 ) -> Catalog:
-    """The catalogue of a family, computed (profiles may come from the engine's store or the executor's workers)."""
+    """The catalogue of a family, computed (profiles may come from the engine's store or the executor's workers).
+
+    `settled`: findings on pairs that are too large for the exact decision's limits (see `settle`).
+    """
     family = Family(n_masses, damped)
     subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
+    preload(engine, settled or {}, subjects)
     found = {
         part: engine.decisions(subjects, Query(view), executor=executor, progress=progress) for part, view in PARTS.items()
     }
@@ -69,7 +80,7 @@ def provenance_of(folder: Path) -> Record:
         "command": "disting catalog build 1 2 3 4 5",
         "software": {"disting": disting.__version__, "python": platform.python_version()}
         | {name: version(name) for name in ("numpy", "python-flint")},
-        "files": {p.name: digest(p) for p in sorted(folder.glob("*.jsonl"))},
+        "files": {p.name: digest(p) for p in sorted(folder.glob("chains-*.jsonl"))},
     }
 
 

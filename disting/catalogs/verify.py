@@ -7,6 +7,7 @@ from pathlib import Path
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
+from disting.catalogs.settle import read_settled
 from disting.conditions.verify import Witness
 from disting.engine import Engine, Progress, silent
 from disting.verdict import View
@@ -23,7 +24,7 @@ def verify(
 ) -> list[str]:
     """Everything that is wrong with a catalogue file, in sentences; empty if nothing is."""
     stored = catalog(n_masses, damped=damped, folder=folder)
-    rebuilt = build(n_masses, damped=damped, engine=engine, executor=executor, progress=progress)
+    rebuilt = build(n_masses, damped=damped, engine=engine, settled=read_settled(folder), executor=executor, progress=progress)
     return [
         *_differences(stored, rebuilt, folder / f"{name_of(n_masses, damped)}.jsonl"),
         *false_evidence(stored, progress),

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.export import decisions_csv, decisions_json
-from disting.catalogs.files import SHIPPED_SIZES
+from disting.catalogs.files import SHIPPED_SIZES, shipped_folder
 from disting.cli.work import engine_for
 from disting.comparison import compare as compare_chains
 from disting.conditions.admissible import ADMISSIBLE
@@ -126,12 +126,26 @@ def report(options: argparse.Namespace) -> int:
 def build(options: argparse.Namespace) -> int:
     """Compute catalogues."""
     from disting.catalogs.build import build, write
+    from disting.catalogs.settle import read_settled
 
+    settled = read_settled(shipped_folder())
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses:
-            pair = [build(n, damped=d, engine=engine, executor=pool, progress=progress) for d in (False, True)]
+            pair = [build(n, damped=d, engine=engine, settled=settled, executor=pool, progress=progress) for d in (False, True)]
             for path in write(pair, options.out)[:-1]:
                 print(path)
+    return 0
+
+
+def settle(options: argparse.Namespace) -> int:
+    """Settle what catalogues leave open."""
+    from disting.catalogs.settle import settle
+
+    for n in options.masses:
+        for damped in (False, True):
+            found = catalog(n, damped=damped, folder=options.catalog)
+            count = settle(found, options.catalog, options.seconds, print)
+            print(f"{found.name}: {count} settled")
     return 0
 
 

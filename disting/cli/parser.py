@@ -98,12 +98,16 @@ def _add_report(groups: Groups) -> None:
 
 def _add_catalog(groups: Groups) -> None:
     what = "Precomputed catalogues."
-    p: argparse.ArgumentParser = groups.add_parser("catalog", help="build or verify them", description=what)
+    p: argparse.ArgumentParser = groups.add_parser("catalog", help="build, settle or verify them", description=what)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     q = _command(actions, "build", commands.build, "compute catalogues, undamped and damped")
     q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
     q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
     _shared(q, work=True)
+    q = _command(actions, "settle", commands.settle, "decide with more time what catalogues leave open, to be built in")
+    q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("--seconds", type=float, default=3600.0, metavar="S", help="time for one pair (default: 3600)")
+    q.add_argument("--catalog", type=Path, default=Path("catalog"), metavar="DIR", help="folder (default: catalog)")
     q = _command(actions, "verify", commands.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
     q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
     q.add_argument("--catalog", type=Path, default=shipped_folder(), metavar="DIR", help="folder (default: the shipped one)")

@@ -44,7 +44,7 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         note = "the exact decision compares chains of equal size, sensor and dead time"
         return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
     found = _by_synthesis(a, b, settings) if _covered(a, b) else None
-    return _by_ideals(a, b, settings) if found is None else found
+    return by_ideals(a, b, settings, LIMITS) if found is None else found
 
 
 def _by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -57,16 +57,17 @@ def _by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
 
 
-def _by_ideals(a: Chain, b: Chain, settings: Settings) -> Finding:
+def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:
     """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper, sometimes the other."""
     reasons: list[str] = []
     for coordinates in (coefficient_map, normalised):
         found = ideals.decide(
             coordinates(a.structure), coordinates(b.structure), equal_rank=True, seed=settings.seed, limits=LIMITS
         )
-        if found.evidence and found.safety >= LIMITS.safety:
+        if found.evidence and found.safety >= limits.safety:
             outcome = Outcome.HOLDS if found.membership is ideals.Membership.MEMBER else Outcome.FAILS
-            return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, found.evidence)
+            evidence = replace(found.evidence, is_normalised=coordinates is normalised)
+            return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, evidence)
         reasons.append(found.reason)
     return Finding(EXACT, Outcome.ABANDONED, note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})")
 

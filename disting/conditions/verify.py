@@ -1,6 +1,7 @@
 """Checks a stored verdict again from its evidence alone: at fresh random points, without profiles, matroids or searches."""
 
 from dataclasses import dataclass, field
+from math import comb
 
 from disting.conditions.evidence import (
     Counts,
@@ -15,7 +16,7 @@ from disting.conditions.evidence import (
     Theorem,
 )
 from disting.conditions.exact import theorem
-from disting.ideals import Refuted, Solved, coefficient_map, confirms, normalised
+from disting.ideals import Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, normalised
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation, Sample
@@ -28,6 +29,7 @@ from disting.synthesis.result import Status
 from disting.synthesis.target import fraction, target
 
 POINTS = 3
+PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 
 
 @dataclass
@@ -61,8 +63,7 @@ class Witness:
                 fits = dict(evidence.numbering) in list(part.embeddings(whole))
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
             case Solved() | Refuted():
-                a, b = canonical(left).chain.structure, canonical(right).chain.structure
-                return any(confirms(evidence, coordinates(a), coordinates(b)) for coordinates in (coefficient_map, normalised))
+                return _ideal(evidence, left, right)
             case Theorem():
                 return theorem(left, right) == evidence.name
             case FibreAt():
@@ -111,6 +112,18 @@ class Witness:
     def _freely(self, evidence: FreeChoice, representation: str, structure: Structure) -> bool:
         free = self._free(structure, representation, _count(evidence.free))
         return free == set(evidence.free) and self._rank(structure, representation, evidence.free) == len(free)
+
+
+def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:
+    """A solution put into both models; a contradiction found again by plain elimination or, where that is too large, at a fresh
+    point by the fast one.
+    """
+    coordinates = normalised if evidence.is_normalised else coefficient_map
+    a, b = (coordinates(canonical(chain).chain.structure) for chain in (left, right))
+    if isinstance(evidence, Solved) or comb(len(a.parameters) + evidence.degree, evidence.degree) <= PLAIN_MONOMIALS:
+        return confirms(evidence, a, b)
+    again = decide(a, b, equal_rank=evidence.tangent, seed="verify", limits=Limits(seconds=1800, entries=10**9, safety=1))
+    return again.membership is Membership.EXCLUDED
 
 
 def _count(labels: tuple[str, ...]) -> int:

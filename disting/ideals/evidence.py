@@ -19,12 +19,14 @@ class Solved:
     """At the prime and point of each label the searched model has the parameters `solutions` with the same transfer function.
 
     `left_given`: the points are of the left model and the right one was searched. A scale factor, where needed, comes last.
+    `is_normalised`: in the coordinates of `system.normalised`, for chains.
     """
 
     kind: ClassVar[str] = "solved"
     left_given: bool
     labels: tuple[str, ...]
     solutions: tuple[tuple[int, ...], ...]
+    is_normalised: bool = False
 
     def sentence(self, left: str, right: str) -> str:
         """What was found."""
@@ -44,7 +46,8 @@ class Solved:
 class Refuted:
     """At the prime and point of each label the equations of the fibre have no solution: 1 is a combination of degree `degree`.
 
-    `tangent`: the tangent equations belong to them, which is right for models of equal rank only.
+    `tangent`: the tangent equations belong to them, which is right for models of equal rank only. `is_normalised`: in the
+    coordinates of `system.normalised`, for chains.
     """
 
     kind: ClassVar[str] = "refuted"
@@ -52,6 +55,7 @@ class Refuted:
     labels: tuple[str, ...]
     degree: int
     tangent: bool
+    is_normalised: bool = False
 
     def sentence(self, left: str, right: str) -> str:
         """What was found."""

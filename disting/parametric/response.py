@@ -1,0 +1,40 @@
+"""The transfer function of a state space with rational entries, by two determinants without any division.
+
+Multiplying row i of s I - A and of B by the common denominator r_i of their entries, and C and D by theirs, q, makes all
+entries polynomials. With P = diag(r) (s I - A) and the polynomial B', C', D'
+
+    G = C (s I - A)^-1 B + D = det [[P, B'], [-C', D']] / (q det P)
+
+and both determinants share the minors of the rows [P, B'].
+"""
+
+from functools import reduce
+
+from flint import fmpz_mpoly
+
+from disting.parametric.entries import StateSpace
+from disting.parametric.expression import Tree, value
+from disting.parametric.minors import minors
+from disting.parametric.ratio import Ratio, least_common_multiple
+
+
+def response(space: StateSpace, ring: dict[str, fmpz_mpoly], s: fmpz_mpoly) -> Ratio:
+    """G(s) in lowest terms; the ring holds the parameters."""
+    one = s**0
+    dynamics = [_cleared([*row, force], ring, one) for row, force in zip(space.a, space.b, strict=True)]
+    output, scale = _cleared([*space.c, space.d], ring, one)
+    rows = [[-entry for entry in row[:-1]] + [row[-1]] for row, _ in dynamics]
+    for i, (_, common) in enumerate(dynamics):
+        rows[i][i] += common * s
+    above = minors(rows, {0: one})
+    whole = minors([[*(-entry for entry in output[:-1]), output[-1]]], above)
+    n = len(rows)
+    zero = one - one
+    return Ratio(whole.get((2 << n) - 1, zero), scale * above.get((1 << n) - 1, zero))
+
+
+def _cleared(entries: list[Tree], ring: dict[str, fmpz_mpoly], one: fmpz_mpoly) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
+    """A row of entries times their common denominator, and this denominator."""
+    values = [value(entry, ring, one) for entry in entries]
+    common = reduce(least_common_multiple, (v.den for v in values), one)
+    return [v.num * (common // v.den) for v in values], common

@@ -1,0 +1,136 @@
+"""Two general models compared: the conditions of chains on the profiles of models, then the exact decision.
+
+Conditions 8 and 9 look at the elements of chains, which general models do not have. Verdicts are over complex parameters; over
+real or positive ones a pair that is distinguishable stays so, and one that a renaming makes identical stays identical.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.evidence import Renaming
+from disting.conditions.exact import EXACT
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.sufficient import INCOMPLETE, condition_7
+from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE
+from disting.domain import Domain
+from disting.errors import ContradictionError
+from disting.invariants.profile import Profile
+from disting.invariants.sample import Representation
+from disting.parametric.exact import exact_finding
+from disting.parametric.model import Model
+from disting.parametric.profiles import profile
+from disting.parametric.renaming import condition_6
+from disting.settings import Settings
+from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, verdict_of
+
+NO_ELEMENTS = "general models have no elements to be left out"
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two models under one question; a pair of profiles in each representation."""
+
+    left: Model
+    right: Model
+    query: Query = field(default_factory=Query)
+    settings: Settings = field(default_factory=Settings)
+
+    def profiles(self, representation: Representation) -> tuple[Profile, Profile]:
+        """Profiles of both; so many Markov parameters as asked, or as are exhaustive."""
+        exhaustive = self.left.n_states + self.right.n_states
+        count = (self.query.markov or exhaustive) if representation is Representation.MARKOV else 0
+        left, right = (profile(model, representation, count, self.settings) for model in (self.left, self.right))
+        return left, right
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Names of both, numbered where they are the same."""
+        one, other = self.left.name, self.right.name
+        return (f"{one} 1", f"{other} 2") if one == other else (one, other)
+
+
+def compare(
+    left: Model, right: Model, *, query: Query | None = None, audit: bool = False, settings: Settings | None = None
+) -> Verdict:
+    """Verdict on two models; `query`, `audit` and `settings` as for chains.
+
+    >>> a = Model.from_transfer_function(["k"], ["m", "d", "k"], name="spring")
+    >>> b = Model.from_transfer_function(["g*w**2"], ["1", "2*z*w", "w**2"], name="oscillator")
+    >>> compare(a, b).relation.value
+    'distinguishable'
+    """
+    pair = Pair(left, right, query or Query(), settings or Settings())
+    if audit:
+        _audited(pair)
+    found, domain = _decided(pair), pair.query.view.domain
+    if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
+        return replace(found, domain=domain)
+    return _admissible(pair, found, domain)
+
+
+def findings(left: Model, right: Model, *, query: Query | None = None, settings: Settings | None = None) -> tuple[Step, ...]:
+    """What every condition finds in every representation, in order, whether it decides or not."""
+    return tuple(steps(Pair(left, right, query or Query(), settings or Settings())))
+
+
+def steps(pair: Pair) -> Iterator[Step]:
+    """Yield every condition's finding lazily, representation by representation."""
+    for representation in pair.query.view.representations:
+        if representation == FIBRE:
+            yield Step(FIBRE, _exact(pair))
+        elif representation == STRUCTURE:
+            for condition in STRUCTURAL:
+                if condition.number in pair.query.conditions:
+                    yield Step(STRUCTURE, Finding(condition.number, Outcome.INAPPLICABLE, note=NO_ELEMENTS))
+        else:
+            yield from (Step(representation, found) for found in _conditions(pair, Representation(representation)))
+
+
+def _conditions(pair: Pair, representation: Representation) -> Iterator[Finding]:
+    asked = pair.query.conditions
+    for condition in NECESSARY:
+        if condition.number in asked:
+            yield condition.check(*pair.profiles(representation))
+    if 6 in asked:
+        one, other = pair.profiles(representation)
+        whole = one.describes_all(other)
+        yield condition_6(pair.left, pair.right) if whole else Finding(6, Outcome.INAPPLICABLE, note=INCOMPLETE)
+    if 7 in asked:
+        yield condition_7(*pair.profiles(representation))
+
+
+def _exact(pair: Pair) -> Finding:
+    one, other = pair.profiles(Representation.TF)
+    if one.rank != other.rank or one.degrees != other.degrees:
+        return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks or degrees differ (conditions 2 and 4)")
+    if one.rank == 0:
+        return Finding(EXACT, Outcome.INAPPLICABLE, note="constant transfer functions are compared by condition 7 alone")
+    return exact_finding(pair.left, pair.right, pair.settings.seed)
+
+
+def _decided(pair: Pair) -> Verdict:
+    notes: list[str] = []
+    for step in steps(pair):
+        if step.relation is not Relation.UNDECIDED:
+            return verdict_of(*pair.names, step)
+        if step.finding.outcome is Outcome.ABANDONED:
+            rule = "the exact decision" if step.finding.number == EXACT else f"condition {step.finding.number}"
+            notes.append(f"{rule} was abandoned ({step.representation}): {step.finding.note}")
+    return Verdict(*pair.names, Relation.UNDECIDED, notes=tuple(notes))
+
+
+def _audited(pair: Pair) -> None:
+    deciding = [step for step in steps(pair) if step.relation is not Relation.UNDECIDED]
+    if len({step.relation for step in deciding}) > 1:
+        found = ", ".join(f"{s.relation} by condition {s.finding.number} ({s.representation})" for s in deciding)
+        raise ContradictionError(f"{' and '.join(pair.names)}: {found}")
+
+
+def _admissible(pair: Pair, found: Verdict, domain: Domain) -> Verdict:
+    """Over real or positive parameters: a renaming is a bijection there too; nothing else is known."""
+    if isinstance(found.evidence, Renaming) and found.certainty:
+        finding = Finding(ADMISSIBLE, Outcome.HOLDS, found.certainty, found.safety, found.evidence)
+        return verdict_of(*pair.names, Step(PARAMETERS, finding), domain)
+    note = f"over complex parameters they are indistinguishable; over {domain} ones only a renaming decides general models"
+    return Verdict(*pair.names, Relation.UNDECIDED, domain=domain, notes=(note,))
