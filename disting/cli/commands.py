@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
+from disting import __version__
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.export import decisions_csv, decisions_json
 from disting.catalogs.files import SHIPPED_SIZES, shipped_folder
@@ -178,6 +179,29 @@ def cache_clear(options: argparse.Namespace) -> int:
     """Remove all entries."""
     with Store.open(None) as store:
         print(f"{store.clear()} entries removed")
+    return 0
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """Say what works here, and what else could."""
+    from importlib.metadata import version
+    from importlib.util import find_spec
+
+    from disting.ideals.programs import installed
+
+    print(f"{'disting':14}{__version__}")
+    for name in ("python-flint", "numpy"):
+        print(f"{name:14}{version(name)}")
+    for name, found, brings in installed():
+        print(
+            f"{name:14}{found or 'not found'}; optional, it would bring {brings}"
+            if not found
+            else f"{name:14}{found}: {brings}"
+        )
+    for name, brings in (("sympy", "maps as SymPy expressions"), ("distributed", "work on a cluster (--scheduler)")):
+        print(f"{name:14}{version(name) if find_spec(name) else 'not found'}; optional, for {brings}")
+    with Store.open(None) as store:
+        print(f"{'cache':14}{store.info().path or 'off'}")
     return 0
 
 

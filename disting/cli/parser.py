@@ -48,7 +48,7 @@ def parser() -> argparse.ArgumentParser:
     top = _Parser(prog="disting", description=DESCRIPTION, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("--version", action="version", version=f"disting {__version__}")
     groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
-    for add in (_add_models, _add_compare, _add_verdicts, _add_report, _add_catalog, _add_cache):
+    for add in (_add_models, _add_compare, _add_verdicts, _add_report, _add_catalog, _add_cache, _add_doctor):
         add(groups)
     return top
 
@@ -112,6 +112,10 @@ def _add_catalog(groups: Groups) -> None:
     q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
     q.add_argument("--catalog", type=Path, default=shipped_folder(), metavar="DIR", help="folder (default: the shipped one)")
     _shared(q, work=True)
+
+
+def _add_doctor(groups: Groups) -> None:
+    _command(groups, "doctor", commands.doctor, "what is installed, and what else would help")
 
 
 def _add_cache(groups: Groups) -> None:

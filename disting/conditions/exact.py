@@ -22,9 +22,12 @@ from math import ceil, log2
 
 from disting import ideals
 from disting.certainty import Certainty
-from disting.conditions.evidence import FibreAt, Theorem
+from disting.conditions.evidence import ByProgram, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
-from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised
+from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised, programs
+from disting.ideals.fibre_ideal import fibre_ideal
+from disting.ideals.rational import Emptiness
+from disting.ideals.system import matched
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
 from disting.settings import Settings
@@ -32,6 +35,7 @@ from disting.synthesis.decide import DRAWS, POINT_BITS, Direction, Exact, Ground
 from disting.synthesis.duality import are_dual
 
 LIMITS = Limits(seconds=60.0, entries=4_000_000, safety=100)  # of one ideal; the work is limited first, so that runs repeat
+PROGRAM_SECONDS = 10.0
 EXACT = 10  # number of the exact decision, after the nine conditions
 
 
@@ -44,7 +48,11 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         note = "the exact decision compares chains of equal size, sensor and dead time"
         return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
     found = _by_synthesis(a, b, settings) if _covered(a, b) else None
-    return by_ideals(a, b, settings, LIMITS) if found is None else found
+    if found is None:
+        found = by_ideals(a, b, settings, LIMITS)
+    if found.outcome is Outcome.ABANDONED:
+        found = _by_programs(a, b, settings, found)
+    return found
 
 
 def _by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -72,9 +80,26 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     return Finding(EXACT, Outcome.ABANDONED, note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})")
 
 
+def _by_programs(a: Chain, b: Chain, settings: Settings, otherwise: Finding) -> Finding:
+    """What a program for Gröbner bases says where one is installed: a contradiction modulo one prime, without a bound."""
+    for program in programs.PROGRAMS:
+        evidence = ByProgram(program.name, True, f"programs:{settings.seed}")
+        if program.path and program_refutes(evidence, a, b):
+            return Finding(EXACT, Outcome.FAILS, Certainty.NUMERICAL, evidence=evidence)
+    return otherwise
+
+
+def program_refutes(evidence: ByProgram, a: Chain, b: Chain) -> bool:
+    """Whether the program, if it is installed, finds the contradiction between these canonical chains in time."""
+    given, searched = (normalised(c.structure) for c in ((a, b) if evidence.left_given else (b, a)))
+    program = next(p for p in programs.PROGRAMS if p.name == evidence.program)
+    ideal = fibre_ideal(*matched(given, searched), evidence.label, True, programs.PROGRAM_BITS)
+    return programs.emptiness(program, ideal, PROGRAM_SECONDS)[0] is Emptiness.EMPTY
+
+
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 

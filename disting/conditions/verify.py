@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from math import comb
 
 from disting.conditions.evidence import (
+    ByProgram,
     Counts,
     Embedding,
     Evidence,
@@ -15,7 +16,7 @@ from disting.conditions.evidence import (
     Supermodel,
     Theorem,
 )
-from disting.conditions.exact import theorem
+from disting.conditions.exact import program_refutes, theorem
 from disting.ideals import Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, normalised
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
@@ -64,6 +65,8 @@ class Witness:
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
+            case ByProgram():
+                return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
             case Theorem():
                 return theorem(left, right) == evidence.name
             case FibreAt():
