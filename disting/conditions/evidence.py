@@ -5,6 +5,7 @@ Each kind says itself in a sentence and in a formula, and turns into plain data 
 
 from dataclasses import asdict, dataclass
 from itertools import groupby
+from math import sqrt
 from typing import ClassVar, get_args
 
 from disting.ideals import Refuted, Solved
@@ -167,12 +168,7 @@ class Theorem:
 
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says of this pair."""
-        if self.name == "duality":
-            return (
-                f"{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled, "
-                "over positive parameters too."
-            )
-        return f"{left} and {right} are one model after exchanging ports or mirroring a part, over positive parameters too."
+        return _THEOREMS[self.name].format(left=left, right=right) + ", over positive parameters too."
 
     @property
     def formula(self) -> str:
@@ -241,9 +237,52 @@ class ByProgram:
         return "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩ mod p"
 
 
-Evidence = (
-    Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel | Theorem | FibreAt | Solved | Refuted | ByProgram
-)
+ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
+
+
+@dataclass(frozen=True, slots=True)
+class Sometimes:
+    """Two positive points (name, fraction) of one model: one with a positive equivalent in the other, one without.
+
+    `left_given`: they are of the left model. So many `hits` of `tries` random points had one.
+    """
+
+    kind: ClassVar[str] = "sometimes"
+    left_given: bool
+    with_one: tuple[tuple[str, str], ...]
+    without: tuple[tuple[str, str], ...]
+    hits: int
+    tries: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        low, high = self.interval
+        return (
+            f"Some positive parameters of {given} have a positive equivalent in {searched}, others have none; both kinds are "
+            f"proven to occur ({self.hits} of {self.tries} random points have one: empirically {low:.0%} to {high:.0%})."
+        )
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's 95 % interval of the share, for this distribution of points (E. B. Wilson 1927)."""
+        n, p, z = self.tries, self.hits / self.tries, 1.96
+        middle, spread = p + z * z / (2 * n), z * sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+        return (middle - spread) / (1 + z * z / n), (middle + spread) / (1 + z * z / n)
+
+    @property
+    def formula(self) -> str:
+        """The empirical share."""
+        return f"{self.hits}/{self.tries} random points"
+
+
+Evidence = ByConditions | Theorem | FibreAt | Solved | Refuted | ByProgram | Sometimes
+_THEOREMS = {
+    "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
+    "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
+    "Foster": "{left} and {right} are undamped, each with force and sensor at one place: both give any such resonances",
+    "parts": "{left} and {right} are undamped and their parts at both sides of the gap can be exchanged one by one",
+}
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 

@@ -22,7 +22,7 @@ from math import ceil, log2
 
 from disting import ideals
 from disting.certainty import Certainty
-from disting.conditions.evidence import ByProgram, FibreAt, Theorem
+from disting.conditions.evidence import ByProgram, FibreAt, Sometimes, Theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised, programs
 from disting.ideals.fibre_ideal import fibre_ideal
@@ -33,6 +33,7 @@ from disting.model.symmetry import canonical
 from disting.settings import Settings
 from disting.synthesis.decide import DRAWS, POINT_BITS, Direction, Exact, Grounds, Membership, decide
 from disting.synthesis.duality import are_dual
+from disting.synthesis.foster import are_foster, are_same_by_parts
 
 LIMITS = Limits(seconds=60.0, entries=4_000_000, safety=100)  # of one ideal; the work is limited first, so that runs repeat
 PROGRAM_SECONDS = 10.0
@@ -99,7 +100,7 @@ def program_refutes(evidence: ByProgram, a: Chain, b: Chain) -> bool:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram | Sometimes):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 
@@ -112,6 +113,10 @@ def theorem(a: Chain, b: Chain) -> str:
     """
     if canonical(a).chain == canonical(b).chain:
         return "symmetry"
+    if are_foster(a, b):
+        return "Foster"
+    if are_same_by_parts(a, b):
+        return "parts"
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
 
 

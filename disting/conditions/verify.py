@@ -13,6 +13,7 @@ from disting.conditions.evidence import (
     FreeChoice,
     Ranks,
     Renaming,
+    Sometimes,
     Supermodel,
     Theorem,
 )
@@ -24,9 +25,10 @@ from disting.invariants.sample import Representation, Sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
+from disting.synthesis.admit import positive_equivalent
 from disting.synthesis.decide import Grounds
 from disting.synthesis.fibre import fibre
-from disting.synthesis.result import Status
+from disting.synthesis.result import Answer, Status
 from disting.synthesis.target import fraction, target
 
 POINTS = 3
@@ -65,6 +67,8 @@ class Witness:
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
+            case Sometimes():
+                return _sometimes(evidence, canonical(left).chain, canonical(right).chain)
             case ByProgram():
                 return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
             case Theorem():
@@ -115,6 +119,13 @@ class Witness:
     def _freely(self, evidence: FreeChoice, representation: str, structure: Structure) -> bool:
         free = self._free(structure, representation, _count(evidence.free))
         return free == set(evidence.free) and self._rank(structure, representation, evidence.free) == len(free)
+
+
+def _sometimes(evidence: Sometimes, a: Chain, b: Chain) -> bool:
+    """Both points once more."""
+    given, searched = (a, b) if evidence.left_given else (b, a)
+    points = ({n: fraction(v) for n, v in point} for point in (evidence.with_one, evidence.without))
+    return [positive_equivalent(given, point, searched) for point in points] == [Answer.YES, Answer.NO]
 
 
 def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:

@@ -1,7 +1,8 @@
 """Two general models compared: the conditions of chains on the profiles of models, then the exact decision.
 
 Conditions 8 and 9 look at the elements of chains, which general models do not have. Verdicts are over complex parameters; over
-real or positive ones a pair that is distinguishable stays so, and one that a renaming makes identical stays identical.
+real or positive ones a pair that is distinguishable stays so, one that a renaming makes identical stays identical, and points
+with and without an admissible equivalent are looked for otherwise (see `admissible`).
 """
 
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ from disting.domain import Domain
 from disting.errors import ContradictionError
 from disting.invariants.profile import Profile
 from disting.invariants.sample import Representation
+from disting.parametric.admissible import admissible_finding
 from disting.parametric.exact import exact_finding
 from disting.parametric.model import Model
 from disting.parametric.profiles import profile
@@ -128,9 +130,12 @@ def _audited(pair: Pair) -> None:
 
 
 def _admissible(pair: Pair, found: Verdict, domain: Domain) -> Verdict:
-    """Over real or positive parameters: a renaming is a bijection there too; nothing else is known."""
+    """Over real or positive parameters: a renaming is a bijection there too; points with and without equivalents come next."""
     if isinstance(found.evidence, Renaming) and found.certainty:
         finding = Finding(ADMISSIBLE, Outcome.HOLDS, found.certainty, found.safety, found.evidence)
+    else:
+        finding = admissible_finding(pair.left, pair.right, domain, pair.settings.seed)
+    if finding.outcome is not Outcome.ABANDONED:
         return verdict_of(*pair.names, Step(PARAMETERS, finding), domain)
-    note = f"over complex parameters they are indistinguishable; over {domain} ones only a renaming decides general models"
+    note = f"over complex parameters they are indistinguishable; {finding.note}"
     return Verdict(*pair.names, Relation.UNDECIDED, domain=domain, notes=(note,))

@@ -6,7 +6,7 @@ prove. So a branch that comes to its end is a proof, if the two parts are exact.
 masses before its gap (or the other chain has no gap): then its own grounded or free poles are the ones to take.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from flint import ctx, fmpq
@@ -39,9 +39,17 @@ def is_constructed(given: Chain, point: Mapping[str, fmpq], other: Chain) -> boo
     whole = target(given.structure, point).folded(1)
     if grounded is None:
         return whole.numerator.degree() == free.numerator_degree and _exists(free, whole)
-    return any(
-        _serves(whole, poles, grounded, free) for poles in _poles(given, point, whole) if poles.degree() == grounded.nodes
-    )
+    return any(all(_exists(*part) for part in parts) for parts in exact_parts(given, point, whole, grounded, free))
+
+
+def exact_parts(
+    given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Segment, free: Segment
+) -> Iterator[list[tuple[Segment, Target]]]:
+    """Yield the receptances of both parts, of the right degrees, where the given chain's own poles are the ones to take."""
+    for poles in _poles(given, point, whole):
+        parts = _parts(whole, poles) if poles.degree() == grounded.nodes else None
+        if parts and all(t.numerator.degree() == s.numerator_degree for s, t in zip((grounded, free), parts, strict=True)):
+            yield list(zip((grounded, free), parts, strict=True))
 
 
 def _poles(given: Chain, point: Mapping[str, fmpq], whole: Target) -> tuple[Exact, Exact]:
@@ -51,16 +59,15 @@ def _poles(given: Chain, point: Mapping[str, fmpq], whole: Target) -> tuple[Exac
     return whole.denominator // free, free // type(free)([0, 1])
 
 
-def _serves(whole: Target, poles: Exact, grounded: Segment, free: Segment) -> bool:
-    """H = R + F with these poles for R: both of the right degree, and both realised."""
+def _parts(whole: Target, poles: Exact) -> tuple[Target, Target] | None:
+    """H = R + F with these poles for R."""
     others = whole.denominator // poles
     common, inverse, _ = others.xgcd(poles)
     if common.degree() > 0:
-        return False
+        return None
     top = whole.numerator * inverse % poles
     rest = (whole.numerator - top * others) // poles
-    parts = ((grounded, Target(top, poles)), (free, Target(rest, others)))
-    return all(t.numerator.degree() == s.numerator_degree and _exists(s, t) for s, t in parts)
+    return Target(top, poles), Target(rest, others)
 
 
 def _exists(segment: Segment, exact: Target) -> bool:

@@ -8,6 +8,7 @@ vanishing elements.
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from disting.algebra.sampling import residues
 from disting.synthesis.ball import Ball, cut, is_boundary, poly, product, roots, shifted
@@ -19,7 +20,12 @@ from disting.synthesis.segment import Data, Segment, splits
 
 def neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
     """Yield every segment with b = a + 1 and this receptance, for one random spring between the ports."""
-    kappa, gain = _random(1)[0] + 0 * data.denominator[0], data.gain(segment)
+    yield from neighbours_at(segment, data, _random(1)[0])
+
+
+def neighbours_at(segment: Segment, data: Data, spring: Any) -> Iterator[Leaf]:
+    """The same for a given spring, a number or a fraction."""
+    kappa, gain = spring + 0 * data.denominator[0], data.gain(segment)
     poles = roots(data.denominator + kappa * data.numerator, segment.nodes)
     zeros = roots(data.numerator, segment.numerator_degree)
     for theta, phi in splits(poles, segment.a):
