@@ -7,7 +7,7 @@ All of it is over the complex numbers: distinguishable models are so over real a
 points are Zariski dense), while for indistinguishable ones the admissible values are asked for (see `conditions.admissible`).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -18,6 +18,13 @@ from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
 from disting.conditions.exact import EXACT
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import (
+    Inclusion,
+    InclusionFinding,
+    inclusion_finding,
+    inclusion_from_dict,
+    inclusion_to_dict,
+)
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
 from disting.domain import Domain
@@ -96,7 +103,9 @@ class Verdict:
     """Relation of a pair with its proof.
 
     `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
-    or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned.
+    or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned. `inclusion`
+    tells, over complex parameters, whose generic models have equivalents on the other side; for models of unequal rank
+    `inclusion_finding` says why.
     """
 
     left: str
@@ -109,6 +118,8 @@ class Verdict:
     evidence: Evidence | None = None
     domain: Domain = Domain.COMPLEX
     notes: tuple[str, ...] = ()
+    inclusion: Inclusion = Inclusion.UNKNOWN
+    inclusion_finding: InclusionFinding | None = None
 
     def __post_init__(self) -> None:
         decided = self.relation is not Relation.UNDECIDED
@@ -153,6 +164,8 @@ class Verdict:
             "certainty": self.certainty.value if self.certainty else "",
             "safety": self.safety,
             "domain": self.domain.value,
+            "inclusion": self.inclusion.value,
+            "inclusion_finding": {} if self.inclusion_finding is None else inclusion_to_dict(self.inclusion_finding),
             "error_bound": self.error_bound,
             "evidence": evidence,
             "notes": list(self.notes),
@@ -162,7 +175,7 @@ class Verdict:
     @staticmethod
     def from_dict(data: dict[str, object]) -> "Verdict":
         """Inverse of to_dict; raises ValueError, KeyError or TypeError for what is none."""
-        certainty, evidence = data["certainty"], data["evidence"]
+        certainty, evidence, inclusion = data["certainty"], data["evidence"], data["inclusion_finding"]
         return Verdict(
             str(data["left"]),
             str(data["right"]),
@@ -174,6 +187,8 @@ class Verdict:
             evidence_from(evidence) if isinstance(evidence, dict) and evidence else None,
             Domain(str(data["domain"])),
             tuple(map(str, data["notes"])) if isinstance(data["notes"], list) else (),
+            Inclusion(str(data["inclusion"])),
+            inclusion_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
         )
 
 
@@ -211,13 +226,27 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
 def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
     found, domain = _decided(left, right, query), query.view.domain
+    if FIBRE in query.view.representations:
+        found = with_inclusion(found, left.rank == right.rank, lambda: inclusion_finding(left, right))
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
     step = Step(PARAMETERS, left.admissible(right, domain))
     if step.relation is not Relation.UNDECIDED:
-        return verdict_of(left.name, right.name, step, domain)
+        return replace(verdict_of(left.name, right.name, step, domain), inclusion=found.inclusion)
     note = f"over complex parameters they are indistinguishable; {step.finding.note}"
-    return Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(note,))
+    return Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(note,), inclusion=found.inclusion)
+
+
+def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], InclusionFinding]) -> Verdict:
+    """The verdict over complex parameters with its inclusion; of unequal rank the finding tells it."""
+    if verdict.relation is Relation.UNDECIDED:
+        return verdict
+    if verdict.relation is Relation.INDISTINGUISHABLE:
+        return replace(verdict, inclusion=Inclusion.EQUAL)
+    if equal_rank:
+        return replace(verdict, inclusion=Inclusion.NEITHER)
+    found = finding()
+    return replace(verdict, inclusion=found.inclusion, inclusion_finding=found)
 
 
 def _decided(left: Subject, right: Subject, query: Query) -> Verdict:

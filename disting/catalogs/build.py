@@ -12,6 +12,7 @@ from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest, lines, name_of
 from disting.catalogs.settle import Settled, preload
 from disting.conditions.evidence import to_dict
+from disting.conditions.inclusion import inclusion_to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
@@ -103,12 +104,18 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
     size = len(found["tf"].subjects)
     for i in range(size):
         for j in range(i + 1, size):
-            yield {"left": i + 1, "right": j + 1} | {
-                part: _step(decided, i, j)
-                for part, decided in found.items()
-                if decided.relation(i, j) is not Relation.UNDECIDED
-                and (part in ("tf", "markov") or _only_by(part, decided, i, j))
-            }
+            inclusion = found[FIBRE].inclusions.get((i, j))
+            told = {} if inclusion is None else {"inclusion": inclusion_to_dict(inclusion)}
+            yield (
+                {"left": i + 1, "right": j + 1}
+                | told
+                | {
+                    part: _step(decided, i, j)
+                    for part, decided in found.items()
+                    if decided.relation(i, j) is not Relation.UNDECIDED
+                    and (part in ("tf", "markov") or _only_by(part, decided, i, j))
+                }
+            )
 
 
 def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:

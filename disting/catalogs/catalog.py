@@ -3,7 +3,7 @@
 import json
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,13 +12,14 @@ from disting.catalogs.export import Row, csv_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.certainty import Certainty
 from disting.conditions.evidence import from_dict
+from disting.conditions.inclusion import Inclusion, inclusion_from_dict
 from disting.conditions.table import NECESSARY
 from disting.domain import Domain
 from disting.errors import CatalogError, InputError
 from disting.identifiability import Identifiability
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.verdict import PARAMETERS, Relation, Verdict, View
+from disting.verdict import FIBRE, PARAMETERS, Relation, Verdict, View
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -172,6 +173,16 @@ class Catalog:
         return self.records[1 + n + before + high - low - 1]
 
     def _verdict(self, record: Record, view: View) -> Verdict:
+        found = self._plain(record, view)
+        if FIBRE not in view.representations or found.relation is Relation.UNDECIDED:
+            return found
+        if "inclusion" in record:
+            finding = inclusion_from_dict(record["inclusion"])
+            return replace(found, inclusion=finding.inclusion, inclusion_finding=finding)
+        same = _relation(_deciding(record, View.EXACT)[1]) is Relation.INDISTINGUISHABLE
+        return replace(found, inclusion=Inclusion.EQUAL if same else Inclusion.NEITHER)
+
+    def _plain(self, record: Record, view: View) -> Verdict:
         names = (f"A{record['left']}", f"A{record['right']}")
         where, step = _deciding(record, view)
         if not step:
@@ -196,7 +207,8 @@ _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
 def _csv_row(left: int, right: int, v: Verdict) -> Row:
-    return left, right, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound, v.domain
+    inclusion = "" if v.inclusion is Inclusion.UNKNOWN else v.inclusion.value
+    return left, right, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound, v.domain, inclusion
 
 
 def _deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:

@@ -5,21 +5,22 @@ import io
 import json
 from collections.abc import Iterable
 
+from disting.conditions.inclusion import Inclusion
 from disting.domain import Domain
 from disting.engine import Decisions
 from disting.verdict import RULE_NAMES, Relation, error_bound
 
-CSV_COLUMNS = ("left", "right", "relation", "decided_by", "representation", "certainty", "error_bound", "domain")
-Row = tuple[int, int, Relation, str, str, str, str, Domain]
-"""left, right, relation, decided_by, representation, certainty, error bound, domain"""
+CSV_COLUMNS = ("left", "right", "relation", "decided_by", "representation", "certainty", "error_bound", "domain", "inclusion")
+Row = tuple[int, int, Relation, str, str, str, str, Domain, str]
+"""left, right, relation, decided_by, representation, certainty, error bound, domain, inclusion ("" if not known)"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX)]), end="")
-    left,right,relation,decided_by,representation,certainty,error_bound,domain
-    1,2,distinguishable,1,tf,proven,0,complex
+    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither")]), end="")
+    left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion
+    1,2,distinguishable,1,tf,proven,0,complex,neither
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -31,12 +32,28 @@ def csv_text(rows: Iterable[Row]) -> str:
 
 def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1."""
-    domain = decided.query.view.domain
+
+    def rest(i: int, j: int) -> tuple[Domain, str]:
+        return decided.query.view.domain, _told(decided.inclusion(i, j))
+
     graded = (
-        (i + 1, j + 1, decided.relation(i, j), RULE_NAMES[number], where, certainty, error_bound(certainty, safety), domain)
+        (
+            i + 1,
+            j + 1,
+            decided.relation(i, j),
+            RULE_NAMES[number],
+            where,
+            certainty,
+            error_bound(certainty, safety),
+            *rest(i, j),
+        )
         for i, j, number, where, certainty, safety in decided.grades()
     )
     return csv_text(graded)
+
+
+def _told(inclusion: Inclusion) -> str:
+    return "" if inclusion is Inclusion.UNKNOWN else inclusion.value
 
 
 def decisions_json(decided: Decisions) -> str:

@@ -8,6 +8,8 @@ from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
 from disting.catalogs.settle import read_settled
+from disting.conditions.inclusion import confirms
+from disting.conditions.subject import Subject
 from disting.conditions.verify import Witness
 from disting.engine import Engine, Progress, silent
 from disting.verdict import View
@@ -34,6 +36,7 @@ def verify(
 def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str]:
     """Yield a sentence for each piece of evidence that does not hold."""
     witness = Witness()
+    subjects = {number: Subject(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)}
     total = len(stored.family) * (len(stored.family) - 1) // 2
     for done, (left, right, _) in enumerate(stored.pairs(), 1):
         for view in View:
@@ -41,6 +44,10 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
             chains = stored.family[left], stored.family[right]
             if v.evidence and not witness.confirms(v.evidence, v.representation, *chains):
                 yield f"{stored.name}, {left}:{right}, {view}: the evidence of condition {v.decided_by} does not hold"
+        included = stored.verdict(left, right).inclusion_finding
+        evidence = None if included is None else included.evidence
+        if evidence is not None and not confirms(evidence, subjects[left], subjects[right]):
+            yield f"{stored.name}, {left}:{right}: the evidence of the inclusion does not hold"
         progress("evidence", done, total)
 
 

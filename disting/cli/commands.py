@@ -16,6 +16,7 @@ from disting.cli.work import engine_for
 from disting.comparison import compare as compare_chains
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
+from disting.conditions.inclusion import Inclusion
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, Store
 from disting.errors import InputError
@@ -239,7 +240,22 @@ def _explained(verdict: Verdict, chains: list[Chain]) -> str:
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]
-    return "\n".join([*lines, f"domain     {verdict.domain} parameters"])
+    lines.append(f"domain     {verdict.domain} parameters")
+    return "\n".join([*lines, *_inclusion(verdict)])
+
+
+def _inclusion(verdict: Verdict) -> list[str]:
+    """What is said of models of unequal rank."""
+    found = verdict.inclusion_finding
+    if found is None:
+        return []
+    says = {
+        Inclusion.LEFT_IN_RIGHT: f"generic {verdict.left} lie in {verdict.right}, not the reverse",
+        Inclusion.RIGHT_IN_LEFT: f"generic {verdict.right} lie in {verdict.left}, not the reverse",
+        Inclusion.NEITHER: "neither lies in the other",
+    }.get(found.inclusion, f"not known: {found.reason}")
+    why = f" ({found.certainty}): {found.evidence.sentence(verdict.left, verdict.right)}" if found.evidence else ""
+    return [f"inclusion  {says}{why}"]
 
 
 def _summary(decided: Decisions) -> str:

@@ -8,6 +8,7 @@ from itertools import groupby
 from math import sqrt
 from typing import ClassVar, get_args
 
+from disting.conditions.witnesses import Witnesses
 from disting.ideals import Refuted, Solved
 
 Labels = tuple[str, ...]
@@ -276,7 +277,7 @@ class Sometimes:
         return f"{self.hits}/{self.tries} random points"
 
 
-Evidence = ByConditions | Theorem | FibreAt | Solved | Refuted | ByProgram | Sometimes
+Evidence = ByConditions | Theorem | FibreAt | Solved | Refuted | ByProgram | Sometimes | Witnesses
 _THEOREMS = {
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
     "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",

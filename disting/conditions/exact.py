@@ -70,9 +70,10 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper, sometimes the other."""
     reasons: list[str] = []
     for coordinates in (coefficient_map, normalised):
-        found = ideals.decide(
-            coordinates(a.structure), coordinates(b.structure), equal_rank=True, seed=settings.seed, limits=LIMITS
-        )
+        here, there = (coordinates(c.structure) for c in (a, b))
+        if here.degrees != there.degrees:
+            return Finding(EXACT, Outcome.INAPPLICABLE, note="the degrees differ (conditions 1 and 2)")
+        found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
         if found.evidence and found.safety >= limits.safety:
             outcome = Outcome.HOLDS if found.membership is ideals.Membership.MEMBER else Outcome.FAILS
             evidence = replace(found.evidence, is_normalised=coordinates is normalised)

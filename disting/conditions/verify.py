@@ -18,6 +18,7 @@ from disting.conditions.evidence import (
     Theorem,
 )
 from disting.conditions.exact import program_refutes, theorem
+from disting.conditions.witnesses import Witnesses
 from disting.ideals import Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, normalised
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
@@ -67,6 +68,8 @@ class Witness:
                 return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
+            case Witnesses():
+                return False  # it speaks of general models, see `parametric.confirms`
             case Sometimes():
                 return _sometimes(evidence, canonical(left).chain, canonical(right).chain)
             case ByProgram():
@@ -136,7 +139,10 @@ def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:
     a, b = (coordinates(canonical(chain).chain.structure) for chain in (left, right))
     if isinstance(evidence, Solved) or comb(len(a.parameters) + evidence.degree, evidence.degree) <= PLAIN_MONOMIALS:
         return confirms(evidence, a, b)
-    again = decide(a, b, equal_rank=evidence.tangent, seed="verify", limits=Limits(seconds=1800, entries=10**9, safety=1))
+    given, other = (a, b) if evidence.left_given else (b, a)
+    again = decide(
+        given, other, equal_rank=evidence.tangent, seed="verify", limits=Limits(seconds=1800, entries=10**9, safety=1)
+    )
     return again.membership is Membership.EXCLUDED
 
 

@@ -13,14 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.admissible import ADMISSIBLY
+from disting.conditions.admissible import ADMISSIBLE, ADMISSIBLY
 from disting.conditions.exact import EXACT
+from disting.conditions.inclusion import INCLUDED, Inclusion, InclusionFinding, by_rank, inclusion_finding, quick_inclusion
 from disting.conditions.question import Chains, Question
 from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
+from disting.model.chain import Chain
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
 
 REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE, PARAMETERS)
@@ -35,7 +37,7 @@ class Decisions:
     """For subjects i < j: `decided_by[i, j]` is the condition's number or 0, `representation[i, j]` indexes REPRESENTATIONS.
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs whose bounded finding by a
-    necessary condition was proven afterwards.
+    necessary condition was proven afterwards, `inclusions` the findings on pairs of unequal rank.
     """
 
     subjects: tuple[Subject, ...]
@@ -44,6 +46,7 @@ class Decisions:
     representation: Numbers
     steps: dict[tuple[int, int], Step] = field(default_factory=dict)
     proven: frozenset[tuple[int, int]] = frozenset()
+    inclusions: dict[tuple[int, int], InclusionFinding] = field(default_factory=dict)
 
     def relation(self, i: int, j: int) -> Relation:
         """Relation of subjects i and j (counted from 0, in any order)."""
@@ -59,7 +62,7 @@ class Decisions:
         i, j = min(i, j), max(i, j)
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
-            return verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain)
+            return self._included(i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain))
         number, where = int(self.decided_by[i, j]), REPRESENTATIONS[self.representation[i, j]]
         if number == 0:
             return decide(left, right, self.query)
@@ -68,7 +71,22 @@ class Decisions:
         finding = NECESSARY[number - 1].check(*profiles)
         if (i, j) in self.proven:
             finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
-        return verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain)
+        return self._included(i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain))
+
+    def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
+        inclusion = self.inclusion(i, j)
+        return replace(verdict, inclusion=inclusion, inclusion_finding=self.inclusions.get((i, j)))
+
+    def inclusion(self, i: int, j: int) -> Inclusion:
+        """Whose generic models have equivalents on the other side; not told by the paper's views."""
+        if FIBRE not in self.query.view.representations:
+            return Inclusion.UNKNOWN
+        if (i, j) in self.inclusions:
+            return self.inclusions[i, j].inclusion
+        number, steps = self.decided_by[i, j], self.steps
+        if number >= ADMISSIBLE or (number and (i, j) in steps and steps[i, j].relation is Relation.INDISTINGUISHABLE):
+            return Inclusion.EQUAL
+        return Inclusion.NEITHER if number else Inclusion.UNKNOWN
 
     def grades(self) -> Iterator[tuple[int, int, int, str, str, int]]:
         """Yield (i, j, number, representation, certainty, safety) of all pairs, without evidence."""
@@ -115,6 +133,8 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask
         prefetch([subjects[int(i)] for i in active], r, _count(r, query, subjects))
         _necessary(result, open_pairs, r, active)
         _sufficient(result, open_pairs, r)
+    if FIBRE in query.view.representations:
+        _inclusions(result, ask)
     if query.view.domain is not Domain.COMPLEX:
         _admissible(result, ask)
     return result
@@ -122,6 +142,21 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask
 
 def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Subject, Subject]]:
     return [(result.subjects[int(i)], result.subjects[int(j)]) for i, j in zip(*np.nonzero(where), strict=True)]
+
+
+def _inclusions(result: Decisions, ask: Ask) -> None:
+    """Settle by profiles what they settle, and ask about the rest at once; each pair of canonical forms is looked at once."""
+    subjects, known = result.subjects, dict[tuple[Chain, Chain], InclusionFinding | None]()
+    pairs = [(i, j) for i, j in combinations(range(len(subjects)), 2) if subjects[i].rank != subjects[j].rank]
+    for i, j in pairs:
+        key = (subjects[i].canonical.chain, subjects[j].canonical.chain)
+        if key not in known:
+            known[key] = quick_inclusion(subjects[i], subjects[j])
+    keys = {(i, j): (subjects[i].canonical.chain, subjects[j].canonical.chain) for i, j in pairs}
+    ask(INCLUDED, [by_rank(subjects[i], subjects[j]) for i, j in pairs if known[keys[i, j]] is None])
+    for i, j in pairs:
+        found = known[keys[i, j]]
+        result.inclusions[i, j] = inclusion_finding(subjects[i], subjects[j]) if found is None else found
 
 
 def _admissible(result: Decisions, ask: Ask) -> None:

@@ -1,0 +1,95 @@
+"""Verdicts over real and positive parameters: points with and without equivalents, renamings, and what stays open."""
+
+from dataclasses import replace
+
+import pytest
+
+from disting import Certainty, Query, Relation, View
+from disting.conditions.evidence import Renaming
+from disting.conditions.finding import Outcome
+from disting.domain import Domain
+from disting.parametric import Model, Witnesses, alternatives, compare, confirms
+from disting.parametric.admissible import points
+
+IRREVERSIBLE = Model.from_state_space([["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible")
+REVERSIBLE = Model.from_state_space([["-k12-k01", "k21"], ["k12", "-k21"]], [1, 0], [0, 1], name="reversible")
+SQUARE = Model.from_transfer_function("k", "s + k**2", name="square")
+SHIFTED = Model.from_transfer_function("k + 1", "s + (k + 1)**2", name="shifted")
+PAIRS = [(IRREVERSIBLE, REVERSIBLE), (REVERSIBLE, IRREVERSIBLE)]
+
+
+def over(view, left, right):
+    return compare(left, right, query=Query(view=view))
+
+
+@pytest.mark.parametrize("view", [View.REAL, View.POSITIVE])
+@pytest.mark.parametrize(("left", "right"), PAIRS)
+def test_two_compartments_agree_for_some_rates_only(view, left, right):
+    assert compare(left, right).relation is Relation.INDISTINGUISHABLE
+    verdict = over(view, left, right)
+    assert (verdict.relation, verdict.certainty) == (Relation.SOMETIMES, Certainty.PROVEN)
+    evidence = verdict.evidence
+    assert isinstance(evidence, Witnesses) and evidence.solutions == 2
+    assert confirms(evidence, left, right)
+    assert "has no equivalent in" in verdict.sentence and "∅" in evidence.formula
+
+
+@pytest.mark.parametrize(("left", "right"), PAIRS)
+def test_the_published_rates_are_a_witness_and_others_are_not(left, right):
+    rates = (("k01", "1/10"), ("k02", "1"), ("k12", "1"))
+    fast = (("k01", "5"), ("k02", "1"), ("k12", "1"))
+    given = left is IRREVERSIBLE
+    evidence = Witnesses("positive", given, fast, (), given, rates, 2)
+    assert confirms(evidence, left, right)
+    assert not confirms(replace(evidence, point_without=fast), left, right)
+    assert not confirms(replace(evidence, point_with=rates), left, right)
+    assert not confirms(replace(evidence, point_with=(("k01", "-5"), ("k02", "-1"), ("k12", "-1"))), left, right)
+
+
+def test_renamed_oscillators_agree_for_all_parameters():
+    one = Model.from_transfer_function(["g*w**2"], ["1", "2*z*w", "w**2"], name="one")
+    other = Model.from_transfer_function(["a*b**2"], ["1", "2*c*b", "b**2"], name="other")
+    for view in (View.REAL, View.POSITIVE):
+        verdict = over(view, one, other)
+        assert verdict.relation is Relation.INDISTINGUISHABLE and isinstance(verdict.evidence, Renaming)
+
+
+def test_distinguishable_models_stay_so():
+    cube = Model.from_transfer_function("k", "s + k**3", name="cube")
+    assert over(View.POSITIVE, SQUARE, cube).relation is Relation.DISTINGUISHABLE
+
+
+def test_a_shift_is_a_bijection_of_the_reals_and_none_of_the_positive_numbers():
+    """k + 1 > 1: positive k of the one need k > 1 to be 1 + something positive."""
+    positive = over(View.POSITIVE, SQUARE, SHIFTED)
+    assert positive.relation is Relation.SOMETIMES and positive.evidence.without_left_given
+    assert confirms(positive.evidence, SQUARE, SHIFTED)
+    real = over(View.REAL, SQUARE, SHIFTED)
+    assert real.relation is Relation.UNDECIDED
+    assert "found at 60 of 60 random points of square and at 60 of 60 random points of shifted" in real.sentence
+
+
+def test_special_points_are_no_witnesses():
+    """(s + a)(s + b) against a, a + 1/c: a = b has no equivalent, which is no open set, and the points avoid nothing."""
+    pair = Model.from_transfer_function("1", "(s + a)*(s + b)", name="pair")
+    apart = Model.from_transfer_function("1", "(s + a)*(s + a + c)", name="apart")
+    verdict = over(View.POSITIVE, pair, apart)
+    assert verdict.relation is Relation.UNDECIDED
+    assert alternatives(pair, {"a": 2, "b": 2}, apart).exist(Domain.POSITIVE) is Outcome.FAILS
+
+
+def test_families_have_members_or_are_excluded():
+    product = Model.from_transfer_function("a*b", "s + c", name="product")
+    shifted = Model.from_transfer_function("a*b + 1", "s + c", name="shifted")
+    verdict = over(View.POSITIVE, product, shifted)
+    assert verdict.relation is Relation.SOMETIMES and confirms(verdict.evidence, product, shifted)
+    assert verdict.evidence.solutions == -1 and "infinitely many complex" in verdict.sentence
+
+
+def test_points_are_of_their_domain_and_determined():
+    for domain in (Domain.REAL, Domain.POSITIVE):
+        stream = points(IRREVERSIBLE, domain, "seed")
+        seen = [next(stream) for _ in range(50)]
+        assert seen[0] == next(points(IRREVERSIBLE, domain, "seed")) and len({str(p) for p in seen}) > 40
+        assert all(set(p) == set(IRREVERSIBLE.parameters) for p in seen)
+        assert all(x > 0 for p in seen for x in p.values()) is (domain is Domain.POSITIVE)
