@@ -6,26 +6,39 @@ import sys
 import disting
 
 NAMES = [
+    *("Alternatives", "CONDITIONS", "CacheWarning", "Catalog", "CatalogError", "Certainty", "Chain", "ConstraintViolation"),
     *(
-        "CONDITIONS",
-        "CacheWarning",
-        "Catalog",
-        "CatalogError",
-        "Certainty",
-        "Chain",
-        "ConstraintViolation",
         "ContradictionError",
+        "Decisions",
+        "DistingError",
+        "Domain",
+        "Engine",
+        "Family",
+        "Finding",
+        "Identifiability",
+        "Inclusion",
     ),
-    *("Decisions", "DistingError", "Domain", "Engine", "Family", "Finding", "InputError", "ModelRow", "Outcome", "Query"),
-    "transfer_function",
-    *("Relation", "Sensor", "Settings", "Step", "Store", "Symmetry", "Verdict", "View", "catalog", "compare", "findings"),
+    *("InputError", "Model", "ModelRow", "Outcome", "Query", "Relation", "Sensor", "Settings", "Step", "Store", "Symmetry"),
+    *(
+        "Verdict",
+        "View",
+        "alternatives",
+        "catalog",
+        "compare",
+        "equivalents",
+        "explicit_map",
+        "findings",
+        "local_identifiability",
+        "prove",
+        "transfer_function",
+    ),
 ]
 HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich"}
 
 
 def test_public_names():
-    modules = {"algebra", "catalogs", "comparison", "conditions", "engine", "errors", "invariants", "model"}
-    modules |= {"settings", "synthesis", "verdict"}
+    modules = {"algebra", "catalogs", "certainty", "comparison", "conditions", "domain", "engine", "equivalence", "errors"}
+    modules |= {"ideals", "identifiability", "invariants", "model", "parametric", "proof", "settings", "synthesis", "verdict"}
     seen = {name for name in vars(disting) if not name.startswith("_")} - modules
     optional = {"cli", "report", "scheduling"}  # imported by other tests of this process
     assert sorted(seen - optional) == sorted(NAMES)

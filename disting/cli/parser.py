@@ -8,7 +8,7 @@ from typing import Any
 
 from disting import __version__
 from disting.catalogs.files import shipped_folder
-from disting.cli import commands
+from disting.cli import commands, equivalents
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
 from disting.model.chain import Sensor
@@ -48,7 +48,7 @@ def parser() -> argparse.ArgumentParser:
     top = _Parser(prog="disting", description=DESCRIPTION, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("--version", action="version", version=f"disting {__version__}")
     groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
-    for add in (_add_models, _add_compare, _add_verdicts, _add_report, _add_catalog, _add_cache, _add_doctor):
+    for add in (_add_models, _add_compare, _add_verdicts, _add_equivalents, _add_report, _add_catalog, _add_cache, _add_doctor):
         add(groups)
     return top
 
@@ -83,6 +83,12 @@ def _add_verdicts(groups: Groups) -> None:
     )
     p.add_argument("--csv", metavar="FILE", help="write the verdicts as CSV; - is standard output")
     p.add_argument("--json", metavar="FILE", help="write the verdicts with evidence as JSON; - is standard output")
+
+
+def _add_equivalents(groups: Groups) -> None:
+    p = _command(groups, "equivalents", equivalents.run, "all parameters of other models with the same transfer function")
+    equivalents.add_arguments(p)
+    _shared(p, damped=True)
 
 
 def _add_report(groups: Groups) -> None:

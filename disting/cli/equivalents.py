@@ -1,0 +1,179 @@
+"""The command `equivalents`: its arguments, and how models with the same transfer function are printed."""
+
+import argparse
+import json
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from disting.comparison import name_of
+from disting.equivalence import (
+    Equivalent,
+    Equivalents,
+    Listing,
+    Map,
+    Origin,
+    Signs,
+    assignments,
+    chain_of,
+    chains_of,
+    explicit_map,
+)
+from disting.equivalence import equivalents as find
+from disting.errors import InputError
+from disting.model.chain import Chain
+from disting.model.drawing import text_drawing
+from disting.model.family import Family
+
+ABREAST = 3  # parameter sets beside each other
+FEW = 12  # names of structures that are told one by one
+SOURCES = {
+    Origin.GIVEN: "given",
+    Origin.RENAMING: "renaming",
+    Origin.DUALITY: "duality",
+    Origin.PROPORTIONAL: "proportional",
+    Origin.SYNTHESIS: "synthesis",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Everything but --damped, which other commands have too."""
+    parser.add_argument("model", metavar="N:I", help="the given model: masses:number, as 'disting models' lists it")
+    parser.add_argument("--to", required=True, metavar="M:J|M", help="another structure, or all structures of M masses")
+    text = "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly"
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text)
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="print the result as JSON")
+    form.add_argument("--formulas", action="store_true", help="print formulas, where they are rational, for any values")
+    form.add_argument("--latex", action="store_true", help="print formulas in LaTeX")
+    form.add_argument("--sympy", action="store_true", help="print formulas as Python source for SymPy")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the equivalents of a model, or formulas for them."""
+    if options.formulas or options.latex or options.sympy:
+        given = chain_of(options.model, Family(1, options.damped))
+        print("\n".join(_formulas(given, chains_of(options.to, given), options)))
+        return 0
+    if not options.values:
+        example = "--set m1=1,m2=2,.. (or --formulas for formulas)"
+        raise InputError(f"values of the given model are needed: {example}")
+    found = find(options.model, assignments(options.values), options.to, damped=options.damped)
+    print(json.dumps(found.to_dict(), indent=1, ensure_ascii=False) if options.json else "\n".join(_lines(found)))
+    return 0
+
+
+def _lines(found: Equivalents) -> Iterator[str]:
+    values = ", ".join(f"{name} = {_decimal(value)}" for name, value in found.values.items())
+    yield f"{found.name}  {text_drawing(found.chain)}"
+    yield f"given: {values}"
+    listed = [listing for listing in found.listings if listing.members]
+    for listing in listed:
+        yield ""
+        yield from _listing(listing)
+    if listed:
+        yield ""
+        yield "difference: the largest relative difference of a transfer-function coefficient, rounding to 15 digits included"
+    yield ""
+    yield from _unlisted(found.listings)
+    yield _closing(found)
+
+
+def _decimal(value: Fraction) -> str:
+    """As a decimal where 15 digits are exact."""
+    text = f"{float(value):.15g}"
+    return text if Fraction(text) == value else str(value)
+
+
+def _listing(listing: Listing) -> Iterator[str]:
+    yield f"{listing.name}  {text_drawing(listing.chain)}   {_counted(listing)}"
+    shown = [(i, member) for i, member in enumerate(listing.members, 1) if member.signs is not Signs.COMPLEX]
+    for group in (shown[i : i + ABREAST] for i in range(0, len(shown), ABREAST)):
+        yield ""
+        yield from _table(listing.chain, group)
+    hidden = len(listing.members) - len(shown)
+    if hidden:
+        yield f"  and {hidden} complex ones, of no physical meaning (--json shows them)"
+
+
+def _counted(listing: Listing) -> str:
+    count = len(listing.members)
+    return f"{count} parameter set{'s' * (count != 1)}, {listing.sentence}"
+
+
+def _table(chain: Chain, group: Sequence[tuple[int, Equivalent]]) -> Iterator[str]:
+    rows = [("", [f"set {i}" for i, _ in group])]
+    rows.append(("signs", [_signs(member) for _, member in group]))
+    rows += [(name, [member.text[name] for _, member in group]) for name in chain.parameters]
+    rows.append(("found by", [SOURCES[member.origin] for _, member in group]))
+    rows.append(("difference", [f"{member.residual:.1e}" if member.residual else "exact" for _, member in group]))
+    if any(member.free_choices for _, member in group):
+        rows.append(("free choices", [str(member.free_choices) for _, member in group]))
+    widths = [max(len(row[1][i]) for row in rows) for i in range(len(group))]
+    for label, cells in rows:
+        yield f"  {label:12}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
+
+
+def _signs(member: Equivalent) -> str:
+    return {Signs.POSITIVE: "positive", Signs.REAL: "signs mixed"}.get(member.signs, "complex") + "?" * (not member.proven)
+
+
+def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
+    """Structures without a member, grouped by what is said of them."""
+    groups: dict[str, list[str]] = {}
+    for listing in listings:
+        if not listing.members:
+            said = listing.sentence if len(listings) == 1 or not listing.complete else "none exists: proven"
+            groups.setdefault(said, []).append(listing.name)
+    for said, names in groups.items():
+        every = "all" if len(names) == len(listings) else "all other"
+        few = len(groups) > 1 or len(names) <= FEW
+        yield f"{', '.join(names) if few else f'{every} {len(names)} structures'}: {said}"
+
+
+def _closing(found: Equivalents) -> str:
+    """One sentence: what this means for an experiment."""
+    others = [listing for listing in found.listings if listing.chain != found.chain]
+    physical = [listing.name for listing in others if any(m.signs is Signs.POSITIVE for m in listing.members)]
+    own = [m for listing in found.listings if listing.chain == found.chain for m in listing.members]
+    twins = sum(m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN for m in own)
+    said = []
+    if physical:
+        said.append(f"No experiment with this force and sensor tells it from {_and(physical)} with the positive values above.")
+    elif others and all(listing.complete for listing in others):
+        said.append("No other structure looked at gives this transfer function with positive values.")
+    elif others:
+        said.append("No other structure with positive values was found; not all are excluded.")
+    if own and twins:
+        said.append("Other positive values of the same structure give the same transfer function too.")
+    elif own and all(listing.complete for listing in found.listings if listing.chain == found.chain):
+        said.append("In its own structure no other positive values do.")
+    if found.proportional and physical:
+        said.append("All springs have the same ratio k/d here; other ratios may rule out some of these.")
+    return " ".join(said)
+
+
+def _and(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} or {names[-1]}"
+
+
+def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace) -> Iterator[str]:
+    mark = "% " if options.latex else "# " if options.sympy else ""
+    none = []
+    for other in others:
+        found = explicit_map(given, other)
+        if found is None:
+            none.append(name_of(other, short=False))
+            continue
+        yield f"{mark}{name_of(given, short=False)}  {text_drawing(given)}"
+        yield f"{mark}{name_of(other, short=False)}  {text_drawing(other)}   (primed)"
+        yield f"{mark}by {', then '.join(found.steps) or 'identity'}; {_checked(found)}"
+        yield found.latex if options.latex else found.python if options.sympy else found.text
+        yield ""
+    if none:
+        yield f"{mark}no rational formulas known here: {', '.join(none)}"
+
+
+def _checked(found: Map) -> str:
+    if not found.safety:
+        return "identity of the transfer functions proven"
+    return f"identity of the transfer functions checked, probability of error at most 2^-{found.safety}"

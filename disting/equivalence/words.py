@@ -1,0 +1,53 @@
+"""What is said of a list of equivalents: whether it is complete, and if not, why and what helps."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from flint import fmpq
+
+from disting.model.chain import Chain
+from disting.synthesis.result import Fibre, Status
+from disting.synthesis.target import target
+
+
+def sentence(found: Fibre, count: int, cause: str) -> str:
+    """The status in words; `count` parameter vectors are listed, `cause` as from `special`."""
+    if found.status is Status.EMPTY:
+        return f"none exists: proven ({found.reason})"
+    if found.status is Status.COMPLETE:
+        return "all there are" if not found.tests.boundary else "all there are, but for any with an element near zero"
+    if found.status is Status.INFINITE:
+        return "infinitely many: one member of each family is listed, others may have other signs"
+    listed = "the list may be incomplete" if count else "nothing can be said"
+    if found.status is Status.NOT_COVERED:
+        return f"{listed}: {found.reason}"
+    return f"special values: {listed}, since {cause}; change a value slightly"
+
+
+def not_covered(given: Chain, other: Chain) -> str:
+    """Why the synthesis does not apply to this pair, or nothing."""
+    if other.n_masses > given.n_masses:
+        return "a structure with more masses would need poles that cancel, which is not covered"
+    if other.damped and not given.damped and not given.ground_dampers:
+        return "a structure with dampers for a model without any is not covered"
+    if given.ground_dampers or given.lag or other.ground_dampers or other.lag or other.dead_time:
+        return "lag, dead time and ground dampers are not covered"
+    return ""
+
+
+def special(given: Chain, point: Mapping[str, fmpq]) -> str:
+    """What is special about the values of a model whose poles or zeros coincide."""
+    order = (2 if given.damped else 1) * given.n_masses
+    if target(given.structure, point).folded(order // given.n_masses).denominator.degree() < order:
+        return "a vibration mode is not seen by force and sensor (poles and zeros cancel)"
+    equal = _equal_ratios(given, point)
+    return f"springs have the same ratio k/d ({equal})" if equal else "poles, zeros or elements coincide"
+
+
+def _equal_ratios(given: Chain, point: Mapping[str, fmpq]) -> str:
+    """Springs of one ratio each, such as k12/d12 = k23/d23."""
+    groups: dict[Any, list[str]] = {}
+    for name in given.parameters:
+        if name[0] == "k" and f"d{name[1:]}" in point:
+            groups.setdefault(point[name] / point[f"d{name[1:]}"], []).append(f"{name}/d{name[1:]}")
+    return ", ".join(" = ".join(names) for names in groups.values() if len(names) > 1)

@@ -1,0 +1,68 @@
+"""The command `equivalents` in real processes."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+VALUES = "m1=1,m2=2,m3=3,k12=100,k23=70"
+
+
+def equivalents(*arguments):
+    command = [sys.executable, "-m", "disting", "equivalents", *map(str, arguments)]
+    environment = os.environ | {"DISTING_CACHE": "off", "COLUMNS": "100"}
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False)
+
+
+def test_one_structure():
+    done = equivalents("3:1", "--to", "3:11", "--damped", "--set", VALUES, "--set", "d12=0.1,d23=3/10")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert lines[0] == "3:1  [1FS]=[2]=[3]"
+    assert "3:11  #=[1]=[2fs]   [3FS]   1 parameter set, all there are" in lines
+    assert [line.split() for line in lines if line.startswith("  m1 ")] == [["m1", "4.8"]]
+    assert lines[-1] == "No experiment with this force and sensor tells it from 3:11 with the positive values above."
+
+
+def test_a_family():
+    done = equivalents("3:4", "--to", 3, "--set", VALUES)
+    assert done.returncode == 0
+    assert "3:2, 3:3, 3:5, 3:7, 3:9, 3:10: none exists: proven" in done.stdout
+    assert "tells it from 3:1, 3:6, 3:8 or 3:11" in done.stdout
+
+
+def test_json():
+    done = equivalents("3:4", "--to", 3, "--set", VALUES, "--json")
+    said = json.loads(done.stdout)
+    assert [len(listing["equivalents"]) for listing in said["listings"]] == [1, 0, 0, 2, 0, 2, 0, 1, 0, 0, 1]
+    assert all(m["signs"] == "positive" and m["residual"] < 1e-12 for li in said["listings"] for m in li["equivalents"])
+
+
+def test_formulas_in_three_languages():
+    assert "m1'  = m2\n" in equivalents("3:4", "--to", "3:1", "--formulas").stdout
+    assert r"k_{12}' &= k_{12} + k_{23}" in equivalents("3:4", "--to", "3:1", "--latex").stdout
+    source = equivalents("3:4", "--to", "3", "--sympy").stdout
+    space = {}
+    exec(source, space)
+    assert "equivalent" in space
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("3:1", "--to", "3:11"), "values of the given model are needed"),
+        (("3:1", "--to", "3:11", "--set", "m1=1"), "the value of m2, m3, k12, k23 is missing"),
+        (("3:1", "--to", "3:11", "--set", VALUES + ",m1=2"), "m1 is given twice"),
+        (("3:1", "--to", "3:11", "--set", VALUES.replace("m1=1", "m1=0")), "m1 = 0"),
+        (("3:1", "--to", "3:11", "--set", "m1"), "name=number"),
+        (("3:12", "--to", "3", "--set", VALUES), "models 1 to 11"),
+        (("3:1", "--to", "x", "--set", VALUES), "masses:number"),
+        (("3:1", "--set", VALUES), "--to"),
+    ],
+)
+def test_bad_input_is_one_sentence(arguments, words):
+    done = equivalents(*arguments)
+    assert done.returncode == 2 and done.stdout == ""
+    assert words in done.stderr and len(done.stderr.splitlines()) == 1 and done.stderr.startswith("disting: ")
