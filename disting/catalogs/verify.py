@@ -55,7 +55,7 @@ def _differences(stored: Catalog, rebuilt: Catalog, path: Path) -> Iterator[str]
     if path.read_text(encoding="utf-8") == lines(list(rebuilt.records)):
         return
     for number, (a, b) in enumerate(zip(stored.records, rebuilt.records, strict=False), 1):
-        if a != b:
+        if lines([a]) != lines([b]):
             yield f"{path.name}, line {number} is not what is computed now"
             return
     yield f"{path.name} is formatted differently from what is computed now"

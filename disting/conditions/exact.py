@@ -29,6 +29,7 @@ from disting.ideals.fibre_ideal import fibre_ideal
 from disting.ideals.rational import Emptiness
 from disting.ideals.system import matched
 from disting.model.chain import Chain
+from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.settings import Settings
 from disting.synthesis.decide import DRAWS, POINT_BITS, Direction, Exact, Grounds, Membership, decide
@@ -70,7 +71,7 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper, sometimes the other."""
     reasons: list[str] = []
     for coordinates in (coefficient_map, normalised):
-        here, there = (coordinates(c.structure) for c in (a, b))
+        here, there = (coordinates(rational_part(c)) for c in (a, b))
         if here.degrees != there.degrees:
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the degrees differ (conditions 1 and 2)")
         found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
@@ -93,10 +94,15 @@ def _by_programs(a: Chain, b: Chain, settings: Settings, otherwise: Finding) -> 
 
 def program_refutes(evidence: ByProgram, a: Chain, b: Chain) -> bool:
     """Whether the program, if it is installed, finds the contradiction between these canonical chains in time."""
-    given, searched = (normalised(c.structure) for c in ((a, b) if evidence.left_given else (b, a)))
+    given, searched = (normalised(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a)))
     program = next(p for p in programs.PROGRAMS if p.name == evidence.program)
     ideal = fibre_ideal(*matched(given, searched), evidence.label, True, programs.PROGRAM_BITS)
     return programs.emptiness(program, ideal, PROGRAM_SECONDS)[0] is Emptiness.EMPTY
+
+
+def rational_part(chain: Chain) -> Structure:
+    """The structure without its dead time, a factor of its own that both models share."""
+    return replace(chain, dead_time=False).structure
 
 
 def mirrored(finding: Finding) -> Finding:

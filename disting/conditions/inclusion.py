@@ -17,7 +17,7 @@ from typing import ClassVar, TypeVar
 from disting.algebra.matroid import Matroid, rank_in
 from disting.certainty import Certainty
 from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels, from_dict, spelled, to_dict
-from disting.conditions.exact import safety_of_point
+from disting.conditions.exact import rational_part, safety_of_point
 from disting.conditions.question import Question
 from disting.conditions.subject import Subject
 from disting.conditions.verify import POINTS, Witness
@@ -31,7 +31,7 @@ from disting.settings import Settings
 from disting.synthesis.decide import Exact, Grounds, Membership, member
 
 T = TypeVar("T")
-INCLUSION_LIMITS = Limits(seconds=20.0, entries=300_000, safety=100)  # of one ideal; less than for a verdict
+INCLUSION_LIMITS = Limits(seconds=20.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
 
 
 class Inclusion(StrEnum):
@@ -254,7 +254,7 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
 def _by_ideal(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
     reason = ""
     for coordinates in (normalised, coefficient_map):
-        maps = (coordinates(c.structure) for c in (small, large))
+        maps = (coordinates(rational_part(c)) for c in (small, large))
         found = decide_ideal(*maps, equal_rank=False, seed=settings.seed, limits=INCLUSION_LIMITS)
         if found.evidence is not None and found.safety >= INCLUSION_LIMITS.safety:
             evidence = replace(found.evidence, is_normalised=coordinates is normalised)

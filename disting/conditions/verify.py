@@ -17,7 +17,7 @@ from disting.conditions.evidence import (
     Supermodel,
     Theorem,
 )
-from disting.conditions.exact import program_refutes, theorem
+from disting.conditions.exact import program_refutes, rational_part, theorem
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, normalised
 from disting.invariants.expanded import is_renaming
@@ -136,7 +136,7 @@ def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:
     point by the fast one.
     """
     coordinates = normalised if evidence.is_normalised else coefficient_map
-    a, b = (coordinates(canonical(chain).chain.structure) for chain in (left, right))
+    a, b = (coordinates(rational_part(canonical(chain).chain)) for chain in (left, right))
     if isinstance(evidence, Solved) or comb(len(a.parameters) + evidence.degree, evidence.degree) <= PLAIN_MONOMIALS:
         return confirms(evidence, a, b)
     given, other = (a, b) if evidence.left_given else (b, a)

@@ -12,7 +12,7 @@ from disting.catalogs.verify import false_evidence, verify
 from disting.errors import InputError
 
 SMALL = [(n, damped) for n in (1, 2, 3, 4) for damped in (False, True)]
-LARGE = [(5, False), (5, True)]
+LARGE = [(5, False), pytest.param(5, True, marks=pytest.mark.slow)]  # the damped ones take minutes
 
 
 def stored_text(n, damped):
@@ -83,7 +83,7 @@ def test_tables_agree_with_the_verdicts():
 def test_csv_and_json_hold_every_pair():
     c = catalog(3)
     rows = c.to_csv().splitlines()
-    assert rows[0] == "left,right,relation,decided_by,representation,certainty,error_bound,domain"
+    assert rows[0] == "left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion"
     assert len(rows) == 1 + 55
     data = json.loads(c.to_json(View.TF))
     assert len(data["verdicts"]) == 55
@@ -97,9 +97,9 @@ def test_writing_leaves_no_partial_files(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("n", "damped", "left_open"), [(2, True, 0), (3, True, 0), (4, False, 0), (4, True, 0), (5, False, 0), (5, True, 6)]
+    ("n", "damped", "left_open"), [(2, True, 0), (3, True, 0), (4, False, 0), (4, True, 0), (5, False, 0), (5, True, 0)]
 )
-def test_the_exact_decision_leaves_nothing_open_but_six_pairs(n, damped, left_open):
+def test_the_exact_decision_leaves_nothing_open(n, damped, left_open):
     c = catalog(n, damped=damped)
     counts = c.counts()
     assert counts[""] == left_open
