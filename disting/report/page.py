@@ -8,6 +8,7 @@ from disting.catalogs import Catalog, ModelRow
 from disting.conditions import CONDITIONS
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
+from disting.identifiability import Level
 from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.environment import render
@@ -86,6 +87,16 @@ class Model:
     row: ModelRow
     drawing: Drawing
     formula: tuple[str, ...]
+
+    @property
+    def sets(self) -> str:
+        """How many parameter vectors have one behaviour."""
+        found = self.row.identifiability
+        if found.level is Level.NOT:
+            return "infinitely many"
+        if found.most is None:
+            return "not known"
+        return str(found.most) if found.least == found.most else f"{found.least} to {found.most}"
 
     @property
     def ports(self) -> tuple[str, str]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
+from disting.conditions.inclusion import Inclusion
 from disting.report.words import VIEW_TITLES, probability
 from disting.verdict import Verdict, View
 
@@ -22,6 +23,10 @@ CERTAINTIES = {
     "": "",
 }
 
+SAID = {
+    Inclusion.LEFT_IN_RIGHT: "Every generic {L} is a limit of models {R}, not the reverse.",
+    Inclusion.RIGHT_IN_LEFT: "Every generic {R} is a limit of models {L}, not the reverse.",
+}
 Entry = tuple[str, str, str, str, str, str, str]
 """relation, decided_by, representation, certainty in words, domain, why, formula"""
 
@@ -68,6 +73,8 @@ def _entry(verdict: Verdict) -> Entry:
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
     certainty = CERTAINTIES[verdict.certainty or ""].format(bound=probability(verdict.error_bound))
     formula = evidence.formula if evidence else ""
+    if verdict.inclusion_finding is not None and verdict.inclusion in SAID:
+        why = f"{why} {SAID[verdict.inclusion]}"
     return verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain, why, formula
 
 
