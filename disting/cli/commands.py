@@ -4,7 +4,7 @@ import argparse
 import json
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -90,7 +90,26 @@ def compare(options: argparse.Namespace) -> int:
     if options.prove:
         verdict = prove(verdict, chains[0], chains[1])
     print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False) if options.json else _explained(verdict, chains))
+    if not options.json and (options.range or options.domain == Domain.POSITIVE):
+        print("\n".join(_both_ways(verdict, chains, dict(options.range))))
     return 0
+
+
+def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]) -> Iterator[str]:
+    """Which positive models of each side, within ranges if there are any, have an equivalent on the other side."""
+    from disting.positivity import positive_finding, ranges, within_ranges
+
+    unknown = set(limits) - {name for chain in chains for name in chain.parameters}
+    if unknown:
+        raise InputError(f"no parameter of the two models is called {', '.join(sorted(unknown))}")
+    sides = list(zip((verdict.left, verdict.right), chains, strict=True))
+    for (name, given), (other_name, other) in (sides, sides[::-1]):
+        boxes = ({n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other))
+        found = within_ranges(given, other, ranges(*boxes)) if limits else positive_finding(given, other)
+        where = "within the ranges" if limits else "positive"
+        why = found.evidence.sentence(name, other_name) if found.evidence else found.reason
+        seen = f" ({found.empirical.hits} of {found.empirical.tries} random points have one)" if found.empirical else ""
+        yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
 
 
 def verdicts(options: argparse.Namespace) -> int:

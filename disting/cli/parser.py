@@ -32,6 +32,14 @@ def _whole(low: int) -> Callable[[str], int]:
     return number
 
 
+def _bounds(text: str) -> tuple[str, tuple[str, str]]:
+    """A range such as k12=0..1000."""
+    match = re.fullmatch(r"(\w+)=([^=.]*\.?[^=.]*)\.\.([^=]+)", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"a range is written like k12=0..1000, not {text!r}")
+    return match[1], (match[2], match[3])
+
+
 def _conditions(text: str) -> tuple[int, ...]:
     """Numbers such as 1-5,8 as a sorted tuple."""
     chosen: set[int] = set()
@@ -67,6 +75,8 @@ def _add_compare(groups: Groups) -> None:
     _shared(p, damped=True, sensor=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
     _deciding(p)
+    text = "look only at models within this range of a parameter, of both models; may be repeated"
+    p.add_argument("--range", type=_bounds, action="append", default=[], metavar="NAME=LOW..HIGH", help=text)
     p.add_argument("--json", action="store_true", help="print the verdict with its evidence as JSON")
     p.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
 

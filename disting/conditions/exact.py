@@ -115,7 +115,7 @@ def mirrored(finding: Finding) -> Finding:
 def theorem(a: Chain, b: Chain) -> str:
     """Name of the theorem by which two chains are the same for all parameters; "" if there is none.
 
-    >>> theorem(Chain(2), Chain(2, 1, 1, 2, 1, 2))
+    >>> theorem(Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
     'duality'
     """
     if canonical(a).chain == canonical(b).chain:

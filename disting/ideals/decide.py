@@ -26,6 +26,7 @@ from disting.ideals.fibre_ideal import FibreIdeal, fibre_ideal, generic_rank
 from disting.ideals.points import free_variable, solution
 from disting.ideals.system import CoefficientMap, matched
 
+LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 SPARE = 6  # draws for one solution modulo the prime: none has its coordinates there in about a third of the cases
 
 
@@ -106,6 +107,8 @@ def decide(
         return Decision(Membership.UNKNOWN, reason="the degrees of the transfer functions differ")
     left, right = matched(given, other)
     _refuse(left, right, equal_rank, seed)
+    if safety_of_empty(left, right, equal_rank) < LEAST:
+        return Decision(Membership.UNKNOWN, reason="primes of 64 bits give no useful bound for models of this size")
     question = _Question(left, right, equal_rank, limits, monotonic() + limits.seconds)
     try:
         ways = (True, False) if equal_rank else (True,)

@@ -72,7 +72,8 @@ def _exact(
 ) -> Iterator[list[tuple[Segment, Target]]]:
     """Yield the parts' receptances where they are known as fractions: nothing is left to balls, so what fits exists."""
     if grounded is None:
-        yield [(free, whole.folded(1))]
+        if whole.folded(1).numerator.degree() == free.numerator_degree:
+            yield [(free, whole.folded(1))]
     else:
         yield from exact_parts(given, point, whole.folded(1), grounded, free)
 

@@ -227,3 +227,26 @@ def test_the_exact_decision_settles_what_conditions_leave_open():
     assert (shipped["relation"], shipped["decided_by"]) == ("distinguishable", "exact")
     paper = json.loads(disting("compare", "3:1", "3:6", "--damped", "--conditions", "1-9", "--json").stdout)
     assert (paper["relation"], paper["decided_by"]) == ("undecided", "")
+
+
+def test_ranges_and_positive_parameters_are_told_both_ways():
+    done = disting("compare", "4:2", "4:6", "--domain", "positive").stdout.splitlines()
+    assert done[0] == "SOMETIMES"
+    assert done[-2].startswith("positive: A2 in A6 always.") and done[-1].startswith("positive: A6 in A2 sometimes")
+    inside = disting("compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout.splitlines()
+    for line, start in zip(inside[-2:], ("A1 in A4", "A4 in A1"), strict=True):
+        assert line.startswith(f"within the ranges: {start} sometimes")
+    for wrong, says in (("k12=5", "written like"), ("x9=1..2", "no parameter"), ("k12=3..1", "not empty")):
+        refused = disting("compare", "3:1", "3:4", "--range", wrong)
+        assert refused.returncode == 2 and says in refused.stderr
+
+
+def test_the_doctor_names_what_is_there():
+    done = disting("doctor")
+    assert done.returncode == 0
+    assert {"disting", "python-flint", "msolve", "Singular", "cache"} <= {line.split()[0] for line in done.stdout.splitlines()}
+
+
+def test_proofs_on_request():
+    table = rows(disting("verdicts", 3, "--damped", "--prove", "--csv", "-").stdout)
+    assert {r["certainty"] for r in table if r["decided_by"] in ("4", "5")} == {"proven"}

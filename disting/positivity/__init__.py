@@ -1,0 +1,12 @@
+"""Positive equivalents: which positive models of one chain have the behaviour of a positive model of another one."""
+
+from disting.positivity.evidence import Evidence as Evidence
+from disting.positivity.finding import positive_finding as positive_finding
+from disting.positivity.ranges import Ranges as Ranges
+from disting.positivity.ranges import confirms_within as confirms_within
+from disting.positivity.ranges import ranges as ranges
+from disting.positivity.ranges import within_ranges as within_ranges
+from disting.positivity.result import Empirical as Empirical
+from disting.positivity.result import PositiveFinding as PositiveFinding
+from disting.positivity.result import Share as Share
+from disting.positivity.verify import confirms as confirms

@@ -1,0 +1,92 @@
+"""Findings on positive equivalents: how many of the positive models of one chain have a positive equivalent in another."""
+
+import json
+from dataclasses import dataclass
+from enum import StrEnum
+from math import sqrt
+
+from disting.certainty import Certainty
+from disting.positivity.evidence import Evidence, from_dict, to_dict
+
+Z95 = 1.96  # quantile of the normal distribution for 95 %
+
+
+class Share(StrEnum):
+    """Which generic positive models have a positive equivalent: all, some (and some have none), none; or that is not known."""
+
+    ALWAYS = "always"
+    SOMETIMES = "sometimes"
+    NEVER = "never"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Empirical:
+    """Of `tries` random models `hits` have an equivalent for certain; of `open` ones it is not known."""
+
+    hits: int
+    tries: int
+    open: int = 0
+
+    def __post_init__(self) -> None:
+        if min(self.hits, self.open, self.tries - self.hits - self.open) < 0 or not self.tries:
+            raise ValueError("hits and open points are at most as many as tries, of which there are some")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's 95 % interval (1927) of the share for this distribution; open points count as misses below, as hits above.
+
+        >>> tuple(round(x, 3) for x in Empirical(0, 10).interval)
+        (0.0, 0.278)
+        """
+        return _wilson(self.hits, self.tries)[0], _wilson(self.hits + self.open, self.tries)[1]
+
+
+@dataclass(frozen=True, slots=True)
+class PositiveFinding:
+    """`share` is proven as `certainty` says (BOUNDED: wrong with a probability of at most 2**-safety); `empirical` is sampled.
+
+    `reason` says why nothing is known.
+    """
+
+    share: Share
+    certainty: Certainty | None = None
+    safety: int = 0
+    evidence: Evidence | None = None
+    empirical: Empirical | None = None
+    reason: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.share is Share.UNKNOWN) == (self.evidence is not None and self.certainty is not None):
+            raise ValueError("exactly a share that is not unknown carries certainty and evidence")
+        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
+            raise ValueError("exactly a bounded finding carries an error bound")
+
+    def __bool__(self) -> bool:
+        raise TypeError("a finding is not true or false; look at its share")
+
+    def to_json(self) -> str:
+        """Compact JSON text."""
+        evidence = to_dict(self.evidence) if self.evidence else None
+        empirical = [self.empirical.hits, self.empirical.tries, self.empirical.open] if self.empirical else None
+        data = [self.share, self.certainty, self.safety, evidence, empirical, self.reason]
+        return json.dumps(data, separators=(",", ":"), ensure_ascii=False)
+
+    @staticmethod
+    def from_json(text: str) -> "PositiveFinding":
+        """Inverse of `to_json`; raises ValueError, KeyError or TypeError for what is none."""
+        share, certainty, safety, evidence, empirical, reason = json.loads(text)
+        return PositiveFinding(
+            Share(share),
+            Certainty(certainty) if certainty else None,
+            safety,
+            from_dict(evidence) if evidence else None,
+            Empirical(*empirical) if empirical else None,
+            reason,
+        )
+
+
+def _wilson(hits: int, tries: int) -> tuple[float, float]:
+    p, z = hits / tries, Z95
+    middle, spread = p + z * z / (2 * tries), z * sqrt(p * (1 - p) / tries + z * z / (4 * tries * tries))
+    return max(0.0, (middle - spread) / (1 + z * z / tries)), min(1.0, (middle + spread) / (1 + z * z / tries))

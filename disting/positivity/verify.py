@@ -1,0 +1,55 @@
+"""Checks evidence on positive equivalents again, from itself and the two chains alone."""
+
+from disting.model.chain import Chain
+from disting.positivity.evidence import BoxMap, Evidence, Excluded, Interlacing, NoEquivalent, Points, SameByTheorem, Values
+from disting.positivity.finding import part_words, refuse, theorem
+from disting.positivity.parts import Obstacle, obstacle, only_parts_sum_to_zero, swap_fails
+from disting.positivity.points import equivalent, read
+from disting.synthesis.fibre import fibre
+from disting.synthesis.result import Answer, Status
+from disting.synthesis.target import target
+
+
+def confirms(evidence: Evidence, given: Chain, other: Chain) -> bool:
+    """Whether the evidence is true of the two chains; statements about ranges are confirmed by `confirms_within`."""
+    refuse(given, other)
+    match evidence:
+        case SameByTheorem():
+            return evidence.name != "" and theorem(given, other) == evidence.name
+        case Excluded():
+            return _excluded(evidence, given, other)
+        case NoEquivalent():
+            return _is_of(evidence.point, given) and _is_empty(evidence.point, given, other)
+        case Interlacing():
+            return _interlaced(evidence, given, other)
+        case Points():
+            return _answers(evidence.with_one, given, other, Answer.YES) and _answers(evidence.without, given, other, Answer.NO)
+        case BoxMap():
+            return False
+
+
+def _excluded(evidence: Excluded, given: Chain, other: Chain) -> bool:
+    if evidence.name != Obstacle.SWAPPED:
+        return obstacle(given, other) == evidence.name
+    fails = _is_of(evidence.point, given) and swap_fails(given, other)
+    return fails and only_parts_sum_to_zero(given, read(evidence.point), 2 * other.gap)
+
+
+def _is_empty(point: Values, given: Chain, other: Chain) -> bool:
+    return fibre(other, target(given.structure, read(point))).status is Status.EMPTY
+
+
+def _interlaced(evidence: Interlacing, given: Chain, other: Chain) -> bool:
+    """The parts again; points, where there are any, are looked at again."""
+    same = not given.damped and evidence.parts == part_words(given, other) != ()
+    points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))
+    return same and all(not values or _answers(values, given, other, answer) for values, answer in points)
+
+
+def _answers(values: Values, given: Chain, other: Chain, answer: Answer) -> bool:
+    return _is_of(values, given) and equivalent(given, read(values), other) is answer
+
+
+def _is_of(values: Values, given: Chain) -> bool:
+    """Whether these are all parameters, positive."""
+    return sorted(name for name, _ in values) == sorted(given.parameters) and all(v > 0 for v in read(values).values())

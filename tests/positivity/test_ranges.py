@@ -1,0 +1,98 @@
+"""Positive equivalents within ranges."""
+
+from fractions import Fraction
+
+import pytest
+
+from disting import Chain, Family, InputError
+from disting.positivity import PositiveFinding, Share, confirms_within, ranges, within_ranges
+from disting.positivity.evidence import BoxMap, Points
+from disting.positivity.points import random_point, read
+from disting.positivity.ranges import equivalent_within
+from disting.synthesis import Answer
+
+D3 = Family(3, damped=True)
+
+
+def test_a_renaming_maps_boxes():
+    """A2 and A5 mirror each other: m1 becomes m3."""
+    box = ranges({"m1": (1, 2)}, {"m3": ("1/2", 2)})
+    found = within_ranges(D3[2], D3[5], box)
+    assert found.share is Share.ALWAYS and isinstance(found.evidence, BoxMap) and ("m1", "m3") in found.evidence.pairs
+    assert confirms_within(found.evidence, D3[2], D3[5], box)
+    assert not confirms_within(found.evidence, D3[2], D3[5], ranges({"m1": (1, 3)}, {"m3": ("1/2", 2)}))
+    assert not confirms_within(BoxMap((("m1", "m1"),)), D3[2], D3[5], box)
+
+
+def test_an_unbounded_parameter_does_not_fit_into_a_range():
+    found = within_ranges(D3[1], D3[1], ranges({}, {"m1": (1, 2)}))
+    assert found.share is Share.SOMETIMES and found.empirical.open == 0
+
+
+def test_duality_within_ranges():
+    box = ranges({}, {"m1": ("0.5", 5)})
+    found = within_ranges(D3[1], D3[11], box)
+    assert found.share is Share.SOMETIMES and isinstance(found.evidence, Points)
+    assert confirms_within(found.evidence, D3[1], D3[11], box)
+    assert not confirms_within(Points(found.evidence.without, found.evidence.with_one), D3[1], D3[11], box)
+    assert PositiveFinding.from_json(found.to_json()) == found
+
+
+def test_collocated_equivalents_are_all_listed():
+    """Two masses, force and sensor at 1: of the dual with the gap there is one model, mass M m1/m2, spring (M/m2)^2 k12."""
+    given, other = Chain(2), Chain(2, 1, 1, 2, 1, 2)
+    point = random_point(given, "two")
+    m1, m2, k = (point[name] for name in ("m1", "m2", "k12"))
+    total = m1 + m2
+    mass = total * m1 / m2
+    exact = Fraction(int(mass.p), int(mass.q))
+    near = {"m1": (exact * Fraction(999, 1000), exact * Fraction(1001, 1000))}
+    assert equivalent_within(given, point, other, near) is Answer.YES
+    assert equivalent_within(given, point, other, {"m1": (exact * 2, exact * 3)}) is Answer.NO
+    spring = k * (total / m2) ** 2
+    exact = Fraction(int(spring.p), int(spring.q))
+    assert equivalent_within(given, point, other, {"k01": (exact, exact)}) is Answer.YES
+
+
+def test_without_a_positive_equivalent_there_is_none_in_a_box():
+    from disting.positivity import positive_finding
+
+    six, two = Family(4)[6], Family(4)[2]
+    point = read(positive_finding(six, two).evidence.without)
+    assert equivalent_within(six, point, two, {"m1": (Fraction(1, 10**6), Fraction(10**6))}) is Answer.NO
+
+
+def test_families_stay_open_rather_than_guessed():
+    found = within_ranges(Family(4)[2], Family(4)[6], ranges({}, {"m1": ("1e-6", "1e-5")}))
+    assert found.share is Share.UNKNOWN and found.empirical.open > 0
+
+
+def test_never_without_ranges_is_never_within():
+    found = within_ranges(D3[7], D3[6], ranges({"m1": (1, 2)}, {}))
+    assert found.share is Share.NEVER
+
+
+def test_a_fixed_value_may_be_special():
+    """NEVER speaks of generic parameters; a box without width asks for special ones."""
+    assert within_ranges(D3[7], D3[6], ranges({"m1": (1, 1)}, {})).share is Share.UNKNOWN
+    assert within_ranges(Family(3)[1], Family(3)[2], ranges({"m1": (1, 1)}, {})).share is Share.NEVER
+
+
+def test_points_lie_in_their_ranges():
+    box = ranges({"m1": ("1e-9", "2e-9"), "k12": (3, 3)}, {})
+    point = random_point(Chain(2), "box", box.given)
+    assert Fraction(1, 10**9) <= Fraction(int(point["m1"].p), int(point["m1"].q)) <= Fraction(2, 10**9)
+    assert point["k12"] == 3 and point == random_point(Chain(2), "box", box.given)
+
+
+@pytest.mark.parametrize(
+    "bounds", [(-1, 1), (2, 1), (-1, 1), ("x", 1), (1, float("inf")), (float("nan"), 1), (None, 1), ("1/0", 1), ("", "")]
+)
+def test_bad_ranges(bounds):
+    with pytest.raises(InputError):
+        ranges({"m1": bounds}, {})
+
+
+def test_unknown_names():
+    with pytest.raises(InputError, match="k99"):
+        within_ranges(Chain(2), Chain(2), ranges({"k99": (1, 2)}, {}))
