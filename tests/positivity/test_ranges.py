@@ -86,7 +86,7 @@ def test_points_lie_in_their_ranges():
 
 
 @pytest.mark.parametrize(
-    "bounds", [(-1, 1), (2, 1), (-1, 1), ("x", 1), (1, float("inf")), (float("nan"), 1), (None, 1), ("1/0", 1), ("", "")]
+    "bounds", [(-1, 1), (2, 1), ("x", 1), (1, float("inf")), (float("nan"), 1), (None, 1), ("1/0", 1), ("", "")]
 )
 def test_bad_ranges(bounds):
     with pytest.raises(InputError):
