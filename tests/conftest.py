@@ -1,5 +1,9 @@
-"""No test touches the user's cache."""
+"""No test touches the user's cache, and examples are the same in every run; HYPOTHESIS_PROFILE=default draws new ones."""
 
 import os
 
+from hypothesis import settings
+
 os.environ["DISTING_CACHE"] = "off"
+settings.register_profile("repeatable", derandomize=True)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))

@@ -97,17 +97,18 @@ class Combination:
 
     @property
     def text(self) -> str:
-        """The formula, or the name of a coefficient that is too long to read."""
-        return self.formula.text if self._short else self.name
+        """The formula, or which coefficient it is where that is too long to read (a ground damper may be called b1 too)."""
+        return f"coefficient {self.name}" if self.is_named else self.formula.text
 
     @property
     def latex(self) -> str:
         """The same in LaTeX, without dollar signs."""
-        return self.formula.latex if self._short else f"{self.name[0]}_{{{self.name[1:]}}}"
+        return rf"\text{{coefficient }} {self.name[0]}_{{{self.name[1:]}}}" if self.is_named else self.formula.latex
 
     @property
-    def _short(self) -> bool:
-        return not self.name or len(self.formula.terms) <= MOST_TERMS
+    def is_named(self) -> bool:
+        """Whether it is a coefficient whose formula is too long to read."""
+        return bool(self.name) and len(self.formula.terms) > MOST_TERMS
 
 
 def _scaled(weight: int) -> str:

@@ -31,8 +31,8 @@ def number(count: int) -> str:
 
 def _listed(basis: tuple[Combination, ...]) -> str:
     """Formulas, then the coefficients that are only named."""
-    formulas = [c.text for c in basis if c.text != c.name]
-    named = sorted(c.text for c in basis if c.text == c.name)
+    formulas = [c.text for c in basis if not c.is_named]
+    named = sorted(c.name for c in basis if c.is_named)
     what = "transfer-function coefficient" + "s" * (len(named) > 1)
     return ", ".join([*formulas, f"{what} {', '.join(named)}"] if named else formulas)
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Symbol, diff, sympify
 
-from disting import Chain, Family, Settings
+from disting import Chain, Family, Sensor, Settings
 from disting.algebra.sampling import prime
 from disting.identifiability import Formula, identifiabilities, identifiability
 from disting.identifiability.tangent import proof_tangents
@@ -79,3 +79,9 @@ def test_points_of_proofs_are_independent():
     assert len({t.modulus for t in seen}) == 3
     assert len({tuple(t.values.values()) for t in seen}) == 3
     assert all(t.modulus == prime(f"identifiability:law:{k}") for k, t in enumerate(seen))
+
+
+def test_a_coefficient_and_a_ground_damper_of_the_same_name_are_told_apart():
+    ports = {"gap": 2, "act_minus": 1, "act_plus": 3, "meas_minus": 2, "meas_plus": 3}
+    found = identifiability(Chain(4, **ports, sensor=Sensor.POSITION, ground_dampers=(1, 2, 3, 4)))
+    assert {"b4", "coefficient b4"} <= set(found.combinations)
