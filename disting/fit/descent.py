@@ -1,0 +1,97 @@
+"""Local search: many starts at once by Levenberg-Marquardt on logarithms, then the best ones by `scipy.optimize.least_squares`.
+
+Logarithms keep masses, springs, dampers and times positive and make steps relative. The rough search costs little a start,
+because a batch shares every numpy call; the last digits, bounds and the stopping rule are those of scipy.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from disting.fit.cost import Cost
+from disting.fit.plant import Plant, Real
+
+LARGEST_STEP = 1.5  # of a logarithm in one iteration
+WORTHLESS = 1e-4  # relative gain below which a start counts as settled
+FARTHEST = 60.0  # of a logarithm from its start: what runs there has no effect on the response any more
+TINY = 1e-9  # of the largest curvature, added to each: an element without effect must not take an unlimited step
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """Bounds of the parameters, shape (n_p,) each; 0 and infinity where there are none. Equal bounds fix a parameter."""
+
+    low: Real
+    high: Real
+
+    @property
+    def free(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Which parameters are not fixed."""
+        return self.low < self.high
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nothing is bounded."""
+        return bool(np.all(self.low <= 0) and np.all(np.isinf(self.high)))
+
+    def clipped(self, p: Real) -> Real:
+        """The nearest point inside."""
+        return np.clip(p, self.low, self.high)
+
+
+def rough(plant: Plant, cost: Cost, box: Box, starts: Real, iterations: int) -> tuple[Real, Real]:
+    """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each start."""
+    points = box.clipped(starts)
+    costs = np.full(len(points), np.inf)
+    damping = np.full(len(points), 1e-2)
+    active = np.arange(len(points))
+    for _ in range(iterations):
+        residual, columns = cost.of(plant, points[active])
+        costs[active] = np.einsum("si,si->s", residual, residual)
+        step = _step(residual, columns * box.free, damping[active])
+        tried = box.clipped(points[active] * np.exp(step))
+        reached = cost.total(plant.response(tried))
+        better = reached < costs[active]
+        settled = better & (reached > costs[active] * (1 - WORTHLESS)) | (damping[active] > 1e8)
+        points[active[better]], costs[active[better]] = tried[better], reached[better]
+        damping[active] *= np.where(better, 0.2, 8.0)
+        active = active[~settled]
+        if not active.size:
+            break
+    return points, costs
+
+
+def _step(residual: Real, columns: Real, damping: Real) -> Real:
+    """Levenberg-Marquardt steps, shape (n_s, n_p): (S'S + damping diag S'S) step = -S' r."""
+    curvature = columns.swapaxes(-1, -2) @ columns
+    slope = (columns.swapaxes(-1, -2) @ residual[..., None])[..., 0]
+    diagonal = np.einsum("sii->si", curvature)
+    floor = TINY * diagonal.max(axis=-1, keepdims=True) + np.finfo(float).tiny
+    diagonal += damping[:, None] * diagonal + floor
+    step = -np.linalg.solve(curvature, slope[..., None])[..., 0]
+    return np.asarray(np.clip(step, -LARGEST_STEP, LARGEST_STEP))
+
+
+def fine(plant: Plant, cost: Cost, box: Box, start: Real) -> tuple[Real, float]:
+    """A local minimum, shape (n_p,), and its cost: never above that of the start."""
+    free = box.free
+    origin = box.clipped(start)
+
+    def at(steps: Real) -> Real:
+        p = origin.copy()
+        p[free] *= np.exp(steps)
+        return p
+
+    def residual(steps: Real) -> Real:
+        return cost.residual(plant.response(at(steps)))
+
+    def sensitivity(steps: Real) -> Real:
+        return cost.of(plant, at(steps))[1][:, free]
+
+    with np.errstate(divide="ignore"):
+        bounds = [np.clip(np.log(edge[free] / origin[free]), -FARTHEST, FARTHEST) for edge in (box.low, box.high)]
+    inside = np.clip(np.zeros(int(free.sum())), bounds[0] + 1e-12, bounds[1] - 1e-12)
+    found = least_squares(residual, inside, sensitivity, bounds=bounds, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=300)
+    best, before = 2.0 * float(found.cost), float(cost.total(plant.response(origin)))
+    return (at(found.x), best) if best < before else (origin, before)

@@ -1,0 +1,176 @@
+"""The best parameters of candidates: structured starts, a rough search of all, the last digits of the best.
+
+Candidates are taken in the order of masses and elements, so that each finds the fits of smaller ones ready. Within one size a
+candidate that contains another one is never worse: the smaller one's fit, the additional elements hardly felt, is a start.
+"""
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from functools import cache
+from hashlib import sha256
+from itertools import groupby
+from math import inf
+from pathlib import Path
+
+import numpy as np
+
+from disting.engine import Store
+from disting.engine.engine import mapped
+from disting.errors import InputError
+from disting.fit.cost import Cost
+from disting.fit.descent import Box, fine, rough
+from disting.fit.plant import Plant
+from disting.fit.starts import Values, extended, from_extrema, merged, random, scale, shortened, split, stacked
+from disting.model.chain import Chain
+
+ITERATIONS = 15  # of the rough search
+FINISHED = 4  # starts that are brought to the last digit
+REACHED = 1e-3  # relative excess of cost within which a start counts as a hit
+NESTED = 1e-9  # relative excess of cost that a candidate may have over one that it contains
+
+
+@dataclass(frozen=True)
+class Task:
+    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1: sensor reversed."""
+
+    cost: Cost
+    sign: int = 1
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    seed: str = "disting"
+
+    def __post_init__(self) -> None:
+        for name, (low, high) in self.bounds.items():
+            if not 0 <= low < high:
+                raise InputError(f"bounds of {name} are 0 <= low < high, not {low:g}..{high:g}")
+        for name, value in self.fixed.items():
+            if not 0 < value < inf:
+                raise InputError(f"{name} is fixed to a positive number, not {value:g}")
+
+    def plant(self, chain: Chain) -> Plant:
+        """The chain at the frequencies of the data."""
+        return Plant(chain.structure, self.cost.measured.omega, self.sign)
+
+    def box(self, names: Sequence[str]) -> Box:
+        """Bounds as arrays."""
+        limits = [(self.fixed[n],) * 2 if n in self.fixed else self.bounds.get(n, (0.0, inf)) for n in names]
+        low, high = np.array(limits, dtype=float).reshape(-1, 2).T
+        return Box(low, high)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A candidate's best parameters and their cost J; `costs` of all starts after the rough search, in rising order."""
+
+    chain: Chain
+    parameters: dict[str, float]
+    j: float
+    costs: tuple[float, ...] = ()
+
+    @property
+    def hit_rate(self) -> float:
+        """Share of the starts whose rough search came within 0.1 % of the best cost."""
+        return sum(c <= self.j * (1 + REACHED) for c in self.costs) / max(len(self.costs), 1)
+
+
+def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+    """Best parameters of one candidate, from the data and from the fits of smaller candidates in `known`."""
+    names = chain.parameters
+    plant, box = task.plant(chain), task.box(names)
+    starts = stacked(list(_starts(chain, task, known)), names)
+    points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
+    finished = [fine(plant, task.cost, box, points[i]) for i in np.argsort(costs, kind="stable")[:FINISHED]]
+    contained = min((known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None)
+    if contained is not None and contained.j * (1 + NESTED) < min(j for _, j in finished):
+        slight = next(extended(chain, contained.parameters, scale(task.cost.measured)))
+        finished.append(fine(plant, task.cost, box, stacked([slight], names)[0]))
+    p, j = min(finished, key=lambda found: found[1])
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs))))
+
+
+def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterator[Values]:
+    """All starts of one candidate."""
+    size = scale(task.cost.measured)
+    yield from from_extrema(chain, task.cost.measured)
+    for joint, fewer in merged(chain):
+        if fewer in known:
+            yield from split(chain, joint, known[fewer].parameters, size)
+    for fewer in shortened(chain):
+        if fewer in known:
+            yield from extended(chain, known[fewer].parameters, size)
+    yield from random(chain, size, task.seed)
+
+
+def estimates(
+    candidates: Iterable[Chain],
+    task: Task,
+    *,
+    store: Store | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
+) -> dict[Chain, Estimate]:
+    """Best parameters of every candidate and of the smaller ones that lead to them; what `store` holds is not fitted again."""
+    store = store or Store.none()
+    wanted = sorted(with_smaller(candidates), key=_stage)
+    known: dict[Chain, Estimate] = {}
+    for _, stage in groupby(wanted, key=_stage):
+        chains = list(stage)
+        keys = {c: _key(c, task, _helpful(c, known)) for c in chains}
+        stored = store.get_many(keys.values())
+        known |= {c: estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored}
+        progress("fit", len(known), len(wanted))
+        missing = [(c, task, _helpful(c, known)) for c in chains if c not in known]
+        for found in mapped(estimate, missing, executor):
+            known[found.chain] = found
+            store.put_many({keys[found.chain]: estimate_to_json(found)})
+            progress("fit", len(known), len(wanted))
+    return known
+
+
+def estimate_to_json(found: Estimate) -> str:
+    """Text that `estimate_from_json` reads back bit-equal."""
+    return json.dumps({"parameters": found.parameters, "j": found.j, "costs": found.costs})
+
+
+def estimate_from_json(chain: Chain, text: str) -> Estimate:
+    """Inverse of `estimate_to_json`."""
+    plain = json.loads(text)
+    return Estimate(chain, plain["parameters"], plain["j"], tuple(plain["costs"]))
+
+
+def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate]) -> str:
+    """Content address of an estimate: the data, the choices, the chain and what its starts come from."""
+    cost = task.cost
+    arrays = [cost.measured.omega, cost.measured.G, np.zeros(0) if cost.lines is None else cost.lines]
+    texts = [_code(), repr(chain), cost.measured.sensor.value, repr((cost.case, cost.weights, task.sign, task.seed))]
+    texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
+    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
+    return sha256(b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])).hexdigest()
+
+
+@cache
+def _code() -> str:
+    """Digest of the source text that estimates depend on."""
+    here = Path(__file__).parent
+    return sha256(b"\0".join(p.read_bytes() for p in sorted(here.glob("*.py")))).hexdigest()
+
+
+def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
+    """The candidates and, repeatedly, those with two neighbouring masses merged."""
+    found, new = set[Chain](), set(candidates)
+    while new:
+        found |= new
+        new = {fewer for chain in new for _, fewer in merged(chain)} - found
+    return found
+
+
+def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
+    """What one candidate's starts come from; a worker needs no more."""
+    near = {*(c for _, c in merged(chain)), *shortened(chain)}
+    return {c: known[c] for c in known if c in near}
+
+
+def _stage(chain: Chain) -> tuple[int, int]:
+    return chain.n_masses, len(chain.ground_dampers) + chain.lag + chain.dead_time

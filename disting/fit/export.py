@@ -1,0 +1,185 @@
+"""The selected model for other programs: state space (20) to (23), python-control, MATLAB, JSON that reads back bit-equal."""
+
+import json
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.fit.modes import matrices, poles, port, zeros
+from disting.fit.plant import Plant, Real
+from disting.fit.select import Candidate, Selection
+from disting.model.chain import Chain
+
+if TYPE_CHECKING:
+    import control
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpace:
+    """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force; `delay` of the input [s]."""
+
+    A: Real
+    B: Real
+    C: Real
+    D: Real
+    delay: float
+
+
+def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:
+    """State space (20) to (23) with numbers, one input, one output; the torque lag adds a state.
+
+    >>> ss = state_space(Chain(1), {"m1": 2.0})
+    >>> ss.A.tolist(), ss.B.tolist(), ss.D.tolist()
+    ([[0.0, 1.0], [-0.0, -0.0]], [[0.0], [0.5]], [[0.5]])
+    """
+    structure, n = chain.structure, chain.n_masses
+    mass, damping, stiffness = matrices(structure, np.array([values[name] for name in chain.parameters]))
+    inverse = 1.0 / np.diag(mass)[:, None]
+    a = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse * stiffness, -inverse * damping]])
+    b = np.concatenate([np.zeros(n), inverse[:, 0] * port(structure, chain.act_minus, chain.act_plus)])[:, None]
+    row = sign * port(structure, chain.meas_minus, chain.meas_plus)
+    c = np.concatenate([row, np.zeros(n)])[None, :]
+    d = np.zeros((1, 1))
+    for _ in range(chain.sensor.order):  # differentiation: c (A x + B u), with D = 0 until the acceleration
+        c, d = c @ a, c @ b
+    if chain.lag:
+        a, b, c, d = _lagged(a, b, c, d, values["T1"])
+    return StateSpace(a, b, c, d, values.get("Td", 0.0))
+
+
+def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real, Real, Real]:
+    """The force follows the input through 1/(1 + s T1)."""
+    n = len(a)
+    whole = np.block([[a, b], [np.zeros((1, n)), np.full((1, 1), -1.0 / time)]])
+    return whole, np.concatenate([np.zeros((n, 1)), [[1.0 / time]]]), np.hstack([c, d]), np.zeros((1, 1))
+
+
+def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.StateSpace":
+    """A python-control StateSpace, without the dead time, which no finite state space has; needs disting[control]."""
+    ss = state_space(chain, values, sign)
+    return _control().StateSpace(ss.A, ss.B, ss.C, ss.D)
+
+
+def to_control_transfer_function(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.TransferFunction":
+    """A python-control TransferFunction, without the dead time, from poles, zeros and gain; needs disting[control]."""
+    p = np.array([values[name] for name in chain.parameters])
+    bottom, top = np.poly(poles(chain.structure, p)).real, np.poly(zeros(chain.structure, p)).real
+    at = 2.0 * np.abs(poles(chain.structure, p)).max() + 1.0  # a real point away from all of them
+    plain = Chain(*chain.indices, damped=chain.damped, ground_dampers=chain.ground_dampers, sensor="position")
+    whole = _real_response(plain, [values[name] for name in plain.parameters], at)
+    gain = whole * np.polyval(bottom, at) / np.polyval(top, at)
+    top = sign * gain * np.append(top, np.zeros(chain.sensor.order))
+    bottom = np.polymul(bottom, [values["T1"], 1.0]) if chain.lag else bottom
+    return _control().TransferFunction(top, bottom)
+
+
+def _real_response(chain: Chain, values: list[float], s: float) -> float:
+    """The receptance at a real s."""
+    mass, damping, stiffness = matrices(chain.structure, np.array(values))
+    force = port(chain.structure, chain.act_minus, chain.act_plus)
+    moved = np.linalg.solve(mass * s * s + damping * s + stiffness, force)
+    return float(port(chain.structure, chain.meas_minus, chain.meas_plus) @ moved)
+
+
+def _control() -> Any:
+    try:
+        import control
+    except ImportError:
+        raise InputError('python-control is not installed: pip install "disting[control]"') from None
+    return control
+
+
+def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1) -> None:
+    """A, B, C, D and delay as a MATLAB v5 file."""
+    from scipy.io import savemat
+
+    ss = state_space(chain, values, sign)
+    savemat(path, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
+
+
+def selection_to_dict(found: Selection) -> dict[str, Any]:
+    """Plain data of a selection: `selected` (null if none), `candidates`, `alternatives`, and how it was made."""
+    return {
+        "selected": candidate_to_dict(found.selected) if found.selected else None,
+        "candidates": [candidate_to_dict(c) for c in found.candidates],
+        "alternatives": [{**_named(a.chain), "relation": a.relation.value, "reason": a.sentence} for a in found.alternatives],
+        "not_fitted": [{**_named(c), "same_as": _named(other)} for c, other in found.same_as.items()],
+        "validation": found.validation,
+        "repeatability": found.repeatability.typical,
+        "repeatability_source": found.repeatability.source,
+        "margin": found.margin,
+        "sign": found.task.sign,
+    }
+
+
+def candidate_to_dict(c: Candidate) -> dict[str, Any]:
+    """Plain data of one candidate; a number that is not finite is null."""
+    return {
+        **_named(c.chain),
+        "n_parameters": c.n_parameters,
+        "parameters": c.estimate.parameters,
+        "standard_errors": {name: _finite(value) for name, value in c.standard_errors.items()},
+        "j_train": c.j_train,
+        "j_test": c.j_test,
+        "pii_ratio": _finite(c.practical.importance_ratio),
+        "collinearity": _finite(c.practical.collinearity),
+        "condition_index": _finite(c.practical.condition_index),
+        "akaike_weight": c.akaike_weight,
+        "hit_rate": c.estimate.hit_rate,
+        "admissible": c.admissible,
+        "reasons": list(c.reasons),
+    }
+
+
+def _named(chain: Chain) -> dict[str, Any]:
+    """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as indices."""
+    _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
+    return {
+        "n_masses": chain.n_masses,
+        "ground_dampers": list(chain.ground_dampers),
+        "lag": chain.lag,
+        "delay": chain.dead_time,
+        "gap": gap,
+        "actuator": [act_minus, act_plus],
+        "sensor": [meas_minus, meas_plus],
+        "quantity": chain.sensor.value,
+        "damped": chain.damped,
+    }
+
+
+def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
+    """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what is none."""
+    try:
+        chain = Chain(
+            plain["n_masses"], plain["gap"], *plain["actuator"], *plain["sensor"], plain["quantity"], plain["damped"],
+            tuple(plain["ground_dampers"]), plain["lag"], plain["delay"],
+        )  # fmt: skip
+        values = {name: float(plain["parameters"][name]) for name in chain.parameters}
+    except (KeyError, TypeError, ValueError) as reason:
+        raise InputError(f"this is no fitted model: {reason!r} is missing or wrong") from None
+    return chain, values
+
+
+def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
+    """The selected model of a JSON file of `disting fit`; raises InputError."""
+    try:
+        plain = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as reason:
+        raise InputError(f"{path} is no JSON file of a fit: {reason}") from None
+    selected = plain.get("selected", plain) if isinstance(plain, dict) else None
+    if not isinstance(selected, dict):
+        raise InputError(f"{path} holds no selected model")
+    return model_from_dict(selected)
+
+
+def predicted(chain: Chain, values: dict[str, float], omega: Real, sign: int = 1) -> np.ndarray[Any, np.dtype[np.complex128]]:
+    """Response of a fitted chain, or of the same chain with other ports, at angular frequencies [rad/s]."""
+    return Plant(chain.structure, omega, sign).response(np.array([values[name] for name in chain.parameters]))
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None

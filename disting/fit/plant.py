@@ -1,0 +1,163 @@
+"""Frequency response of a chain and its derivatives by all parameters: two tridiagonal solves a frequency, for any size.
+
+With A(s) = M s^2 + D s + K, A x = e_act, A y = e_sens and c = s^n exp(-s Td) / (1 + s T1), n = 0, 1, 2 for a position,
+velocity or acceleration sensor:
+
+    G = c e_sens' x,                          dG/dTd = -s G,      dG/dT1 = -s G / (1 + s T1),
+    dG/dm_i = -c s^2 x_i y_i,                 dG/db_i = -c s x_i y_i,
+    dG/dk_ij = -c (x_i - x_j)(y_i - y_j),     dG/dd_ij = s dG/dk_ij.
+
+A is symmetric (reciprocity), so the adjoint solution y turns every derivative into a product of two numbers; where force and
+sensor sit at the same place, y = x. Everything is vectorised over frequencies and over parameter vectors.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.errors import InputError
+from disting.model.structure import Structure
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Rows = slice | NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Plant:
+    """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for a reversed sensor."""
+
+    structure: Structure
+    omega: Real
+    sign: int = 1
+
+    def __post_init__(self) -> None:
+        if self.sign not in (1, -1):
+            raise InputError(f"the sign of a sensor is 1 or -1, not {self.sign!r}")
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names in the order of the last axis of a parameter array: m.., k.., d.., b.., T1, Td."""
+        return self.structure.parameters
+
+    def response(self, p: Real) -> Complex:
+        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p), in one system of units."""
+        ports = self.structure.ports
+        x = _solved(*self._pivots(p), ports.act_minus, ports.act_plus)
+        return self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus)
+
+    def logarithmic_gradient(self, p: Real) -> tuple[Complex, Complex]:
+        """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
+        ports, s, pivots = self.structure.ports, self._s, self._pivots(p)
+        x = _solved(*pivots, ports.act_minus, ports.act_plus)
+        y = x if self._is_collocated else _solved(*pivots, ports.meas_minus, ports.meas_plus)
+        receptance = _difference(x, ports.meas_minus, ports.meas_plus)
+        scaled = x / -receptance[..., None, :]
+        gradient = np.empty((*p.shape, s.size), dtype=np.complex128)
+        moved = scaled[..., 1:, :] * y[..., 1:, :]
+        np.multiply(moved, self._s2, out=gradient[..., self._slices["m"], :])
+        if "b" in self._rows:
+            np.multiply(moved[..., self._rows["b"], :], s, out=gradient[..., self._slices["b"], :])
+        if "k" in self._rows:
+            stretched = _steps(scaled) * _steps(y)
+            gradient[..., self._slices["k"], :] = stretched[..., self._rows["k"], :]
+            if "d" in self._rows:
+                np.multiply(stretched[..., self._rows["d"], :], s, out=gradient[..., self._slices["d"], :])
+        if self.structure.lag:
+            gradient[..., self._lag_at, :] = -s / (1 + s * p[..., self._lag_at, None])
+        if self.structure.dead_time:
+            gradient[..., -1, :] = -s
+        return self._factor(p) * receptance, gradient
+
+    def _factor(self, p: Real) -> Complex:
+        """c of the module's formula, shape (..., n_f)."""
+        factor = self._front
+        if self.structure.dead_time:
+            factor = factor * np.exp(-self._s * p[..., -1, None])
+        if self.structure.lag:
+            factor = factor / (1 + self._s * p[..., self._lag_at, None])
+        return factor
+
+    def _pivots(self, p: Real) -> tuple[Complex, Complex]:
+        """Couplings c_j = k_j + s d_j of the joints 0..N-1 and the pivots of A, eliminated from the last mass to the first."""
+        s, n = self._s, self.structure.n_masses
+        coupling = np.zeros((*p.shape[:-1], n, s.size), dtype=np.complex128)
+        for kind in ("k", "d"):
+            if kind in self._rows:
+                values = p[..., self._slices[kind], None]
+                coupling[..., self._rows[kind], :] += values if kind == "k" else values * s
+        pivots = p[..., self._slices["m"], None] * self._s2
+        if "b" in self._rows:
+            pivots[..., self._rows["b"], :] += p[..., self._slices["b"], None] * s
+        pivots += coupling
+        pivots[..., :-1, :] += coupling[..., 1:, :]
+        for i in range(n - 1, 0, -1):
+            pivots[..., i - 1, :] -= coupling[..., i, :] ** 2 / pivots[..., i, :]
+        return coupling, pivots
+
+    @cached_property
+    def _s(self) -> Complex:
+        return 1j * np.asarray(self.omega, dtype=np.float64)
+
+    @cached_property
+    def _s2(self) -> Complex:
+        return self._s**2
+
+    @cached_property
+    def _front(self) -> Complex:
+        return self.sign * self._s**self.structure.sensor_order
+
+    @cached_property
+    def _is_collocated(self) -> bool:
+        ports = self.structure.ports
+        return (ports.act_minus, ports.act_plus) == (ports.meas_minus, ports.meas_plus)
+
+    @cached_property
+    def _lag_at(self) -> int:
+        return len(self.parameters) - 1 - self.structure.dead_time
+
+    @cached_property
+    def _slices(self) -> dict[str, slice]:
+        """Where the parameters of each kind of element stand in a parameter vector."""
+        kinds = [e.kind for e in self.structure.elements]
+        return {kind: slice(kinds.index(kind), kinds.index(kind) + kinds.count(kind)) for kind in set(kinds)}
+
+    @cached_property
+    def _rows(self) -> dict[str, Rows]:
+        """Which joints (springs, dampers) or masses (ground dampers, from 0) they belong to."""
+        places: dict[str, list[int]] = {}
+        for element in self.structure.elements:
+            places.setdefault(element.kind, []).append(element.at - (element.kind in "mb"))
+        return {kind: _rows(at) for kind, at in places.items()}
+
+
+def _rows(at: list[int]) -> Rows:
+    """A slice where the places follow each other: numpy then copies nothing."""
+    return slice(at[0], at[-1] + 1) if at == list(range(at[0], at[-1] + 1)) else np.array(at, dtype=np.intp)
+
+
+def _solved(coupling: Complex, pivots: Complex, minus: int, plus: int) -> Complex:
+    """Displacements of ground and masses, shape (..., 1 + N, n_f), for a unit force on `plus` against `minus`."""
+    n = pivots.shape[-2]
+    x = np.zeros((*pivots.shape[:-2], n + 1, pivots.shape[-1]), dtype=np.complex128)
+    x[..., plus, :] += 1.0
+    x[..., minus, :] -= 1.0
+    x[..., 0, :] = 0.0
+    for i in range(max(plus, minus), 1, -1):
+        x[..., i - 1, :] += coupling[..., i - 1, :] * x[..., i, :] / pivots[..., i - 1, :]
+    x[..., 1, :] /= pivots[..., 0, :]
+    for i in range(2, n + 1):
+        x[..., i, :] += coupling[..., i - 1, :] * x[..., i - 1, :]
+        x[..., i, :] /= pivots[..., i - 1, :]
+    return x
+
+
+def _difference(x: Complex, minus: int, plus: int) -> Complex:
+    return x[..., plus, :] - x[..., minus, :] if minus else x[..., plus, :]
+
+
+def _steps(x: Complex) -> Complex:
+    """x_j - x_{j+1} over the joints 0..N-1."""
+    return x[..., :-1, :] - x[..., 1:, :]
