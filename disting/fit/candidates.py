@@ -1,9 +1,11 @@
 """Candidate models of a fit: Fig. 1 of the paper, and wider classes."""
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 
+from disting.errors import ConstraintViolation, InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 
@@ -28,3 +30,34 @@ def variants(chain: Chain) -> Iterator[Chain]:
 def whole_family(sizes: Sequence[int], sensor: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
     """Every chain under (36)-(38) of these sizes, with its variants."""
     return tuple(v for n in sizes for chain in Family(n, damped=True, sensor=sensor) for v in variants(chain))
+
+
+def chosen_ports(
+    sizes: Sequence[int], actuator: str, shown: str, gap: int = 0, sensor: Sensor = Sensor.ACCELERATION
+) -> tuple[Chain, ...]:
+    """Chains of several sizes with force and sensor at the same ports, with their variants.
+
+    A port is the number of a mass, the word last, or minus:plus such as 1:3; sizes in which it does not exist are left out.
+    Raises InputError where none is left.
+
+    >>> [str(c) for c in chosen_ports([2], "1", "last")][:1]
+    ['2 masses, gap 0, force 1-0, sensor 2-0, damped']
+    """
+    found, refused = list[Chain](), ""
+    for n in sizes:
+        (act_minus, act_plus), (meas_minus, meas_plus) = (_port(text, n) for text in (actuator, shown))
+        try:
+            found.append(Chain(n, gap, act_minus, act_plus, meas_minus, meas_plus, sensor, damped=True))
+        except ConstraintViolation as reason:
+            refused = str(reason)
+    if not found:
+        raise InputError(f"no chain of {', '.join(map(str, sizes))} masses has these ports: {refused}")
+    return tuple(variant for chain in found for variant in variants(chain))
+
+
+def _port(text: str, n: int) -> tuple[int, int]:
+    """(minus, plus) of a port's text."""
+    match = re.fullmatch(r"(?:(\d+):)?(\d+|last)", text)
+    if not match:
+        raise InputError(f"a port is written like 2, last or 1:3, not {text!r}")
+    return int(match[1] or 0), n if match[2] == "last" else int(match[2])

@@ -16,10 +16,10 @@ from functools import cached_property
 from math import log, pi, sqrt
 
 import numpy as np
-from disting.measurement import FrequencyResponse
 
 from disting.errors import InputError
 from disting.fit.plant import Complex, Plant, Real
+from disting.measurement import FrequencyResponse
 
 
 class Case(IntEnum):
@@ -80,7 +80,7 @@ class Cost:
     def total(self, response: Complex) -> Real:
         """J of (6), (12) or (14), shape (...)."""
         residual = self.residual(response)
-        return np.einsum("...i,...i->...", residual, residual)
+        return np.asarray(np.einsum("...i,...i->...", residual, residual))
 
     def of(self, plant: Plant, p: Real) -> tuple[Real, Real]:
         """Residuals and S d p / d ln p, the sensitivity to logarithms of the parameters: columns S_j p_j of (16)."""

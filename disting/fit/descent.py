@@ -12,6 +12,9 @@ from scipy.optimize import least_squares
 from disting.fit.cost import Cost
 from disting.fit.plant import Plant, Real
 
+BATCH = 8  # starts at once: more do not fit into a processor's cache, which costs half as much again
+HALVED = 5  # steps after which the worse half of the starts is dropped
+FIRST_DAMPING, HOPELESS = 1e-2, 1e8  # of Levenberg and Marquardt
 LARGEST_STEP = 1.5  # of a logarithm in one iteration
 WORTHLESS = 1e-4  # relative gain below which a start counts as settled
 FARTHEST = 60.0  # of a logarithm from its start: what runs there has no effect on the response any more
@@ -41,25 +44,36 @@ class Box:
 
 
 def rough(plant: Plant, cost: Cost, box: Box, starts: Real, iterations: int) -> tuple[Real, Real]:
-    """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each start."""
+    """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each start.
+
+    Every few steps the worse half of the starts is left where it is.
+    """
     points = box.clipped(starts)
-    costs = np.full(len(points), np.inf)
-    damping = np.full(len(points), 1e-2)
+    costs = np.asarray(cost.total(plant.response(points)))
+    damping = np.full(len(points), FIRST_DAMPING)
     active = np.arange(len(points))
-    for _ in range(iterations):
-        residual, columns = cost.of(plant, points[active])
-        costs[active] = np.einsum("si,si->s", residual, residual)
-        step = _step(residual, columns * box.free, damping[active])
-        tried = box.clipped(points[active] * np.exp(step))
-        reached = cost.total(plant.response(tried))
-        better = reached < costs[active]
-        settled = better & (reached > costs[active] * (1 - WORTHLESS)) | (damping[active] > 1e8)
-        points[active[better]], costs[active[better]] = tried[better], reached[better]
-        damping[active] *= np.where(better, 0.2, 8.0)
-        active = active[~settled]
+    for step in range(1, iterations + 1):
+        for part in np.array_split(active, -(-len(active) // BATCH)):
+            points[part], reached = _improved(plant, cost, box, points[part], costs[part], damping[part])
+            settled = (reached < costs[part]) & (reached > costs[part] * (1 - WORTHLESS))
+            damping[part] *= np.where(reached < costs[part], 0.2, 8.0)
+            damping[part[settled]] = np.inf
+            costs[part] = reached
+        active = active[damping[active] < HOPELESS]
+        if step % HALVED == 0 and len(active) > BATCH:
+            active = active[np.argsort(costs[active], kind="stable")[: -(-len(active) // 2)]]
         if not active.size:
             break
     return points, costs
+
+
+def _improved(plant: Plant, cost: Cost, box: Box, points: Real, costs: Real, damping: Real) -> tuple[Real, Real]:
+    """Points and costs after one step, the old ones where it leads upwards."""
+    residual, columns = cost.of(plant, points)
+    tried = box.clipped(points * np.exp(_step(residual, columns * box.free, damping)))
+    reached = np.asarray(cost.total(plant.response(tried)))
+    better = reached < costs
+    return np.where(better[:, None], tried, points), np.where(better, reached, costs)
 
 
 def _step(residual: Real, columns: Real, damping: Real) -> Real:

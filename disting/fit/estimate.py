@@ -15,19 +15,22 @@ from math import inf
 from pathlib import Path
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from disting.engine import Store
 from disting.engine.engine import mapped
 from disting.errors import InputError
 from disting.fit.cost import Cost
 from disting.fit.descent import Box, fine, rough
-from disting.fit.plant import Plant
+from disting.fit.plant import Plant, Real
 from disting.fit.starts import Values, extended, from_extrema, merged, random, scale, shortened, split, stacked
 from disting.model.chain import Chain
 
 ITERATIONS = 15  # of the rough search
+FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
 FINISHED = 4  # starts that are brought to the last digit
-REACHED = 1e-3  # relative excess of cost within which a start counts as a hit
+REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
+NOTHING = 1e-6  # or a cost that is as good as zero
 NESTED = 1e-9  # relative excess of cost that a candidate may have over one that it contains
 
 
@@ -72,16 +75,25 @@ class Estimate:
     @property
     def hit_rate(self) -> float:
         """Share of the starts whose rough search came within 0.1 % of the best cost."""
-        return sum(c <= self.j * (1 + REACHED) for c in self.costs) / max(len(self.costs), 1)
+        return sum(c <= self.j * (1 + REACHED) + NOTHING for c in self.costs) / max(len(self.costs), 1)
+
+
+Method = Callable[[Chain, Task, Mapping[Chain, Estimate]], Estimate]
 
 
 def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
     """Best parameters of one candidate, from the data and from the fits of smaller candidates in `known`."""
+    starts = stacked(list(_starts(chain, task, known)), chain.parameters)
+    # One thread of linear algebra: matrices are small, and workers share the processors.
+    with threadpool_limits(1):
+        return _best(chain, task, known, starts)
+
+
+def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
     names = chain.parameters
     plant, box = task.plant(chain), task.box(names)
-    starts = stacked(list(_starts(chain, task, known)), names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-    finished = [fine(plant, task.cost, box, points[i]) for i in np.argsort(costs, kind="stable")[:FINISHED]]
+    finished = [fine(plant, task.cost, box, points[i]) for i in _different(costs)]
     contained = min((known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None)
     if contained is not None and contained.j * (1 + NESTED) < min(j for _, j in finished):
         slight = next(extended(chain, contained.parameters, scale(task.cost.measured)))
@@ -90,39 +102,53 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs))))
 
 
+def _different(costs: Real) -> list[int]:
+    """The best starts, one of each valley as far as costs tell."""
+    chosen = list[int]()
+    for i in np.argsort(costs, kind="stable"):
+        if len(chosen) < FINISHED and all(costs[i] > costs[k] * (1 + REACHED) for k in chosen):
+            chosen.append(int(i))
+    return chosen
+
+
 def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterator[Values]:
     """All starts of one candidate."""
     size = scale(task.cost.measured)
-    yield from from_extrema(chain, task.cost.measured)
+    seen = list(from_extrema(chain, task.cost.measured))
+    yield from seen
     for joint, fewer in merged(chain):
         if fewer in known:
             yield from split(chain, joint, known[fewer].parameters, size)
     for fewer in shortened(chain):
         if fewer in known:
             yield from extended(chain, known[fewer].parameters, size)
-    yield from random(chain, size, task.seed)
+    yield from random(chain, size, task.seed, FEW if seen else MANY)
 
 
 def estimates(
     candidates: Iterable[Chain],
     task: Task,
     *,
+    method: Method | None = None,
     store: Store | None = None,
     executor: Executor | None = None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> dict[Chain, Estimate]:
-    """Best parameters of every candidate and of the smaller ones that lead to them; what `store` holds is not fitted again."""
-    store = store or Store.none()
-    wanted = sorted(with_smaller(candidates), key=_stage)
+    """Best parameters of every candidate and of the smaller ones that lead to them; what `store` holds is not fitted again.
+
+    Another `method` than structured starts, such as `swarm.by_swarm`, gets no fits of smaller candidates.
+    """
+    store, run = store or Store.none(), method or estimate
+    wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, stage in groupby(wanted, key=_stage):
         chains = list(stage)
-        keys = {c: _key(c, task, _helpful(c, known)) for c in chains}
+        keys = {c: _key(c, task, _helpful(c, known), run.__name__) for c in chains}
         stored = store.get_many(keys.values())
         known |= {c: estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored}
         progress("fit", len(known), len(wanted))
         missing = [(c, task, _helpful(c, known)) for c in chains if c not in known]
-        for found in mapped(estimate, missing, executor):
+        for found in mapped(run, missing, executor):
             known[found.chain] = found
             store.put_many({keys[found.chain]: estimate_to_json(found)})
             progress("fit", len(known), len(wanted))
@@ -140,11 +166,11 @@ def estimate_from_json(chain: Chain, text: str) -> Estimate:
     return Estimate(chain, plain["parameters"], plain["j"], tuple(plain["costs"]))
 
 
-def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate]) -> str:
+def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: str) -> str:
     """Content address of an estimate: the data, the choices, the chain and what its starts come from."""
     cost = task.cost
     arrays = [cost.measured.omega, cost.measured.G, np.zeros(0) if cost.lines is None else cost.lines]
-    texts = [_code(), repr(chain), cost.measured.sensor.value, repr((cost.case, cost.weights, task.sign, task.seed))]
+    texts = [_code(), method, repr(chain), cost.measured.sensor.value, repr((cost.case, cost.weights, task.sign, task.seed))]
     texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
     texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
     return sha256(b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])).hexdigest()

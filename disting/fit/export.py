@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.modes import matrices, poles, port, zeros
+from disting.fit.modes import poles, zeros
 from disting.fit.plant import Plant, Real
 from disting.fit.select import Candidate, Selection
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sensor
+from disting.simulation import matrices, port_vectors
 
 if TYPE_CHECKING:
     import control
@@ -36,13 +37,13 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
     >>> ss.A.tolist(), ss.B.tolist(), ss.D.tolist()
     ([[0.0, 1.0], [-0.0, -0.0]], [[0.0], [0.5]], [[0.5]])
     """
-    structure, n = chain.structure, chain.n_masses
-    mass, damping, stiffness = matrices(structure, np.array([values[name] for name in chain.parameters]))
+    n = chain.n_masses
+    mass, damping, stiffness = matrices(chain, values)
+    force, shown = port_vectors(chain)
     inverse = 1.0 / np.diag(mass)[:, None]
     a = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse * stiffness, -inverse * damping]])
-    b = np.concatenate([np.zeros(n), inverse[:, 0] * port(structure, chain.act_minus, chain.act_plus)])[:, None]
-    row = sign * port(structure, chain.meas_minus, chain.meas_plus)
-    c = np.concatenate([row, np.zeros(n)])[None, :]
+    b = np.concatenate([np.zeros(n), inverse[:, 0] * force])[:, None]
+    c = np.concatenate([sign * shown, np.zeros(n)])[None, :]
     d = np.zeros((1, 1))
     for _ in range(chain.sensor.order):  # differentiation: c (A x + B u), with D = 0 until the acceleration
         c, d = c @ a, c @ b
@@ -69,20 +70,19 @@ def to_control_transfer_function(chain: Chain, values: dict[str, float], sign: i
     p = np.array([values[name] for name in chain.parameters])
     bottom, top = np.poly(poles(chain.structure, p)).real, np.poly(zeros(chain.structure, p)).real
     at = 2.0 * np.abs(poles(chain.structure, p)).max() + 1.0  # a real point away from all of them
-    plain = Chain(*chain.indices, damped=chain.damped, ground_dampers=chain.ground_dampers, sensor="position")
-    whole = _real_response(plain, [values[name] for name in plain.parameters], at)
+    plain = Chain(*chain.indices, damped=chain.damped, ground_dampers=chain.ground_dampers, sensor=Sensor.POSITION)
+    whole = _real_response(plain, {name: values[name] for name in plain.parameters}, at)
     gain = whole * np.polyval(bottom, at) / np.polyval(top, at)
     top = sign * gain * np.append(top, np.zeros(chain.sensor.order))
     bottom = np.polymul(bottom, [values["T1"], 1.0]) if chain.lag else bottom
     return _control().TransferFunction(top, bottom)
 
 
-def _real_response(chain: Chain, values: list[float], s: float) -> float:
+def _real_response(chain: Chain, values: dict[str, float], s: float) -> float:
     """The receptance at a real s."""
-    mass, damping, stiffness = matrices(chain.structure, np.array(values))
-    force = port(chain.structure, chain.act_minus, chain.act_plus)
-    moved = np.linalg.solve(mass * s * s + damping * s + stiffness, force)
-    return float(port(chain.structure, chain.meas_minus, chain.meas_plus) @ moved)
+    mass, damping, stiffness = matrices(chain, values)
+    force, shown = port_vectors(chain)
+    return float(shown @ np.linalg.solve(mass * s * s + damping * s + stiffness, force))
 
 
 def _control() -> Any:
@@ -154,10 +154,20 @@ def _named(chain: Chain) -> dict[str, Any]:
 def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
     """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what is none."""
     try:
+        (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
         chain = Chain(
-            plain["n_masses"], plain["gap"], *plain["actuator"], *plain["sensor"], plain["quantity"], plain["damped"],
-            tuple(plain["ground_dampers"]), plain["lag"], plain["delay"],
-        )  # fmt: skip
+            plain["n_masses"],
+            plain["gap"],
+            act_minus,
+            act_plus,
+            meas_minus,
+            meas_plus,
+            plain["quantity"],
+            plain["damped"],
+            tuple(plain["ground_dampers"]),
+            plain["lag"],
+            plain["delay"],
+        )
         values = {name: float(plain["parameters"][name]) for name in chain.parameters}
     except (KeyError, TypeError, ValueError) as reason:
         raise InputError(f"this is no fitted model: {reason!r} is missing or wrong") from None

@@ -23,6 +23,7 @@ from disting.model.structure import Structure
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Rows = slice | NDArray[np.intp]
+ROUNDING = 2.0**-52
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,13 +89,16 @@ class Plant:
             if kind in self._rows:
                 values = p[..., self._slices[kind], None]
                 coupling[..., self._rows[kind], :] += values if kind == "k" else values * s
-        pivots = p[..., self._slices["m"], None] * self._s2
+        pivots: Complex = p[..., self._slices["m"], None] * self._s2
         if "b" in self._rows:
             pivots[..., self._rows["b"], :] += p[..., self._slices["b"], None] * s
         pivots += coupling
         pivots[..., :-1, :] += coupling[..., 1:, :]
         for i in range(n - 1, 0, -1):
-            pivots[..., i - 1, :] -= coupling[..., i, :] ** 2 / pivots[..., i, :]
+            pivot = pivots[..., i, :]
+            if not pivot.all():  # without damping a line may meet an antiresonance exactly
+                pivot += (pivot == 0) * (ROUNDING * p[..., i, None] * self._s2)
+            pivots[..., i - 1, :] -= coupling[..., i, :] ** 2 / pivot
         return coupling, pivots
 
     @cached_property
@@ -103,7 +107,7 @@ class Plant:
 
     @cached_property
     def _s2(self) -> Complex:
-        return self._s**2
+        return self._s * self._s
 
     @cached_property
     def _front(self) -> Complex:

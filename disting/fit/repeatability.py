@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from disting.measurement import FrequencyResponse
 
 from disting.fit.cost import Cost
 from disting.fit.plant import Real
+from disting.measurement import FrequencyResponse
 
 COMMON = 8  # lines that training and test must share
 SAME = 1e-6  # relative distance of two frequencies that count as one

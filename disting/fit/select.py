@@ -11,17 +11,17 @@ from dataclasses import dataclass, field, replace
 from math import exp, log
 
 import numpy as np
-from disting.measurement import FrequencyResponse
 
 from disting.engine import Engine, Store
 from disting.errors import InputError
 from disting.fit.alternatives import Alternative, alternatives, representatives
 from disting.fit.cost import Case, Cost
 from disting.fit.descent import fine
-from disting.fit.estimate import Estimate, Task, estimates
+from disting.fit.estimate import Estimate, Method, Task, estimates
 from disting.fit.plant import Real
 from disting.fit.practical import Practical, Thresholds, practical
 from disting.fit.repeatability import Repeatability, margin, repeatability
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 
 FOLDS = 5  # of the cross-validation
@@ -107,6 +107,7 @@ def select(
     fixed: Mapping[str, float] | None = None,
     seed: str = "disting",
     prune: bool = True,
+    method: Method | None = None,
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -115,7 +116,8 @@ def select(
 
     `weights` of amplitude and phase, see `Cost`; `lines` gives each line's weight, such as `lines_by_deviation`; `sign` -1: the
     sensor is reversed, 0: whichever fits the smallest candidate better. `bounds` and `fixed` by parameter name. `prune`:
-    indistinguishable candidates are fitted once. An engine with a store resumes interrupted work. Raises InputError.
+    indistinguishable candidates are fitted once; `method` as in
+    `estimates`. An engine with a store resumes interrupted work. Raises InputError.
     """
     _check(train, test, candidates)
     engine = engine or Engine(store=Store.none())
@@ -124,7 +126,7 @@ def select(
     task = task if sign else _signed(task, candidates)
     first = representatives(candidates, engine) if prune else {c: c for c in candidates}
     wanted = [c for c in candidates if first[c] == c]
-    known = estimates(wanted, task, store=engine.store, executor=executor, progress=progress)
+    known = estimates(wanted, task, method=method, store=engine.store, executor=executor, progress=progress)
     limits = thresholds or Thresholds()
     test_cost = replace(cost, measured=test, lines=lines(test) if lines else None) if test else None
     fitted = [_candidate(known[c], task, limits, test_cost) for c in wanted]

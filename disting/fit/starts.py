@@ -12,11 +12,11 @@ from itertools import combinations
 from math import log, sqrt
 
 import numpy as np
-from disting.measurement import FrequencyResponse
 from scipy.signal import find_peaks
 
 from disting.errors import ConstraintViolation
 from disting.fit.plant import Real
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 
 Values = Mapping[str, float]
@@ -24,7 +24,6 @@ DAMPING_RATIO = 0.02  # of a spring's damper in a start
 SHARES = (0.5, 0.15, 0.85)  # of the mass that is split off
 GRID = 12  # frequencies of the ladder and of resonances that the data do not show
 EXTRA = (1e-6, 0.1, 1.0)  # of its natural size, for an element that is added
-RANDOM = 8
 SPREAD = 1.0  # standard deviation of the logarithms of random starts
 PROMINENCE = 0.05  # of an extremum, in decades of the amplitude
 
@@ -112,10 +111,18 @@ def merged(chain: Chain) -> Iterator[tuple[int, Chain]]:
             def moved(i: int, joint: int = joint) -> int:
                 return i - (i > joint)
 
-            indices = [moved(i) for i in chain.indices[1:]]
             dampers = tuple(sorted({moved(i) for i in chain.ground_dampers}))
             try:
-                other = Chain(chain.n_masses - 1, *indices, chain.sensor, chain.damped, dampers, chain.lag, chain.dead_time)
+                other = replace(
+                    chain,
+                    n_masses=chain.n_masses - 1,
+                    gap=moved(chain.gap),
+                    act_minus=moved(chain.act_minus),
+                    act_plus=moved(chain.act_plus),
+                    meas_minus=moved(chain.meas_minus),
+                    meas_plus=moved(chain.meas_plus),
+                    ground_dampers=dampers,
+                )
             except ConstraintViolation:
                 continue
             yield joint, other
@@ -172,11 +179,11 @@ def shortened(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, dead_time=False)
 
 
-def random(chain: Chain, size: Scale, seed: str) -> Iterator[Values]:
+def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Values]:
     """Starts (d): logarithms spread around natural sizes; determined by the seed and the chain."""
     source = np.random.default_rng(int.from_bytes(blake2b(f"{seed}:{chain}".encode(), digest_size=8).digest()))
     n = chain.n_masses
-    for _ in range(RANDOM):
+    for _ in range(count):
         omegas = np.exp(source.uniform(log(size.low), log(size.high), n))
         shares = source.dirichlet(np.ones(n))
         natural = _filled(chain, size, size.mass * shares, (size.mass * omegas**2 / n)[: n - (chain.gap == 0)])
@@ -202,3 +209,9 @@ def _completed(names: Sequence[str], known: Values, size: Scale) -> dict[str, fl
 def stacked(starts: Sequence[Values], names: Sequence[str]) -> Real:
     """Array of shape (n_s, n_p)."""
     return np.array([[start[name] for name in names] for start in starts]).reshape(len(starts), len(names))
+
+
+def natural(chain: Chain, size: Scale) -> Values:
+    """Natural sizes of all parameters: equal masses, resonances in the middle of the band."""
+    share = size.mass / chain.n_masses
+    return _filled(chain, size, [share] * chain.n_masses, [share * size.low * size.high] * chain.n_masses)

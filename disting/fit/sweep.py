@@ -50,7 +50,7 @@ class Profile:
 
 
 def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> Profile:
-    """Profile of a fitted parameter, `span` (of its logarithm) to either side; 0: three standard errors, at most a factor 10."""
+    """Profile of a fitted parameter, `span` of its logarithm to either side; 0: three standard errors, at most a factor 10."""
     if name not in candidate.practical.names:
         raise InputError(f"{name} is no fitted parameter of this candidate; they are {', '.join(candidate.practical.names)}")
     names = candidate.chain.parameters

@@ -1,0 +1,182 @@
+"""disting fit: a measured frequency response, the structures that explain it, and which of them nobody can tell apart."""
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+from math import isfinite, log
+from pathlib import Path
+from typing import Any
+
+from disting.cli.work import engine_for
+from disting.errors import InputError
+from disting.fit.candidates import chosen_ports, whole_family
+from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
+from disting.fit.export import selection_to_dict, write_mat
+from disting.fit.modes import Result, physical
+from disting.fit.practical import Thresholds
+from disting.fit.select import Candidate, Selection, select
+from disting.fit.swarm import by_swarm
+from disting.measurement import FrequencyResponse, read
+from disting.model.chain import Chain, Sensor
+from disting.model.drawing import text_drawing
+
+WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
+SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
+SHOWN = 8  # candidates of the printed table
+
+
+def run(options: argparse.Namespace) -> int:
+    """Fit, select, print and write."""
+    train, test = _data(options)
+    candidates = _candidates(options, train.sensor)
+    with engine_for(options) as (engine, pool, progress):
+        found = select(
+            train,
+            candidates,
+            test=test,
+            thresholds=Thresholds(*options.thresholds),
+            case=Case(options.case),
+            lines=WEIGHTS[options.weights],
+            sign=SIGNS[options.sign],
+            bounds=dict(options.bound),
+            fixed=dict(options.fix),
+            seed=options.seed,
+            prune=not options.no_prune,
+            method=by_swarm if options.optimiser == "swarm" else None,
+            engine=engine,
+            executor=pool,
+            progress=progress,
+        )
+    if options.json:
+        text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False) + "\n"
+        if options.json == "-":
+            sys.stdout.write(text)
+        else:
+            Path(options.json).write_text(text, encoding="utf-8")
+    if options.json != "-":
+        print("\n".join(_told(found, train)))
+    if options.out:
+        _write(found, options.out, train, test, profiles=options.profiles)
+        if options.json != "-":
+            print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
+    return 0
+
+
+def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResponse | None]:
+    """Training and test data, masked; what the readers noticed goes to standard error."""
+    if options.demo == bool(options.train):
+        raise InputError("give a file with measured data, or --demo for simulated data, not both")
+    both: tuple[FrequencyResponse, FrequencyResponse | None]
+    if options.demo:
+        from disting.simulation import demo
+
+        both = (demo(0).response("acceleration"), demo(1).response("acceleration"))
+    else:
+        settings = dict(options.read) | ({"column": options.column} if options.column else {})
+        both = (read(options.train, **settings), read(options.test, **settings) if options.test else None)
+    train, test = both
+    if options.band:
+        train, test = train.masked(*options.band), test.masked(*options.band) if test else None
+    for response in (train, test):
+        if response is not None:
+            for note in (*response.notes, *response.suspicions):
+                print(f"disting: {response.origin or 'data'}: {note}", file=sys.stderr)
+    return train, test
+
+
+def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, ...]:
+    if options.family:
+        return whole_family(options.masses, quantity)
+    return chosen_ports(options.masses, options.actuator, options.sensor, options.gap, quantity)
+
+
+def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
+    """The result for people."""
+    n = len(found.candidates)
+    yield f"{n} candidates fitted to {len(train)} frequency lines{_saved(found)}, validated on {found.validation}"
+    kept = [c for c in found.candidates if c.admissible]
+    if found.selected is None:
+        yield "none is admissible: in each, some parameters cannot be determined from this data. The best ones:"
+        yield from _table(found.candidates[:SHOWN])
+        for c in found.candidates[:SHOWN]:
+            yield f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}"
+        yield "more excitation or wider --thresholds may help"
+        return
+    yield f"{len(kept)} have parameters that can all be determined; the best of them{_why(found)}:"
+    yield ""
+    yield from _table(sorted(kept, key=lambda c: (c is not found.selected, c.j_test))[:SHOWN])
+    yield ""
+    yield f"selected: {found.selected.chain}   {text_drawing(found.selected.chain)}"
+    yield from (f"  {line}" for line in _parameters(found.selected))
+    yield ""
+    yield from (f"  {line}" for line in _results(physical(found.selected, found.task)))
+    yield ""
+    yield from _alternatives(found)
+
+
+def _saved(found: Selection) -> str:
+    return f" ({found.saved} more are indistinguishable from one of them)" if found.saved else ""
+
+
+def _why(found: Selection) -> str:
+    lost = found.selected.j_test - min(c.j_test for c in found.candidates if c.admissible) if found.selected else 0.0
+    return f" (a larger one is better by {lost:.3g}, less than the {found.margin:.3g} that noise allows)" if lost > 0 else ""
+
+
+def _table(candidates: Any) -> Iterator[str]:
+    yield f"{'J test':>9} {'J train':>9} {'N_p':>4} {'cond.':>6} {'PII':>7} {'coll.':>6}  structure"
+    for c in candidates:
+        p = c.practical
+        indices = f"{p.condition_index:6.3g} {p.importance_ratio:7.3g} {p.collinearity:6.3g}"
+        yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {_short(c.chain)}"
+
+
+def _short(chain: Chain) -> str:
+    """Only what differs, where force and sensor are at mass 1."""
+    if chain.indices[1:] != (0, 0, 1, 0, 1):
+        return str(chain)
+    extras = [f"ground dampers {'+'.join(map(str, chain.ground_dampers))}"] * bool(chain.ground_dampers)
+    extras += ["lag"] * chain.lag + ["dead time"] * chain.dead_time
+    return ", ".join([f"{chain.n_masses} mass{'es' * (chain.n_masses > 1)}", *extras])
+
+
+def _parameters(c: Candidate) -> Iterator[str]:
+    for name, value in c.estimate.parameters.items():
+        error = c.practical.relative_errors.get(name)
+        said = "given" if error is None else f"± {100 * error:.2g} %" if isfinite(error) else "not determined"
+        yield f"{name:4} = {value:<11.6g} {said}"
+
+
+def _results(results: tuple[Result, ...]) -> Iterator[str]:
+    width = max(len(r.name) for r in results)
+    for r in results:
+        yield f"{r.name:{width}}  {_rounded(r.value, r.standard_error)} {r.unit}".rstrip()
+
+
+def _rounded(value: float, error: float) -> str:
+    """Both with two digits of the error."""
+    if not (isfinite(error) and error > 0):
+        return f"{value:.6g}"
+    digits = max(0, 1 - int(log(error, 10) // 1))
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def _alternatives(found: Selection) -> Iterator[str]:
+    same = [a.chain for a in found.alternatives if a.relation == "indistinguishable"]
+    unknown = [a.chain for a in found.alternatives if a.relation != "indistinguishable"]
+    if same:
+        yield "this data can never tell it apart from:"
+        yield from (f"  {chain}" for chain in same)
+    else:
+        yield "no other candidate behaves the same for all its parameters: better data could tell each of them apart"
+    if unknown:
+        yield "not decided: " + "; ".join(map(str, unknown))
+
+
+def _write(found: Selection, folder: Path, train: FrequencyResponse, test: FrequencyResponse | None, *, profiles: bool) -> None:
+    from disting.report.fit import write_fit_report
+
+    write_fit_report(found, folder, train, test, profiles=found.selected.practical.names if profiles and found.selected else ())
+    if found.selected:
+        write_mat(folder / "model.mat", found.selected.chain, found.selected.estimate.parameters, found.task.sign)

@@ -1,0 +1,106 @@
+"""Arguments of disting fit; nothing here loads numerical libraries."""
+
+import argparse
+import re
+from pathlib import Path
+from typing import Any
+
+WEIGHTS = ("none", "std", "coherence")
+SIGNS = ("+", "-", "auto")
+THRESHOLDS = (30.0, 1000.0, 20.0)
+
+
+def add_arguments(p: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    data = p.add_argument_group("data")
+    data.add_argument("train", nargs="?", type=Path, metavar="TRAIN", help="measured frequency response, or time series")
+    data.add_argument("--test", type=Path, metavar="TEST", help="independent data of the drive (default: cross-validation)")
+    data.add_argument("--demo", action="store_true", help="simulated data of a small drive instead of files")
+    data.add_argument("--column", metavar="HEADER", help="header of the response's first column (default: the first response)")
+    text = "option of the reader, such as input=iq, output=angle, sampling_rate=2500, to=acceleration; may be repeated"
+    data.add_argument("--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text)
+    data.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
+    text = "sign of the sensor; auto takes what fits better (default: +)"
+    data.add_argument("--sign", choices=SIGNS, default="+", help=text)
+    models = p.add_argument_group("candidates")
+    models.add_argument("--masses", type=_masses, default=(1, 2, 3, 4), metavar="N", help="3, 1-4 or 1,3 (default: 1-4)")
+    models.add_argument("--actuator", default="1", metavar="PORT", help="mass with the force: 2, last, or 1:3 (default: 1)")
+    models.add_argument("--sensor", default="1", metavar="PORT", help="mass that the sensor shows, likewise (default: 1)")
+    models.add_argument("--gap", type=int, default=0, metavar="I", help="no spring right of mass I (default: 0, the ground)")
+    models.add_argument("--family", action="store_true", help="force, sensor and gap anywhere: every chain of these sizes")
+    models.add_argument("--fix", type=_value, action="append", default=[], metavar="NAME=VALUE", help="a known parameter")
+    text = "range of a parameter; may be repeated"
+    models.add_argument("--bound", type=_bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text)
+    models.add_argument("--no-prune", action="store_true", help="fit indistinguishable candidates separately")
+    choice = p.add_argument_group("cost and selection")
+    choice.add_argument("--case", type=int, choices=[1, 2, 3], default=3, help="cost function of the paper (default: 3)")
+    choice.add_argument("--weights", choices=WEIGHTS, default="none", help="of the frequency lines (default: all alike)")
+    text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
+    choice.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
+    text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"
+    choice.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
+    choice.add_argument("--seed", default="disting", help="of the few random starts")
+    out = p.add_argument_group("output")
+    out.add_argument("--out", type=Path, metavar="DIR", help="write a page, figures, tables, JSON and a .mat file there")
+    out.add_argument("--profiles", action="store_true", help="with --out: a profile of every parameter of the selected model")
+    out.add_argument("--json", metavar="FILE", help="write the selection as JSON; - is standard output")
+
+
+def _option(text: str) -> tuple[str, Any]:
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise argparse.ArgumentTypeError(f"an option is written like sampling_rate=2500, not {text!r}")
+    if ".." in value:
+        return name, _range(value)
+    parts = tuple(_number(part) for part in value.split(","))
+    return name, parts if len(parts) > 1 else parts[0]
+
+
+def _number(text: str) -> int | float | str:
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _range(text: str) -> tuple[float, float]:
+    low, dots, high = text.partition("..")
+    try:
+        limits = (float(low), float(high))
+    except ValueError:
+        limits = (1.0, 0.0)
+    if not dots or not limits[0] < limits[1]:
+        raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {text!r}")
+    return limits
+
+
+def _bound(text: str) -> tuple[str, tuple[float, float]]:
+    name, _, limits = text.partition("=")
+    return name, _range(limits)
+
+
+def _value(text: str) -> tuple[str, float]:
+    name, _, value = text.partition("=")
+    try:
+        return name, float(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"a value is written like m1=0.02, not {text!r}") from None
+
+
+def _masses(text: str) -> tuple[int, ...]:
+    match = re.fullmatch(r"([1-9])(?:-([1-9])|((?:,[1-9])*))", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"numbers of masses are written like 3, 1-4 or 1,3, not {text!r}")
+    if match[2]:
+        return tuple(range(int(match[1]), int(match[2]) + 1))
+    return tuple(sorted({int(n) for n in text.split(",")}))
+
+
+def _thresholds(text: str) -> tuple[float, float, float]:
+    try:
+        first, second, third = (float(part) for part in text.split(","))
+        return first, second, third
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"thresholds are written like 30,1000,20, not {text!r}") from None

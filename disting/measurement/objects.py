@@ -1,0 +1,94 @@
+"""Frequency responses from objects in memory: NumPy arrays, pandas data frames, frequency response data of python-control."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.errors import InputError
+from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.table import Table
+from disting.measurement.table_series import time_series
+from disting.measurement.tabular import frequency_response
+from disting.measurement.time_series import TimeSeries
+from disting.measurement.variables import UNIT, row
+from disting.model.chain import Sensor
+
+
+def from_arrays(
+    frequency: Any,
+    response: Any,
+    *,
+    frequency_unit: str = "Hz",
+    deviation: Any = None,
+    coherence: Any = None,
+    sensor: Sensor | str = Sensor.ACCELERATION,
+    sign: int = 1,
+) -> FrequencyResponse:
+    """Response from arrays of shape (n_f,): `frequency` in "Hz", "kHz" or "rad/s", complex `response`."""
+    if frequency_unit not in UNIT:
+        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {frequency_unit!r}')
+    omega = _numbers(frequency, "frequency") * UNIT[frequency_unit]
+    values = _numbers(response, "response") * as_sign(sign)
+    return FrequencyResponse(omega, values, deviation, coherence, as_sensor(sensor), origin="arrays")
+
+
+def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
+    """Response from a pandas data frame whose columns are headed like those of a text file (`read`); same options.
+
+    An index with a name is a column too.
+    """
+    return frequency_response(_table(frame), **options)
+
+
+def series_from_frame(frame: Any, input: str | int, output: str | int, **options: Any) -> TimeSeries:
+    """Samples from two columns of a pandas data frame; options of `read_time_series`."""
+    return time_series(_table(frame), input, output, **options)
+
+
+def from_control(
+    system: Any, *, output: int = 0, input: int = 0, sensor: Sensor | str = Sensor.ACCELERATION, sign: int = 1
+) -> FrequencyResponse:
+    """Response from a python-control FRD object: channel from `input` to `output` (from 0)."""
+    data = getattr(system, "frdata", None)
+    data = getattr(system, "fresp", None) if data is None else data  # its name before python-control 0.10.2
+    if data is None or not hasattr(system, "omega"):
+        raise InputError(f"{type(system).__name__} is no frequency response data of python-control (control.frd)")
+    omega = _numbers(system.omega, "omega")
+    values = row(_numbers(data, "response"), len(omega), _channel(np.shape(data), output, input), "the FRD object")
+    names = (_label(system, "input_labels", input), _label(system, "output_labels", output))
+    return FrequencyResponse(
+        omega, values * as_sign(sign), sensor=as_sensor(sensor), input=names[0], output=names[1], origin="python-control FRD"
+    )
+
+
+def _channel(shape: tuple[int, ...], output: int, input: int) -> tuple[int, ...]:
+    """Index without the axes of length 1, which `row` leaves out."""
+    if len(shape) != 3 or not (0 <= output < shape[0] and 0 <= input < shape[1]):
+        raise InputError(f"the FRD object has {' x '.join(map(str, shape[:2]))} outputs and inputs; {output}, {input} is none")
+    return tuple(i for i, length in zip((output, input), shape[:2], strict=True) if length > 1)
+
+
+def _label(system: Any, attribute: str, number: int) -> Signal:
+    labels = getattr(system, attribute, None) or []
+    return Signal(str(labels[number]) if number < len(labels) else "")
+
+
+def _table(frame: Any) -> Table:
+    if not all(hasattr(frame, name) for name in ("columns", "index", "reset_index", "to_numpy")):
+        raise InputError(f"{type(frame).__name__} is no pandas data frame")
+    whole = frame.reset_index() if frame.index.name is not None else frame
+    try:
+        values = whole.to_numpy(dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"the data frame holds something else than real numbers: {error}") from None
+    if not len(values):
+        raise InputError("the data frame has no rows")
+    return Table(tuple(map(str, whole.columns)), values, tuple(range(1, len(values) + 1)), (), "data frame")
+
+
+def _numbers(values: Any, name: str) -> NDArray[Any]:
+    array = np.asarray(values)
+    if array.dtype.kind not in "biufc":
+        raise InputError(f"{name} must be an array of numbers")
+    return array

@@ -1,0 +1,180 @@
+"""A measured frequency response: G(j omega) with its standard deviation, coherence, sensor quantity and origin."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement import checks
+from disting.measurement.arrays import Complex, Real, applied, complex_, frozen, optional, real, same
+from disting.model.chain import Sensor
+
+SORTED = "the frequencies were not in rising order and have been sorted"
+
+
+class Signal(NamedTuple):
+    """Name and unit of a measured signal."""
+
+    label: str = ""
+    unit: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.label} [{self.unit}]" if self.unit else self.label
+
+
+UNNAMED = Signal()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrequencyResponse:
+    """Measured response at n_f frequencies; immutable, equal if its numbers, sensor and signals are equal.
+
+    `omega` [rad/s], shape (n_f,), positive, all different; `G`, shape (n_f,), sensor quantity per input [output unit / input
+    unit]; `deviation` = standard deviation of the complex G, sqrt(var Re G + var Im G), shape (n_f,), in the unit of G, or
+    None; `coherence` = ordinary coherence gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows;
+    `origin` = file and columns; `notes` = what was assumed or changed while reading.
+    Frequencies out of order are sorted, with a note. Raises InputError for what is no frequency response (module `checks`).
+
+    >>> import numpy as np
+    >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
+    >>> len(mass.thinned(8)), complex(mass.to_quantity("velocity").G[0])
+    (8, -0.05j)
+    """
+
+    omega: Real
+    G: Complex
+    deviation: Real | None = None
+    coherence: Real | None = None
+    sensor: Sensor = Sensor.ACCELERATION
+    input: Signal = UNNAMED
+    output: Signal = UNNAMED
+    origin: str = ""
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        omega, response = real(self.omega, "omega"), complex_(self.G, "G")
+        columns: dict[str, Any] = {
+            "omega": omega,
+            "G": response,
+            "deviation": optional(self.deviation, "deviation"),
+            "coherence": optional(self.coherence, "coherence"),
+        }
+        checks.lengths(**columns)
+        checks.enough(omega)
+        for name, column in columns.items():
+            checks.finite(name, column, omega)
+        checks.positive(omega)
+        order = np.argsort(omega, kind="stable")
+        moved = bool(np.any(np.diff(omega) < 0))
+        for name, column in columns.items():
+            object.__setattr__(self, name, None if column is None else frozen(column[order]))
+        checks.distinct(self.omega)
+        checks.nonzero(self.G)
+        checks.deviations(self.deviation)
+        checks.coherences(self.coherence)
+        object.__setattr__(self, "sensor", as_sensor(self.sensor))
+        object.__setattr__(self, "input", Signal(*self.input))
+        object.__setattr__(self, "output", Signal(*self.output))
+        object.__setattr__(self, "notes", (*self.notes, *[SORTED] * moved))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FrequencyResponse, tuple(getattr(self, field.name) for field in fields(self))  # arrays stay read-only in a copy
+
+    def __len__(self) -> int:
+        return len(self.omega)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FrequencyResponse):
+            return NotImplemented
+        words = self.sensor == other.sensor and self.input == other.input and self.output == other.output
+        pairs = ((self.omega, other.omega), (self.G, other.G), (self.deviation, other.deviation))
+        return words and all(same(a, b) for a, b in (*pairs, (self.coherence, other.coherence)))
+
+    def __hash__(self) -> int:
+        return hash((self.sensor, self.omega.tobytes(), self.G.tobytes()))
+
+    @property
+    def frequency(self) -> Real:
+        """Frequencies [Hz], shape (n_f,)."""
+        return np.asarray(self.omega / (2 * np.pi))
+
+    @property
+    def suspicions(self) -> tuple[str, ...]:
+        """Sentences on what looks wrong in the numbers, each with its remedy; empty where nothing does."""
+        found = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
+        return () if found is None else (found,)
+
+    def subset(self, lines: Any) -> "FrequencyResponse":
+        """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer than 8 remain."""
+        chosen = np.asarray(lines)
+        if chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
+            raise InputError("lines are chosen by truth values or by whole numbers")
+        try:
+            deviation, coherence = (applied(lambda a: a[chosen], a) for a in (self.deviation, self.coherence))
+            return replace(self, omega=self.omega[chosen], G=self.G[chosen], deviation=deviation, coherence=coherence)
+        except IndexError as error:
+            raise InputError(f"no such lines: {error}") from None
+
+    def masked(self, low: float = 0.0, high: float = np.inf) -> "FrequencyResponse":
+        """The lines from `low` to `high` [Hz], both included; raises InputError where fewer than 8 remain."""
+        return self.subset((self.frequency >= low) & (self.frequency <= high))
+
+    def thinned(self, count: int) -> "FrequencyResponse":
+        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale; all if there are fewer."""
+        if count < checks.FEWEST:
+            raise InputError(f"at least {checks.FEWEST} lines are kept, not {count}")
+        if count >= len(self):
+            return self
+        wanted = np.linspace(np.log(self.omega[0]), np.log(self.omega[-1]), count)
+        nearest = np.abs(np.log(self.omega)[None, :] - wanted[:, None]).argmin(axis=1)
+        steps = np.arange(count)
+        apart = np.maximum.accumulate(nearest - steps) + steps  # each line once, where the measured ones lie too wide
+        return self.subset(np.minimum(apart, len(self) - count + steps))
+
+    def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":
+        """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n = difference of the orders."""
+        wanted = as_sensor(sensor)
+        steps = wanted.order - self.sensor.order
+        if not steps:
+            return self
+        return replace(
+            self,
+            G=self.G * (1j * self.omega) ** steps,
+            deviation=applied(lambda d: d * self.omega**steps, self.deviation),
+            sensor=wanted,
+            output=self.output._replace(unit=_differentiated(self.output.unit, steps)),
+        )
+
+    def sign_reversed(self) -> "FrequencyResponse":
+        """-G: the response of a sensor that counts the other way round."""
+        return replace(self, G=-self.G)
+
+    def noted(self, *notes: str | None) -> "FrequencyResponse":
+        """The same response with further notes; None and repetitions are left out."""
+        return replace(self, notes=tuple(dict.fromkeys([*self.notes, *(n for n in notes if n)])))
+
+
+def as_sensor(value: Sensor | str) -> Sensor:
+    """The sensor quantity of that name; raises InputError for another word."""
+    try:
+        return Sensor(value)
+    except ValueError:
+        raise InputError(f"sensor is position, velocity or acceleration, not {value!r}") from None
+
+
+def as_sign(value: int) -> int:
+    """1 or -1; raises InputError for another number."""
+    if value not in (1, -1):
+        raise InputError(f"the sign of a sensor is 1 or -1, not {value!r}")
+    return value
+
+
+def _differentiated(unit: str, steps: int) -> str:
+    """Unit after `steps` differentiations in time; "" where the unit is not one of a motion."""
+    for base in ("rad", "m", "mm", "um", "deg"):
+        family: Sequence[str] = (base, f"{base}/s", f"{base}/s^2")
+        if unit in family and 0 <= family.index(unit) + steps < len(family):
+            return family[family.index(unit) + steps]
+    return ""

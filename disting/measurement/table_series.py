@@ -1,0 +1,47 @@
+"""Time series from a table of columns."""
+
+import re
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement.arrays import Real
+from disting.measurement.response import Signal, as_sign
+from disting.measurement.table import Table
+from disting.measurement.time_series import TimeSeries, said
+from disting.model.chain import Sensor
+
+
+def time_series(
+    table: Table,
+    input: str | int,
+    output: str | int,
+    *,
+    sampling_rate: float | None = None,
+    time: str | int | None = None,
+    sensor: Sensor | str | None = None,
+    sign: int = 1,
+) -> TimeSeries:
+    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate` [Hz] or column `time` [s]."""
+    if sampling_rate is None:
+        at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if _is_time(h)), None)
+        if at is None:
+            raise InputError(f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers: {table.listed()}")
+        sampling_rate = rate_of(table.column(at), table.origin)
+    u, y = table.at(input), table.at(output)
+    labels = Signal(table.headers[u]), Signal(table.headers[y])
+    origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
+    quantity, notes = said(sensor)
+    return TimeSeries(table.column(u), table.column(y) * as_sign(sign), sampling_rate, quantity, *labels, origin, notes)
+
+
+def rate_of(time: Real, origin: str) -> float:
+    """Sampling rate [Hz] of equidistant times [s]; raises InputError for others."""
+    steps = np.diff(time)
+    if not len(steps) or np.any(steps <= 0) or np.ptp(steps) > 1e-3 * np.mean(steps):
+        raise InputError(f"{origin}: the times are not equidistant and rising; resample, or give sampling_rate= [Hz]")
+    return float(len(steps) / (time[-1] - time[0]))
+
+
+def _is_time(header: str) -> bool:
+    return re.match(r"(t|time|zeit)\b", header.lower()) is not None

@@ -1,0 +1,206 @@
+"""Frequency responses from a table of columns: which column is what."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement import checks
+from disting.measurement.arrays import Complex, Real
+from disting.measurement.column_words import FREQUENCIES, PHASES, Meaning, meaning
+from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.table import Table
+from disting.model.chain import Sensor
+
+SENSOR_WORDS = {
+    Sensor.POSITION: re.compile(r"\b(position|displacement|receptance|compliance|weg|lage)\b|\brad/(nm|a)\b|\bm/(n|a)\b"),
+    Sensor.VELOCITY: re.compile(r"\b(velocity|speed|mobility|geschwindigkeit|drehzahl)\b"),
+    Sensor.ACCELERATION: re.compile(r"\b(acceleration|accelerance|inertance|beschleunigung)\b|/s(\^|\*\*)?2|/s²"),
+}
+MARK = "frequency response, written by disting"
+TO_OMEGA = {Meaning.HERTZ: 2 * np.pi, Meaning.KILOHERTZ: 2e3 * np.pi, Meaning.RADIAN_PER_SECOND: 1.0}
+
+
+@dataclass(slots=True)
+class _Group:
+    """Columns of one response, by their roles."""
+
+    columns: dict[Meaning, int] = field(default_factory=dict)
+
+    @property
+    def first(self) -> int:
+        return min(self.columns.values())
+
+
+def frequency_response(
+    table: Table,
+    *,
+    column: str | int | None = None,
+    columns: Sequence[str] | None = None,
+    sensor: Sensor | str | None = None,
+    sign: int = 1,
+    phase_unit: str | None = None,
+) -> FrequencyResponse:
+    """The first response of a table, or the one that begins at `column` (header, or number from 1).
+
+    `columns` = the role of every column (values of `Meaning`, "-" for none) instead of the words in the headers; `sensor` and
+    `phase_unit` ("deg", "rad") where the file does not say them, or says them wrongly; `sign` = -1 for a reversed sensor.
+    Raises InputError where columns are missing; the message lists the headers.
+    """
+    notes: list[str] = []
+    roles = _roles(table, columns, notes)
+    at = _frequency_column(table, roles)
+    group = _chosen(table, _groups(table, roles), column)
+    ours = _written(table.comments)
+    quantity = _quantity(table, sensor or ours.get("sensor"), notes)
+    response = FrequencyResponse(
+        table.column(at) * TO_OMEGA[roles[at]],
+        _complex(table, group, phase_unit, notes) * as_sign(sign),
+        _beside(table, group, Meaning.DEVIATION),
+        _beside(table, group, Meaning.COHERENCE),
+        sensor=quantity,
+        input=_signal(ours, "input", ""),
+        output=_signal(ours, "output", table.headers[group.first]),
+        origin=f"{table.origin}, {table.named(group.first)}",
+    )
+    return response.noted(*notes)
+
+
+def _written(comments: Sequence[str]) -> dict[str, str]:
+    """What `writing.csv_text` wrote into comment lines; empty for a file of another origin."""
+    pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]
+    return {pair[0]: pair[1] for pair in pairs} if MARK in comments else {}
+
+
+def _signal(ours: Mapping[str, str], role: str, header: str) -> Signal:
+    return Signal(ours.get(f"{role} label", ""), ours.get(f"{role} unit", "")) if ours else Signal(header)
+
+
+def _beside(table: Table, group: _Group, role: Meaning) -> Real | None:
+    return table.column(group.columns[role]) if role in group.columns else None
+
+
+def _roles(table: Table, columns: Sequence[str] | None, notes: list[str]) -> list[Meaning]:
+    if columns is not None:
+        return _given(table, columns)
+    if any(table.headers):
+        roles = [meaning(header) for header in table.headers]
+        if Meaning.HERTZ in roles and not any("hz" in h.lower() for h in table.headers):
+            notes.append(f"frequencies of column {table.headers[roles.index(Meaning.HERTZ)]!r} taken as Hz")
+        return roles
+    if len(table.headers) != 3:
+        raise InputError(
+            f'{table.origin} has {len(table.headers)} columns, no header; say what they are, as columns=["Hz", "re", "im"]'
+        )
+    notes.append("no header: columns taken as frequency [Hz], real part, imaginary part")
+    return [Meaning.HERTZ, Meaning.REAL, Meaning.IMAGINARY]
+
+
+def _given(table: Table, columns: Sequence[str]) -> list[Meaning]:
+    try:
+        roles = [Meaning(word) for word in columns]
+    except ValueError as error:
+        raise InputError(f"columns are named by {', '.join(Meaning)}; {error}") from None
+    if len(roles) != len(table.headers):
+        raise InputError(f"{table.origin} has {len(table.headers)} columns, of which {len(roles)} are named")
+    return roles
+
+
+def _frequency_column(table: Table, roles: list[Meaning]) -> int:
+    found = [i for i, role in enumerate(roles) if role in FREQUENCIES]
+    if not found:
+        raise InputError(f"{table.origin}: no column is a frequency; give columns=; headers: {table.listed()}")
+    return found[0]
+
+
+def _groups(table: Table, roles: list[Meaning]) -> list[_Group]:
+    """Responses in the order of their columns: the n-th real part with the n-th imaginary part, and so on."""
+    pairs = [*_pairs(table, roles, (Meaning.REAL,), (Meaning.IMAGINARY,)), *_sizes(table, roles)]
+    if not pairs:
+        raise InputError(
+            f"{table.origin}: no real and imaginary part, no magnitude and phase; give columns=; headers: {table.listed()}"
+        )
+    groups = sorted((_Group({roles[i]: i for i in pair}) for pair in pairs), key=lambda group: group.first)
+    for i, role in enumerate(roles):
+        if role in (Meaning.COHERENCE, Meaning.DEVIATION):
+            owner = next((g for g in reversed(groups) if g.first < i), groups[0])
+            if role in owner.columns:
+                raise InputError(
+                    f"{table.origin}: {role} occurs twice for one response; give columns=; headers: {table.listed()}"
+                )
+            owner.columns[role] = i
+    return groups
+
+
+def _sizes(table: Table, roles: list[Meaning]) -> list[tuple[int, int]]:
+    """Magnitudes and phases; where a file gives every magnitude in dB too, the one that is not."""
+    phases = sum(role in PHASES for role in roles)
+    firsts = (Meaning.MAGNITUDE,) if phases == roles.count(Meaning.MAGNITUDE) else (Meaning.MAGNITUDE, Meaning.DECIBEL)
+    return _pairs(table, roles, firsts, PHASES) if phases else []
+
+
+def _pairs(
+    table: Table, roles: list[Meaning], first: tuple[Meaning, ...], second: tuple[Meaning, ...]
+) -> list[tuple[int, int]]:
+    left, right = ([i for i, role in enumerate(roles) if role in kind] for kind in (first, second))
+    if len(left) != len(right):
+        raise InputError(
+            f"{table.origin}: columns for {' or '.join(first)}: {len(left)}, for {' or '.join(second)}: {len(right)};"
+            f" give columns=; headers: {table.listed()}"
+        )
+    return list(zip(left, right, strict=True))
+
+
+def _chosen(table: Table, groups: list[_Group], column: str | int | None) -> _Group:
+    if column is None:
+        return groups[0]
+    at = table.at(column)
+    found = next((g for g in groups if at in g.columns.values()), None)
+    if found is None:
+        firsts = ", ".join(table.named(g.first) for g in groups)
+        raise InputError(f"{table.origin}: column {column!r} belongs to no response; responses begin at {firsts}")
+    return found
+
+
+def _complex(table: Table, group: _Group, phase_unit: str | None, notes: list[str]) -> Complex:
+    columns = group.columns
+    if Meaning.REAL in columns:
+        return np.asarray(table.column(columns[Meaning.REAL]) + 1j * table.column(columns[Meaning.IMAGINARY]))
+    if Meaning.DECIBEL in columns:
+        with np.errstate(over="ignore"):
+            size = 10.0 ** (table.column(columns[Meaning.DECIBEL]) / 20)
+    else:
+        size = table.column(columns[Meaning.MAGNITUDE])
+    if np.any(size < 0):
+        raise InputError(f"{table.origin}: a magnitude is negative; is the column in dB?")
+    role = next(p for p in PHASES if p in columns)
+    phase = table.column(columns[role])
+    unit = _phase_unit(phase, role, phase_unit, notes)
+    return np.asarray(size * np.exp(1j * (np.deg2rad(phase) if unit == "deg" else phase)))
+
+
+def _phase_unit(phase: Real, role: Meaning, asked: str | None, notes: list[str]) -> str:
+    """The unit that the caller named, or the header, or the more likely one; what is doubtful goes to `notes`."""
+    if asked is not None:
+        if asked not in ("deg", "rad"):
+            raise InputError(f'phase_unit is "deg" or "rad", not {asked!r}')
+        return asked
+    unit = checks.likely_phase_unit(phase) if role is Meaning.PHASE else role.value
+    doubt = checks.phase_unit(phase, unit, said=role is not Meaning.PHASE)
+    if role is Meaning.PHASE:
+        notes.append(f'phases taken as {unit}, by their size; if not, give phase_unit="{"deg" if unit == "rad" else "rad"}"')
+    notes += [doubt] if doubt else []
+    return unit
+
+
+def _quantity(table: Table, sensor: Sensor | str | None, notes: list[str]) -> Sensor:
+    if sensor is not None:
+        return as_sensor(sensor)
+    text = " ".join((*table.headers, *table.comments)).lower()
+    found = [quantity for quantity, words in SENSOR_WORDS.items() if words.search(text)]
+    if len(found) == 1:
+        return found[0]
+    notes.append('sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"')
+    return Sensor.ACCELERATION

@@ -1,0 +1,119 @@
+"""Numbers in columns from text: any delimiter, decimal point or comma, comments, one header or none.
+
+The delimiter and the decimal sign are those of the first pair below that reads the most lines as numbers; so "1,5;2,5" has
+decimal commas, "1,5" alone two columns, "1,5 2,5" decimal commas again.
+"""
+
+import re
+from collections import Counter
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement.column_words import FREQUENCIES, meaning
+from disting.measurement.table import Table
+
+DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (" ", "."), (" ", ","))
+SAMPLE = 60  # lines from the end by which the dialect is chosen: a header is at the beginning
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
+BRACKET = re.compile(r"\s*\([^()]*\)\s*$")
+
+
+def decoded(content: bytes, origin: str) -> str:
+    """Text of a file: UTF-8, UTF-16 with its mark, else Latin 1; raises InputError for what is no text."""
+    for encoding in ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
+        try:
+            text = content.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+        if "\0" not in text:
+            return text
+    raise InputError(f"{origin} is no text file; MATLAB files end in .mat, universal files in .uff or .unv")
+
+
+def table(text: str, origin: str) -> Table:
+    """The table in a text; raises InputError with line and column of the first mistake."""
+    numbered = [(n, line.strip("\r\n ")) for n, line in enumerate(re.split(r"\r\n|\n|\r", text), 1) if line.strip()]
+    comments = [line.lstrip("#% ") for _, line in numbered if line[0] in "#%"]
+    rows = [(n, line) for n, line in numbered if line[0] not in "#%"]
+    delimiter, decimal = _dialect([line for _, line in rows], origin)
+    split = [(n, _fields(line, delimiter)) for n, line in rows]
+    width = _width([fields for _, fields in split if _count(fields, decimal) == len(fields)])
+    start = _first_row(split, decimal, width, origin)
+    headers = _headers([fields for _, fields in split[:start]], comments, delimiter, width)
+    data = split[start:]
+    values = np.array([_numbers(n, fields, headers, decimal, origin) for n, fields in data], dtype=np.float64)
+    outside = [" ".join(fields) for _, fields in split[:start]]
+    return Table(headers, values, tuple(n for n, _ in data), (*comments, *outside), origin)
+
+
+def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
+    def readable(dialect: tuple[str, str]) -> int:
+        parts = [_fields(line, dialect[0]) for line in lines[-SAMPLE:]]
+        return sum(len(p) > 1 and _count(p, dialect[1]) == len(p) for p in parts)
+
+    best = max(DIALECTS, key=readable, default=DIALECTS[0])
+    if not lines or not readable(best):
+        raise InputError(f"{origin} holds no columns of numbers separated by comma, semicolon, tab or blanks")
+    return best
+
+
+def _fields(line: str, delimiter: str) -> list[str]:
+    """Fields without blanks and quotation marks; one delimiter at the end of a line closes it and opens no field."""
+    parts = line.split() if delimiter == " " else line.split(delimiter)
+    fields = [part.strip().strip('"') for part in parts]
+    return fields[:-1] if len(fields) > 1 and not fields[-1] else fields
+
+
+def _count(fields: list[str], decimal: str) -> int:
+    """How many fields are numbers."""
+    return sum(NUMBER.fullmatch(field.replace(",", ".") if decimal == "," else field) is not None for field in fields)
+
+
+def _width(rows: list[list[str]]) -> int:
+    """Most frequent number of columns."""
+    return Counter(len(row) for row in rows).most_common(1)[0][0]
+
+
+def _first_row(split: list[tuple[int, list[str]]], decimal: str, width: int, origin: str) -> int:
+    """Number of lines before the data; one of full width with some numbers and some words is damaged data."""
+    for at, (n, fields) in enumerate(split):
+        numbers = _count(fields, decimal)
+        if len(fields) == width and numbers == width:
+            return at
+        if len(fields) == width and numbers:
+            wrong = next(i for i, f in enumerate(fields, 1) if not _count([f], decimal))
+            raise InputError(f"{origin}, line {n}, column {wrong}: {fields[wrong - 1][:40]!r} is no number")
+    raise InputError(f"{origin} holds no line of {width} numbers")
+
+
+def _headers(before: list[list[str]], comments: list[str], delimiter: str, width: int) -> tuple[str, ...]:
+    """Header lines (names, units) joined column by column; else the last comment that is a header; else nothing."""
+    stacked = [fields for fields in before if len(fields) == width]
+    if stacked:
+        return tuple(" ".join(filter(None, words)) for words in zip(*stacked, strict=True))
+    for comment in reversed(comments):
+        for text in (comment, BRACKET.sub("", comment)):
+            for mark in dict.fromkeys((delimiter, ",", ";", "\t", " ")):
+                fields = _fields(text, mark)
+                if len(fields) == width and _is_header(fields, mark == delimiter != " "):
+                    return tuple(fields)
+    return ("",) * width
+
+
+def _is_header(fields: list[str], delimited: bool) -> bool:
+    """Whether the parts of a comment name columns: no numbers, and the delimiter of the data or the word frequency."""
+    return not _count(fields, ".") and (delimited or any(meaning(field) in FREQUENCIES for field in fields))
+
+
+def _numbers(n: int, fields: list[str], headers: tuple[str, ...], decimal: str, origin: str) -> list[float]:
+    if len(fields) != len(headers):
+        raise InputError(f"{origin}, line {n}: {len(fields)} columns where the others have {len(headers)}")
+    numbers = []
+    for column, field in enumerate(fields, 1):
+        text = field.replace(",", ".") if decimal == "," else field
+        if not NUMBER.fullmatch(text):
+            named = f" ({headers[column - 1]})" if headers[column - 1] else ""
+            raise InputError(f"{origin}, line {n}, column {column}{named}: {field[:40]!r} is no number")
+        numbers.append(float(re.sub("[dD]", "e", text)))
+    return numbers

@@ -1,0 +1,122 @@
+"""A record of input and output samples, and the frequency response that it shows."""
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement import periodic, welch
+from disting.measurement.arrays import Real, frozen, real, same
+from disting.measurement.response import UNNAMED, FrequencyResponse, Signal, as_sensor
+from disting.model.chain import Sensor
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimeSeries:
+    """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by content.
+
+    `sensor` = the quantity that `y` shows. Raises InputError for samples that are not finite, constant signals and unequal
+    lengths.
+    """
+
+    u: Real
+    y: Real
+    sampling_rate: float
+    sensor: Sensor = Sensor.POSITION
+    input: Signal = UNNAMED
+    output: Signal = UNNAMED
+    origin: str = ""
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("u", "y"):
+            object.__setattr__(self, name, frozen(_samples(getattr(self, name), name)))
+        if len(self.u) != len(self.y):
+            raise InputError(f"the input has {len(self.u)} samples, the output {len(self.y)}; give signals of one record")
+        object.__setattr__(self, "sampling_rate", _rate(self.sampling_rate))
+        object.__setattr__(self, "sensor", as_sensor(self.sensor))
+        object.__setattr__(self, "input", Signal(*self.input))
+        object.__setattr__(self, "output", Signal(*self.output))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return TimeSeries, tuple(getattr(self, field.name) for field in fields(self))  # arrays stay read-only in a copy
+
+    def __len__(self) -> int:
+        return len(self.u)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, TimeSeries):
+            return NotImplemented
+        mine = (self.sampling_rate, self.sensor, self.input, self.output)
+        theirs = (other.sampling_rate, other.sensor, other.input, other.output)
+        return mine == theirs and same(self.u, other.u) and same(self.y, other.y)
+
+    def __hash__(self) -> int:
+        return hash((self.sampling_rate, self.u.tobytes(), self.y.tobytes()))
+
+    def sign_reversed(self) -> "TimeSeries":
+        """The record of a sensor that counts the other way round."""
+        return replace(self, y=-self.y)
+
+    def response(
+        self,
+        sensor: Sensor | str | None = None,
+        *,
+        period: int | None = None,
+        transient: int = 1,
+        lines: Any = None,
+        band: tuple[float, float] | None = None,
+        segment: int | None = None,
+    ) -> FrequencyResponse:
+        """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default: that of the record).
+
+        Periodic excitation (module `periodic`): `period` [samples], detected where not given; `transient` = periods dropped at
+        the beginning; `lines` = excited frequencies [Hz], detected where not given. Any other excitation: `segment` [samples]
+        of Welch's method (module `welch`), which is used exactly where `segment` is given. `band` = (low, high) [Hz].
+        Raises InputError where no period is found, periods are missing, or `period` and `segment` are both given.
+        """
+        if segment is None:
+            found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band)
+        elif period is None and lines is None:
+            found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band)
+        else:
+            raise InputError("period and lines belong to a periodic excitation, segment to any other: give one of them")
+        response = FrequencyResponse(
+            found.omega,
+            found.G,
+            found.deviation,
+            found.coherence,
+            self.sensor,
+            self.input,
+            self.output,
+            self.origin,
+            (*self.notes, *found.notes),
+        )
+        return response if sensor is None else response.to_quantity(sensor)
+
+
+def said(sensor: Sensor | str | None) -> tuple[Sensor, tuple[str, ...]]:
+    """Sensor quantity of a recorded output, position where nobody said it, and the note that says so then."""
+    if sensor is not None:
+        return as_sensor(sensor), ()
+    return Sensor.POSITION, ('output taken as a position; if not, give sensor="velocity" or sensor="acceleration"',)
+
+
+def _samples(values: Any, name: str) -> Real:
+    array = real(values, name)
+    if not np.all(np.isfinite(array)):
+        raise InputError(f"sample {int(np.argmin(np.isfinite(array))) + 1} of {name} is not finite; cut the record before it")
+    if not len(array) or np.ptp(array) == 0:
+        raise InputError(f"{name} does not move in {len(array)} samples; is another signal meant?")
+    return array.copy()
+
+
+def _rate(value: Any) -> float:
+    try:
+        rate = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"the sampling rate is a number [Hz], not {value!r}") from None
+    if not 0 < rate < np.inf:
+        raise InputError(f"the sampling rate is positive [Hz], not {rate:g}")
+    return rate

@@ -1,0 +1,100 @@
+"""Universal file format (UFF, UNV), data set 58, by pyuff: function type 4 is a frequency response, 6 a coherence.
+
+The quantity of the sensor is the data type of the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
+"""
+
+import contextlib
+import io
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.model.chain import Sensor
+
+RESPONSE, COHERENCE = 4, 6
+QUANTITIES = {8: Sensor.POSITION, 11: Sensor.VELOCITY, 12: Sensor.ACCELERATION}
+DIRECTIONS = {0: "", 1: "+x", 2: "+y", 3: "+z", 4: "+rx", 5: "+ry", 6: "+rz"}
+PLACE = ("rsp_node", "rsp_dir", "ref_node", "ref_dir")
+
+Record = Mapping[str, Any]
+
+
+def read_uff(path: Path, *, record: int | None = None, sensor: Sensor | str | None = None, sign: int = 1) -> FrequencyResponse:
+    """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken from the file where it is there.
+
+    `sensor` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError, listing the responses.
+    """
+    records = _records(path)
+    responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
+    number = 1 if record is None else record
+    if not 1 <= number <= len(responses):
+        listed = "; ".join(f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)) or "none"
+        raise InputError(f"{path.name} has no frequency response number {number}; there are: {listed}")
+    chosen = responses[number - 1]
+    quantity, note = _quantity(chosen, sensor)
+    try:
+        return FrequencyResponse(
+            2 * np.pi * np.asarray(chosen["x"], dtype=float),
+            np.asarray(chosen["data"], dtype=complex) * as_sign(sign),
+            coherence=_coherence(records, chosen),
+            sensor=quantity,
+            input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
+            output=Signal(_node(chosen, "rsp"), _unit(chosen, "ordinate_axis_units_lab")),
+            origin=f"{path.name}, {_place(chosen)}",
+        ).noted(note)
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"{path.name}, {_place(chosen)}: damaged data set ({error})") from None
+
+
+def _records(path: Path) -> Sequence[Record]:
+    try:
+        import pyuff
+    except ImportError:
+        raise InputError(f'{path.name} is a universal file: pip install "disting[uff]"') from None
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):  # pyuff prints what it cannot read
+            file = pyuff.UFF(str(path))
+            numbers = [i for i, kind in enumerate(file.get_set_types()) if kind == 58]
+            return [file.read_sets(i) for i in numbers]
+    except Exception as error:  # damaged files raise whatever the library meets first
+        raise InputError(f"{path.name} is no universal file that can be read: {type(error).__name__}: {error}") from None
+
+
+def _quantity(record: Record, asked: Sensor | str | None) -> tuple[Sensor, str | None]:
+    if asked is not None:
+        return as_sensor(asked), None
+    found = QUANTITIES.get(record.get("ordinate_spec_data_type", 0))
+    if found is not None:
+        return found, None
+    return Sensor.ACCELERATION, 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
+
+
+def _coherence(records: Sequence[Record], response: Record) -> Any:
+    """That of the same output and frequencies, if there is exactly one (a coherence may name no input)."""
+    found = [r["data"] for r in records if r.get("func_type") == COHERENCE and _belongs(r, response)]
+    return np.real(found[0]) if len(found) == 1 else None
+
+
+def _belongs(coherence: Record, response: Record) -> bool:
+    return all(coherence.get(key) == response.get(key) for key in PLACE[:2]) and np.array_equal(
+        coherence.get("x", ()), response.get("x", ())
+    )
+
+
+def _node(record: Record, side: str) -> str:
+    direction = record.get(f"{side}_dir", 0)
+    sign = DIRECTIONS.get(abs(direction), str(direction))
+    return f"node {record.get(f'{side}_node', '?')}{' ' * bool(sign)}{sign.replace('+', '-') if direction < 0 else sign}"
+
+
+def _place(record: Record) -> str:
+    return f"{_node(record, 'rsp')} per {_node(record, 'ref')}"
+
+
+def _unit(record: Record, key: str) -> str:
+    unit = str(record.get(key, "")).strip()
+    return "" if unit.upper() == "NONE" else unit

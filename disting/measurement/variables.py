@@ -1,0 +1,170 @@
+"""Frequency responses and time series from named arrays, as MATLAB files and archives of arrays hold them."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.errors import InputError
+from disting.measurement.arrays import Real
+from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.table_series import rate_of
+from disting.measurement.time_series import TimeSeries, said
+from disting.model.chain import Sensor
+
+HERTZ_NAMES = ("f", "freq", "frequency", "Frequency", "f_Hz", "fHz", "freqs", "frequencies", "F")
+OMEGA_NAMES = ("w", "omega", "Omega", "om", "wout")
+RESPONSE_NAMES = ("G", "H", "FRF", "frf", "response", "ResponseData", "Gfrf", "Hfrf", "FRFs")
+DEVIATION_NAMES = ("std", "sigma", "deviation", "stdG", "G_std", "sG", "std_G")
+COHERENCE_NAMES = ("coh", "coherence", "Coh", "gamma2", "C")
+RATE_NAMES = ("fs", "Fs", "fsample", "sampling_rate")
+STEP_NAMES = ("Ts", "ts", "dt", "T_s")
+TIME_NAMES = ("t", "time", "Time")
+UNIT = {"Hz": 2 * np.pi, "kHz": 2e3 * np.pi, "rad/s": 1.0}
+
+Arrays = Mapping[str, Callable[[], NDArray[Any]]]  # by name; called where needed, so that others may be unreadable
+
+
+def from_variables(
+    arrays: Arrays,
+    origin: str,
+    *,
+    frequency: str | None = None,
+    response: str | None = None,
+    deviation: str | None = None,
+    coherence: str | None = None,
+    frequency_unit: str | None = None,
+    index: int | Sequence[int] | None = None,
+    sensor: Sensor | str | None = None,
+    sign: int = 1,
+) -> FrequencyResponse:
+    """Response from variables of these names; without names, usual ones (f, freq, w, omega; G, H, FRF, ...) are looked for.
+
+    `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which response (from 0, one number for
+    every other axis) of an array of several; `sensor`, `sign` as for a text file.
+    """
+    name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
+    chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
+    unit = frequency_unit or ("rad/s" if name in OMEGA_NAMES else "Hz")
+    if unit not in UNIT:
+        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {unit!r}')
+    values = _numeric(arrays, name, origin).real.ravel()
+    size, quantity = len(values), sensor or Sensor.ACCELERATION
+
+    def beside(asked: str | None, usual: Sequence[str]) -> Real | None:
+        return _optional(arrays, asked, usual, size, index, origin)
+
+    found = FrequencyResponse(
+        values * UNIT[unit],
+        row(_numeric(arrays, chosen, origin), size, index, chosen) * as_sign(sign),
+        beside(deviation, DEVIATION_NAMES),
+        beside(coherence, COHERENCE_NAMES),
+        sensor=as_sensor(quantity),
+        output=Signal(chosen),
+        origin=f"{origin}, {chosen}",
+    )
+    assumed = 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
+    taken = f"frequencies of {name!r} taken as {unit}"
+    return found.noted(None if sensor else assumed, None if frequency_unit else taken)
+
+
+def series_from_variables(
+    arrays: Arrays,
+    origin: str,
+    input: str,
+    output: str,
+    *,
+    sampling_rate: float | str | None = None,
+    time: str | None = None,
+    sensor: Sensor | str | None = None,
+    sign: int = 1,
+) -> TimeSeries:
+    """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a variable, or `time` [s] = a variable.
+
+    Without either, fs, Fs, Ts, dt, then t, time are looked for.
+    """
+    rate = _rate(arrays, sampling_rate, time, origin)
+    u, y = (_numeric(arrays, _name(arrays, n, (), "signal", origin), origin) for n in (input, output))
+    signals = Signal(input), Signal(output)
+    samples = _column(u, input), _column(y, output) * as_sign(sign)
+    quantity, notes = said(sensor)
+    return TimeSeries(*samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes)
+
+
+def row(values: NDArray[Any], size: int, index: int | Sequence[int] | None, name: str) -> NDArray[Any]:
+    """One response of `size` lines from an array whose other axes count responses, taken at `index`."""
+    array = np.squeeze(np.asarray(values))
+    array = array.reshape(1) if array.ndim == 0 else array
+    axes = [axis for axis, length in enumerate(array.shape) if length == size]
+    if not axes:
+        raise InputError(f"{name} of shape {np.shape(values)} has no axis of {size} values, one a frequency")
+    several = np.moveaxis(array, axes[-1], -1)
+    if several.ndim == 1:
+        return several
+    at = (index,) if isinstance(index, int) else tuple(index or ())
+    if len(at) != several.ndim - 1 or any(not 0 <= i < n for i, n in zip(at, several.shape, strict=False)):
+        shape = " x ".join(map(str, several.shape[:-1]))
+        raise InputError(f"{name} holds {shape} responses; choose one by index= ({several.ndim - 1} numbers from 0)")
+    return np.asarray(several[at])
+
+
+def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, origin: str) -> str:
+    if asked is None:
+        found = next((name for name in usual if name in arrays), None)
+        if found is None:
+            raise InputError(f"{origin}: which variable is the {role}? give {role}=; variables: {_listed(arrays)}")
+        return found
+    if asked not in arrays:
+        raise InputError(f"{origin} has no variable {asked!r}; variables: {_listed(arrays)}")
+    return asked
+
+
+def _optional(
+    arrays: Arrays, asked: str | None, usual: Sequence[str], size: int, index: int | Sequence[int] | None, origin: str
+) -> Real | None:
+    """The variable asked for; or the first usual one, if it has a value a line."""
+    if asked is not None:
+        return row(_numeric(arrays, _name(arrays, asked, (), "", origin), origin), size, index, asked)
+    for name in (n for n in usual if n in arrays):
+        try:
+            return row(_numeric(arrays, name, origin), size, index, name)
+        except InputError:
+            continue  # another thing of that name
+    return None
+
+
+def _numeric(arrays: Arrays, name: str, origin: str) -> NDArray[Any]:
+    array = np.asarray(arrays[name]())
+    if array.dtype.kind not in "biufc" or not array.size:
+        raise InputError(f"{origin}: {name} is no array of numbers; variables: {_listed(arrays)}")
+    return array.astype(np.complex128 if array.dtype.kind == "c" else np.float64)
+
+
+def _column(values: NDArray[Any], name: str) -> NDArray[Any]:
+    array = np.squeeze(values)
+    if array.ndim != 1:
+        raise InputError(f"{name} of shape {values.shape} is no single signal")
+    return array
+
+
+def _rate(arrays: Arrays, asked: float | str | None, time: str | None, origin: str) -> float:
+    if asked is not None and not isinstance(asked, str):
+        return asked
+    if isinstance(asked, str) or (time is None and any(n in arrays for n in RATE_NAMES)):
+        return _scalar(arrays, _name(arrays, asked, RATE_NAMES, "sampling_rate", origin), origin)
+    if time is None and any(n in arrays for n in STEP_NAMES):
+        return 1.0 / _scalar(arrays, _name(arrays, None, STEP_NAMES, "step", origin), origin)
+    name = _name(arrays, time, TIME_NAMES, "sampling_rate", origin)
+    return rate_of(_column(_numeric(arrays, name, origin).real, name), f"{origin}, {name}")
+
+
+def _scalar(arrays: Arrays, name: str, origin: str) -> float:
+    values = _numeric(arrays, name, origin)
+    if values.size != 1 or np.iscomplexobj(values) or not values.item() > 0:
+        raise InputError(f"{origin}: {name} is no positive number; give sampling_rate= [Hz]")
+    return float(values.item())
+
+
+def _listed(arrays: Arrays) -> str:
+    return ", ".join(sorted(arrays)) or "none"

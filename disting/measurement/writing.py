@@ -1,0 +1,43 @@
+"""A frequency response as CSV that reads back bit by bit: frequencies in rad/s, numbers with all their digits."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from disting.errors import InputError
+from disting.measurement.response import FrequencyResponse, Signal
+from disting.measurement.tabular import MARK
+
+
+def csv_text(response: FrequencyResponse) -> str:
+    """Comment lines with sensor, signals and origin; a header; one line a frequency."""
+    return "\n".join([*_head(response), *_rows(response), ""])
+
+
+def write_csv(response: FrequencyResponse, path: str | Path) -> None:
+    """Write `csv_text` to a file; `read` gives an equal response. Raises InputError where the file cannot be written."""
+    try:
+        Path(path).write_text(csv_text(response), encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def _head(response: FrequencyResponse) -> Iterator[str]:
+    yield f"# {MARK}"
+    yield f"# sensor: {response.sensor.value}"
+    for role, signal in (("input", response.input), ("output", response.output)):
+        yield from (f"# {role} {part}: {_line(text)}" for part, text in zip(Signal._fields, signal, strict=True) if text)
+    if response.origin:
+        yield f"# origin: {_line(response.origin)}"
+    yield from (f"# note: {_line(note)}" for note in response.notes)
+
+
+def _rows(response: FrequencyResponse) -> Iterator[str]:
+    extra = [(name, c) for name, c in (("std", response.deviation), ("coherence", response.coherence)) if c is not None]
+    yield ",".join(["omega [rad/s]", "Re G", "Im G", *(name for name, _ in extra)])
+    columns = (response.omega, response.G.real, response.G.imag, *(column for _, column in extra))
+    for numbers in zip(*(column.tolist() for column in columns), strict=True):
+        yield ",".join(map(repr, numbers))
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())

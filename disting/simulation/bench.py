@@ -1,0 +1,121 @@
+"""Simulated measurements: a chain, a periodic test signal, and what a real bench adds.
+
+The force is the continuous band-limited signal through the samples u, not a staircase: no correction for a zero-order hold is
+needed, and G of a record without noise is G of the model. Without Coulomb friction the periodic motion is computed line by
+line, Y_k = G(j omega_k) U_k, with dead time and lag exact and nothing left of a transient; with it, by `stepping`, from the
+motion without it, so that the first periods are a transient.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement import Signal, TimeSeries
+from disting.measurement.arrays import Complex, Real
+from disting.model.chain import Chain, Sensor
+from disting.model.structure import Structure
+from disting.simulation.excitation import Excitation
+from disting.simulation.mechanics import checked, input_filter, matrices, motion, port_vectors, structure_of
+from disting.simulation.stepping import Friction, stepped, with_viscous
+
+SILENT = 1e-9  # share of the largest line of a period below which a line is rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Bench:
+    """How the record is taken.
+
+    `sampling_rate` [Hz]; `samples` of one period; `periods`; standard deviations of white noise `input_noise` and
+    `output_noise` added to the recorded signals [their units]; `quantum` = step of the sensor, to which the output is rounded
+    (an encoder shows positions: use a position sensor) [unit of the output]; `friction` by mass; `seed` of phases and noise.
+    """
+
+    sampling_rate: float = 2500.0
+    samples: int = 2500
+    periods: int = 20
+    input_noise: float = 0.0
+    output_noise: float = 0.0
+    quantum: float = 0.0
+    friction: Mapping[int, Friction] = field(default_factory=dict)
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if not 0 < self.sampling_rate < np.inf or self.samples < 16 or self.periods < 1:
+            raise InputError("a bench has a positive sampling rate [Hz], periods of at least 16 samples, at least one period")
+        if not all(0 <= value < np.inf for value in (self.input_noise, self.output_noise, self.quantum)):
+            raise InputError("noise and quantum are not negative")
+
+
+def simulate(
+    model: Chain | Structure, parameters: Mapping[str, float], excitation: Excitation | None = None, bench: Bench | None = None
+) -> TimeSeries:
+    """Record of force and sensor of a model; `parameters` by name in one system of units (SI). The same seed, the same record.
+
+    Raises InputError for wrong parameters, an excitation beyond half the sampling rate, or one at an undamped resonance.
+
+    >>> truth = {"m1": 0.01}
+    >>> G = simulate(Chain(1), truth).response().G
+    >>> bool(abs(G - 100).max() < 1e-6)
+    True
+    """
+    bench, excitation = bench or Bench(), excitation or Excitation()
+    values = checked(model, parameters)
+    period = excitation.period(bench.samples, bench.sampling_rate, bench.seed)
+    output = _output(model, values, period, bench)
+    noise = np.random.default_rng([bench.seed, 1]).standard_normal((2, bench.samples * bench.periods))
+    recorded = output + bench.output_noise * noise[1]
+    return TimeSeries(
+        np.tile(period, bench.periods) + bench.input_noise * noise[0],
+        np.round(recorded / bench.quantum) * bench.quantum if bench.quantum else recorded,
+        bench.sampling_rate,
+        list(Sensor)[structure_of(model).sensor_order],
+        Signal("input"),
+        Signal("output"),
+        origin="simulation",
+    )
+
+
+def _output(model: Chain | Structure, values: Mapping[str, float], period: Real, bench: Bench) -> Real:
+    """The sensor's quantity without noise, shape (samples * periods,)."""
+    act, meas = port_vectors(model)
+    order = structure_of(model).sensor_order
+    m = with_viscous(matrices(model, values), bench.friction)
+    omega = 2 * np.pi * np.arange(bench.samples // 2 + 1) * bench.sampling_rate / bench.samples
+    force = _lines(period) * input_filter(values, omega)
+    if any(kind.coulomb for kind in bench.friction.values()):
+        seconds = bench.samples / bench.sampling_rate
+        return np.asarray(stepped(m, act, force, seconds, bench.samples, bench.periods, bench.friction)[order] @ meas)
+    spectrum = np.zeros_like(force)
+    used = np.flatnonzero(force)
+    spectrum[used] = (1j * omega[used]) ** order * (motion(m, act, omega[used]) @ meas) * force[used]
+    return np.tile(np.fft.irfft(spectrum, bench.samples), bench.periods)
+
+
+def _lines(period: Real) -> Complex:
+    """Spectrum of one period; lines that are rounding, 0 Hz and half the sampling rate are zero."""
+    spectrum = np.fft.rfft(period)
+    keep = np.abs(spectrum) > SILENT * np.max(np.abs(spectrum))
+    keep[0] = False
+    if len(period) % 2 == 0:
+        keep[-1] = False
+    return np.asarray(np.where(keep, spectrum, 0))
+
+
+DEMO_MODEL = Chain(2, sensor=Sensor.POSITION, damped=True, ground_dampers=(1,), dead_time=True)
+DEMO_PARAMETERS: Mapping[str, float] = MappingProxyType(
+    {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08, "b1": 0.1, "Td": 3e-4}
+)
+DEMO_BENCH = Bench(input_noise=0.02, output_noise=2e-6, quantum=2 * np.pi / 2**20)
+
+
+def demo(seed: int = 0) -> TimeSeries:
+    """Record of a two-mass drive of the size of a small bench: motor current to motor angle, encoder of 20 bits, 20 periods.
+
+    Inertias per torque constant 0.0045 and 0.005 A s^2/rad, antiresonance 53 Hz, resonance 77 Hz, dead time 0.3 ms; excited
+    by a Schroeder multisine of 1 A (rms) from 10 to 250 Hz. `demo().response("acceleration")` is what a fit begins with.
+    """
+    series = simulate(DEMO_MODEL, DEMO_PARAMETERS, Excitation(), replace(DEMO_BENCH, seed=seed))
+    return replace(series, input=Signal("motor current", "A"), output=Signal("motor angle", "rad"))

@@ -1,0 +1,109 @@
+"""Motion with Coulomb friction: a fixed-step Runge-Kutta integration of fourth order.
+
+M x'' + D x' + K x = e_act f(t) - c tanh(v / v_s) - b v for each mass with friction, where tanh stands for the sign (v_s = speed
+below which the friction is not fully there), so that the right side is smooth and the integration converges. Dead time and lag
+act on the force alone, before it reaches the masses; the force is a trigonometric polynomial, known at every instant.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.measurement.arrays import Complex, Real
+from disting.simulation.mechanics import Matrices, motion
+
+STEP = 0.25  # of the shortest time in which the motion changes
+MOST_STEPS = 5_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Friction:
+    """Friction of one mass towards the ground.
+
+    `coulomb` [N or N m], `viscous` [N s/m or N m s/rad], `speed` = v_s [m/s or rad/s], at which tanh(1) = 76 % of the Coulomb
+    friction is reached.
+    """
+
+    coulomb: float = 0.0
+    viscous: float = 0.0
+    speed: float = 1e-2
+
+    def __post_init__(self) -> None:
+        if not (0 <= self.coulomb < np.inf and 0 <= self.viscous < np.inf and 0 < self.speed < np.inf):
+            raise InputError("friction has coulomb >= 0, viscous >= 0 and speed > 0")
+
+
+def with_viscous(m: Matrices, friction: Mapping[int, Friction]) -> Matrices:
+    """The matrices with the viscous friction of the masses (from 1) added to D; raises InputError for a mass that is none."""
+    if any(not 1 <= mass <= len(m.M) for mass in friction):
+        raise InputError(f"friction sits at masses 1 to {len(m.M)}, not at {sorted(friction)}")
+    extra = np.zeros(len(m.M))
+    for mass, kind in friction.items():
+        extra[mass - 1] = kind.viscous
+    return m._replace(D=m.D + np.diag(extra))
+
+
+def stepped(
+    m: Matrices, act: Real, force: Complex, period: float, samples: int, periods: int, friction: Mapping[int, Friction]
+) -> Real:
+    """Positions, velocities and accelerations of all masses, shape (3, samples * periods, N).
+
+    `m` with the viscous friction; `force` = spectrum of one period, shape (samples // 2 + 1,), of numpy.fft.rfft; `period` [s].
+    Begins in the periodic motion without Coulomb friction.
+    """
+    coulomb, speed = np.zeros(len(act)), np.ones(len(act))
+    for mass, kind in friction.items():
+        coulomb[mass - 1], speed[mass - 1] = kind.coulomb, kind.speed
+    inverse = 1.0 / np.diag(m.M)
+    highest = 2 * np.pi * int(np.flatnonzero(force)[-1]) / period
+    steps = _steps(m, coulomb / speed, highest, period / samples)
+    if steps * samples * periods > MOST_STEPS:
+        raise InputError(f"{steps * samples * periods} steps are too many; raise the speed of the friction, or simulate less")
+    push = np.outer(_oversampled(force, samples, 2 * steps), act)
+
+    def acceleration(x: Real, v: Real, f: Real) -> Real:
+        return np.asarray(inverse * (f - m.D @ v - m.K @ x - coulomb * np.tanh(v / speed)))
+
+    x, v = _start(m, act, force, period, samples)
+    h = period / samples / steps
+    result = np.empty((3, samples * periods, len(act)))
+    for sample in range(samples * periods):
+        at = 2 * steps * (sample % samples)
+        result[:, sample] = x, v, acceleration(x, v, push[at])
+        for i in range(at, at + 2 * steps, 2):
+            first, middle, last = push[i], push[i + 1], push[(i + 2) % len(push)]
+            a1 = acceleration(x, v, first)
+            v2 = v + h / 2 * a1
+            a2 = acceleration(x + h / 2 * v, v2, middle)
+            v3 = v + h / 2 * a2
+            a3 = acceleration(x + h / 2 * v2, v3, middle)
+            v4 = v + h * a3
+            a4 = acceleration(x + h * v3, v4, last)
+            x = x + h / 6 * (v + 2 * v2 + 2 * v3 + v4)
+            v = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+    return result
+
+
+def _steps(m: Matrices, slope: Real, highest: float, sample: float) -> int:
+    """Steps a sample [s]: from the force [rad/s], the eigenvalues (Gershgorin: rows of |K|, |D|), the slope of the friction."""
+    inverse = 1.0 / np.diag(m.M)
+    stiff, damped = (np.max(inverse * np.abs(matrix).sum(axis=1)) for matrix in (m.K, m.D))
+    fastest = np.sqrt(stiff) + damped + np.max(inverse * slope) + highest
+    return max(1, int(np.ceil(sample * fastest / STEP)))
+
+
+def _oversampled(spectrum: Complex, samples: int, factor: int) -> Real:
+    """The trigonometric polynomial between its samples, `factor` values a sample."""
+    wide = np.zeros(samples * factor // 2 + 1, dtype=complex)
+    wide[: len(spectrum)] = spectrum * factor
+    return np.asarray(np.fft.irfft(wide, samples * factor))
+
+
+def _start(m: Matrices, act: Real, force: Complex, period: float, samples: int) -> tuple[Real, Real]:
+    """Position and velocity at time zero of the periodic motion without Coulomb friction."""
+    lines = np.flatnonzero(np.abs(force) > 0)
+    omega = np.asarray(2 * np.pi * lines / period, dtype=np.float64)
+    moved = motion(m, act, omega) * force[lines, None] * (2 / samples)
+    return np.asarray(moved.sum(axis=0).real), np.asarray((1j * omega[:, None] * moved).sum(axis=0).real)

@@ -1,0 +1,150 @@
+"""Estimation: known parameters are found again, nothing contained is ever better, interrupted work resumes."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from disting.engine import Store
+from disting.errors import InputError
+from disting.fit.candidates import figure_1, variants, whole_family
+from disting.fit.cost import Case, Cost
+from disting.fit.estimate import Task, estimate_from_json, estimate_to_json, estimates, with_smaller
+from disting.fit.modes import poles, zeros
+from disting.fit.starts import cauer, extrema, merged, scale, shortened
+from disting.model.chain import Chain
+from tests.fit.drives import OMEGA, bench, response, truth
+
+IDENTIFIABLE = [
+    Chain(1, damped=True, ground_dampers=(1,), dead_time=True),
+    Chain(2, damped=True, ground_dampers=(2,), lag=True),
+    Chain(3, damped=True, dead_time=True),
+    Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2, damped=True),
+    Chain(3, act_plus=2, meas_plus=2, damped=True, ground_dampers=(1,), sensor="velocity"),
+    Chain(3, meas_plus=3, damped=True, dead_time=True),
+    Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=True),
+]
+
+
+@pytest.mark.parametrize("chain", IDENTIFIABLE, ids=str)
+def test_known_behaviour_is_found_again(chain):
+    measured = response(chain, truth(chain, 4))
+    found = estimates([chain], Task(Cost(measured)))[chain]
+    assert found.j < 1e-12 and 0 < found.hit_rate <= 1 and list(found.costs) == sorted(found.costs)
+
+
+def test_known_parameters_are_found_again():
+    chain = Chain(3, damped=True, ground_dampers=(2,), dead_time=True)
+    values = truth(chain, 2)
+    found = estimates([chain], Task(Cost(response(chain, values))))[chain]
+    assert found.parameters == pytest.approx(values, rel=1e-5)
+
+
+@pytest.mark.parametrize("case", Case)
+def test_noise_is_fitted_at_least_as_well_as_by_the_truth(case):
+    chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
+    values = truth(chain, 11)
+    task = Task(Cost(response(chain, values, noise=0.02), case))
+    there = task.plant(chain).response(np.array([values[n] for n in chain.parameters]))
+    assert estimates([chain], task)[chain].j <= task.cost.total(there)
+
+
+def worst_excess(found):
+    """Largest relative excess of a candidate's cost over that of one that it contains."""
+    pairs = [(found[c], found[smaller]) for c in found for smaller in shortened(c) if smaller in found]
+    return max(large.j / small.j - 1 for large, small in pairs)
+
+
+def test_a_candidate_that_contains_another_is_never_worse_on_simulated_data():
+    chain = Chain(3, damped=True, ground_dampers=(1,))
+    found = estimates(figure_1((1, 2)), Task(Cost(response(chain, truth(chain, 5), noise=0.02))))
+    assert len(found) == 24 and worst_excess(found) < 1e-6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("side", ["motor", "load"])
+def test_a_candidate_that_contains_another_is_never_worse_on_the_bench(side):
+    found = estimates(figure_1(), Task(Cost(bench("A", side))))
+    assert len(found) == 120 and worst_excess(found) < 1e-6
+
+
+def test_the_same_seed_gives_the_same_bytes_with_workers_or_without():
+    chain = Chain(2, damped=True, dead_time=True)
+    task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
+    alone = estimates(figure_1((1, 2)), task)
+    with ThreadPoolExecutor(3) as pool:
+        together = estimates(figure_1((1, 2)), task, executor=pool)
+    assert {c: estimate_to_json(e) for c, e in alone.items()} == {c: estimate_to_json(e) for c, e in together.items()}
+    assert estimate_from_json(chain, estimate_to_json(alone[chain])) == alone[chain]
+
+
+def test_interrupted_work_resumes_where_it_stopped(tmp_path):
+    chain = Chain(2, damped=True, dead_time=True)
+    task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
+
+    def stop(what, done, total):
+        if done >= 6:
+            raise KeyboardInterrupt
+
+    with Store.open(tmp_path / "cache.sqlite3") as store:
+        with pytest.raises(KeyboardInterrupt):
+            estimates(figure_1((1, 2)), task, store=store, progress=stop)
+        assert store.info().entries == 6
+        steps = []
+        found = estimates(figure_1((1, 2)), task, store=store, progress=lambda what, done, total: steps.append(done))
+        assert found == estimates(figure_1((1, 2)), task) and steps[-1] == 24
+        other = Task(Cost(response(chain, truth(chain, 7), noise=0.02)))
+        assert estimates([chain], other, store=store)[chain] != found[chain]
+
+
+def test_bounds_and_fixed_values_are_kept():
+    chain = Chain(2, damped=True)
+    values = truth(chain, 1)
+    task = Task(Cost(response(chain, values)), fixed={"m1": values["m1"]}, bounds={"k12": (0.0, 0.9 * values["k12"])})
+    found = estimates([chain], task)[chain].parameters
+    assert found["m1"] == values["m1"]
+    assert found["k12"] == pytest.approx(0.9 * values["k12"], rel=1e-6) and found["k12"] <= 0.9 * values["k12"]
+    with pytest.raises(InputError, match=r"bounds of k12 are 0 <= low < high, not 2\.\.1"):
+        Task(task.cost, bounds={"k12": (2.0, 1.0)})
+    with pytest.raises(InputError, match="m1 is fixed to a positive number, not -1"):
+        Task(task.cost, fixed={"m1": -1.0})
+
+
+def test_the_classes_have_the_sizes_of_the_paper():
+    assert [len(figure_1((n,))) for n in (1, 2, 3, 4)] == [8, 16, 32, 64]
+    parameters = {
+        9: Chain(3, damped=True, ground_dampers=(2,), dead_time=True),
+        12: Chain(4, damped=True, ground_dampers=(1,), dead_time=True),
+        6: Chain(2, damped=True, ground_dampers=(2,), dead_time=True),
+    }
+    assert {len(c.parameters) for c in parameters.values()} == {6, 9, 12}
+    assert all(len(c.parameters) == n and c in figure_1() for n, c in parameters.items())
+    assert len(whole_family((2,))) == 3 * 16 == len({v for c in whole_family((2,)) for v in variants(c)})
+
+
+def test_the_continued_fraction_gives_masses_and_springs_back():
+    chain = Chain(4)
+    values = truth(chain, 9)
+    p = np.array([values[n] for n in chain.parameters])
+    z, p_ = (np.unique(np.round(np.abs(r(chain.structure, p).imag), 6))[-3:] for r in (zeros, poles))
+    masses, springs = cauer(sum(p[:4]), list(zip(z, p_, strict=True)))
+    np.testing.assert_allclose([*masses, *springs], p, rtol=1e-5)
+
+
+def test_extrema_are_seen_where_they_are():
+    chain = Chain(2, damped=True)
+    measured = response(chain, {"m1": 1.0, "m2": 0.5, "k12": 2e4, "d12": 2.0})
+    ((z, p),) = extrema(measured)
+    step = OMEGA[1] / OMEGA[0]
+    assert 200.0 / step < z < 200.0 * step and 245.0 / step < p < 245.0 * step  # sqrt(k/m2), sqrt(k (1/m1 + 1/m2))
+    assert scale(measured).mass == pytest.approx(1.5, rel=0.1)
+
+
+def test_smaller_candidates_lead_to_larger_ones():
+    chain = Chain(3, damped=True, ground_dampers=(2, 3), lag=True)
+    dampers = sorted(c.ground_dampers for _, c in merged(chain))
+    assert dampers == [(1, 2), (2,)] and all(c.lag and c.n_masses == 2 for _, c in merged(chain))
+    assert {c.n_masses for c in with_smaller([chain])} == {1, 2, 3}
+    assert [c.ground_dampers for c in shortened(chain)] == [(3,), (2,), (2, 3)]
+    gap = Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2)
+    assert [c.indices for _, c in merged(gap)] == [(2, 1, 1, 2, 1, 2)]

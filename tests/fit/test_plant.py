@@ -1,0 +1,65 @@
+"""The fast response and its derivatives against a dense solve and differences."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from disting.errors import InputError
+from disting.fit.plant import Plant
+from disting.model.chain import Chain
+from tests.fit.drives import CHAINS, OMEGA, dense_response, truth
+
+
+@pytest.mark.parametrize("chain", CHAINS, ids=str)
+@given(seed=st.integers(0, 10**6))
+def test_the_response_is_that_of_the_matrix_equation(chain, seed):
+    values = truth(chain, seed)
+    p = np.array([values[n] for n in chain.parameters])
+    expected = [dense_response(chain, values, 1j * w) for w in OMEGA[::20]]
+    np.testing.assert_allclose(Plant(chain.structure, OMEGA[::20]).response(p), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("chain", CHAINS, ids=str)
+@given(seed=st.integers(0, 10**6))
+def test_derivatives_are_those_of_central_differences(chain, seed):
+    values = truth(chain, seed)
+    p = np.array([values[n] for n in chain.parameters])
+    plant, h = Plant(chain.structure, OMEGA[::10]), 1e-6
+    _, gradient = plant.logarithmic_gradient(p)
+    for i in range(len(p)):
+        step = h * p[i] * (np.arange(len(p)) == i)
+        difference = np.log(plant.response(p + step) / plant.response(p - step)) / (2 * h)
+        np.testing.assert_allclose(gradient[i] * p[i], difference, rtol=1e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize("chain", CHAINS, ids=str)
+def test_a_batch_is_each_vector_alone(chain):
+    p = np.array([list(truth(chain, seed).values()) for seed in range(3)])
+    plant = Plant(chain.structure, OMEGA)
+    response, gradient = plant.logarithmic_gradient(p)
+    assert response.shape == (3, OMEGA.size) and gradient.shape == (3, p.shape[1], OMEGA.size)
+    for k in range(3):
+        np.testing.assert_array_equal(response[k], plant.response(p[k]))
+        np.testing.assert_array_equal(gradient[k], plant.logarithmic_gradient(p[k])[1])
+
+
+def test_a_reversed_sensor_changes_the_sign_and_no_derivative():
+    chain, p = CHAINS[0], np.array([2.0, 3.0])
+    plus, minus = (Plant(chain.structure, OMEGA, sign).logarithmic_gradient(p) for sign in (1, -1))
+    np.testing.assert_array_equal(plus[0], -minus[0])
+    np.testing.assert_array_equal(plus[1], minus[1])
+    with pytest.raises(InputError, match="sign of a sensor is 1 or -1, not 2"):
+        Plant(chain.structure, OMEGA, 2)
+
+
+def test_a_free_mass_by_hand():
+    response, gradient = Plant(Chain(1).structure, OMEGA).logarithmic_gradient(np.array([4.0]))
+    np.testing.assert_allclose(response, 0.25)
+    np.testing.assert_allclose(gradient, -0.25 * np.ones((1, OMEGA.size)))
+
+
+def test_a_line_on_an_antiresonance_without_damping_is_no_division_by_zero():
+    """k = m2 w^2: the force meets a mass that does not move."""
+    response, gradient = Plant(Chain(2).structure, np.array([2.0])).logarithmic_gradient(np.array([1.0, 1.0, 4.0]))
+    assert np.all(np.abs(response) < 1e-12) and np.all(np.isfinite(gradient))

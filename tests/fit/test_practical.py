@@ -1,0 +1,94 @@
+"""Criteria of practical identifiability on published numbers."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from disting.errors import InputError
+from disting.fit.practical import (
+    Thresholds,
+    collinearity_by_subset,
+    collinearity_index,
+    condition_indices,
+    covariance,
+    importance,
+    practical,
+    worst_direction,
+)
+from tests.measurement.bench_data import measured_data
+
+# Longley 1967, J. Am. Stat. Assoc. 62, 819-841: GNP deflator, GNP, unemployment, armed forces, population, year.
+LONGLEY = np.array([
+    [83.0, 234289, 2356, 1590, 107608, 1947], [88.5, 259426, 2325, 1456, 108632, 1948],
+    [88.2, 258054, 3682, 1616, 109773, 1949], [89.5, 284599, 3351, 1650, 110929, 1950],
+    [96.2, 328975, 2099, 3099, 112075, 1951], [98.1, 346999, 1932, 3594, 113270, 1952],
+    [99.0, 365385, 1870, 3547, 115094, 1953], [100.0, 363112, 3578, 3350, 116219, 1954],
+    [101.2, 397469, 2904, 3048, 117388, 1955], [104.6, 419180, 2822, 2857, 118734, 1956],
+    [108.4, 442769, 2936, 2798, 120445, 1957], [110.8, 444546, 4681, 2637, 121950, 1958],
+    [112.6, 482704, 3813, 2552, 123366, 1959], [114.2, 502601, 3931, 2514, 125368, 1960],
+    [115.7, 518173, 4806, 2572, 127852, 1961], [116.9, 554894, 4007, 2827, 130081, 1962],
+])  # fmt: skip
+
+
+def test_longley_with_a_constant():
+    expected = [1, 9.1417205, 12.255735, 25.336607, 230.42395, 1048.0803, 43275.0436]
+    np.testing.assert_allclose(condition_indices(np.column_stack([np.ones(16), LONGLEY])), expected, rtol=1e-7)
+
+
+def test_longley_without_a_constant():
+    assert collinearity_index(LONGLEY) == pytest.approx(448.1162867, rel=1e-9)
+
+
+def test_belsley_consumption_function():
+    matrix = np.loadtxt(measured_data("belsley1991_consumption_X.csv"), delimiter=",", skiprows=1)
+    np.testing.assert_allclose(condition_indices(matrix), [1.000, 4.143, 7.799, 39.406, 375.614], atol=1e-3)
+
+
+def test_the_examples_of_fme():
+    assert collinearity_index(np.outer(np.arange(1.0, 6.0), [1, 2])) == np.inf
+    matrix = np.array([[-0.400, -0.374], [0.255, 0.797], [0.690, -0.472], [-0.546, 0.049]])
+    assert collinearity_index(matrix) == pytest.approx(1.000200609, abs=1e-9)
+
+
+@given(st.integers(0, 10**6), st.floats(1e-6, 1e6))
+def test_scaling_of_columns_changes_neither_collinearity_nor_condition(seed, factor):
+    matrix = np.random.default_rng(seed).normal(size=(9, 4))
+    scaled = matrix * [1.0, factor, 1.0, 1.0 / factor]
+    np.testing.assert_allclose(condition_indices(scaled), condition_indices(matrix), rtol=1e-6)
+    np.testing.assert_allclose(importance(scaled)[1], factor * importance(matrix)[1])
+
+
+def test_subsets_are_never_more_collinear_than_the_whole():
+    matrix = np.random.default_rng(1).normal(size=(9, 4))
+    subsets = dict(collinearity_by_subset(matrix))
+    assert len(subsets) == 11 and max(subsets.values()) == subsets[0, 1, 2, 3] == pytest.approx(collinearity_index(matrix))
+
+
+def test_the_covariance_is_that_of_linear_regression():
+    matrix = np.random.default_rng(2).normal(size=(30, 3)) * [1.0, 100.0, 0.01]
+    expected = 7.0 / 27 * np.linalg.inv(matrix.T @ matrix)
+    np.testing.assert_allclose(covariance(matrix, 7.0), expected, rtol=1e-9)
+    assert np.isinf(covariance(np.outer(np.arange(4.0), [1, 2]), 1.0)).all()
+
+
+def test_the_worst_direction_names_the_parameters_that_trade():
+    matrix = np.random.default_rng(3).normal(size=(20, 3))
+    matrix[:, 2] = -matrix[:, 0] + 1e-4 * matrix[:, 2]
+    found = worst_direction(matrix, ["a", "b", "c"])
+    assert set(found) == {"a", "c"} and found["a"] == pytest.approx(found["c"], rel=1e-2)
+
+
+def test_reasons_name_criterion_value_threshold_and_parameters():
+    matrix = np.random.default_rng(4).normal(size=(20, 3)) * [1.0, 1.0, 1e-5]
+    matrix[:, 1] = matrix[:, 0] + 1e-3 * matrix[:, 1]
+    reasons = Thresholds().reasons(practical(matrix, ["m1", "m2", "k12"], 1.0))
+    assert [r.split(" exceeds")[0].rsplit(" ", 1)[0] for r in reasons] == ["condition index", "PII ratio", "collinearity index"]
+    assert "exceeds 30 (m1, m2)" in reasons[0] and "exceeds 1000 (k12)" in reasons[1]
+    assert Thresholds(np.inf, np.inf, np.inf).reasons(practical(matrix, ["m1", "m2", "k12"], 1.0)) == ()
+
+
+@pytest.mark.parametrize("bad", [np.zeros((3, 0)), np.ones(3), np.array([[1.0, np.nan]])])
+def test_what_is_no_matrix_is_refused(bad):
+    with pytest.raises(InputError, match="rows and columns of finite numbers"):
+        collinearity_index(bad)

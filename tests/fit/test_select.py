@@ -1,0 +1,176 @@
+"""Selection: what is planted is selected, excluded candidates say why, indistinguishable ones are fitted once and named."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from disting.errors import InputError
+from disting.fit.candidates import figure_1, variants
+from disting.fit.cost import lines_by_deviation
+from disting.fit.export import model_from_dict, predicted, selection_to_dict
+from disting.fit.modes import oscillating, physical, poles, zeros
+from disting.fit.practical import Thresholds
+from disting.fit.repeatability import repeatability
+from disting.fit.select import select
+from disting.fit.sweep import CRITERIA, profile, sweep
+from disting.model.chain import Chain
+from disting.verdict import Relation
+from tests.fit.drives import OMEGA, bench, response
+
+PLANTED = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)
+VALUES = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b2": 20.0, "Td": 4e-4}
+
+
+def planted(seed):
+    return response(PLANTED, VALUES, noise=0.01, seed=seed)
+
+
+@pytest.fixture(scope="module")
+def selection():
+    return select(planted(1), figure_1((1, 2)), test=planted(2))
+
+
+def test_the_planted_structure_is_selected(selection):
+    found = selection.selected
+    assert found.chain == PLANTED and found.n_parameters == 6 and selection.validation == "test data"
+    for name, value in VALUES.items():
+        assert abs(found.estimate.parameters[name] - value) < 4 * found.standard_errors[name]
+    assert found.standard_errors["m1"] < 0.01
+
+
+def test_every_excluded_candidate_has_a_reason_and_kept_ones_share_the_weight(selection):
+    assert len(selection.candidates) == 24
+    assert all(c.admissible or (c.reasons and c.akaike_weight == 0) for c in selection.candidates)
+    assert sum(c.akaike_weight for c in selection.candidates) == pytest.approx(1.0)
+    costs = [c.j_test for c in selection.candidates]
+    assert costs == sorted(costs)
+
+
+def test_a_simpler_candidate_wins_unless_it_loses_by_more_than_noise(selection):
+    best = min((c for c in selection.candidates if c.admissible), key=lambda c: c.j_test)
+    assert selection.selected.n_parameters <= best.n_parameters
+    assert selection.selected.j_test <= best.j_test + selection.margin
+    assert selection.repeatability.typical == pytest.approx(0.01 / np.sqrt(2), rel=0.2)
+
+
+def test_the_json_reads_back_bit_equal(selection):
+    plain = json.loads(json.dumps(selection_to_dict(selection)))
+    assert model_from_dict(plain["selected"]) == (PLANTED, selection.selected.estimate.parameters)
+    contract = {"n_masses", "ground_dampers", "lag", "delay", "n_parameters", "parameters", "standard_errors", "j_train"}
+    contract |= {"j_test", "pii_ratio", "collinearity", "condition_index"}
+    assert contract <= set(plain["selected"]) and contract | {"admissible", "reasons"} <= set(plain["candidates"][0])
+    assert plain["alternatives"] == []
+    with pytest.raises(InputError, match="no fitted model"):
+        model_from_dict({"n_masses": 2})
+
+
+def test_the_same_seed_gives_the_same_bytes(selection):
+    again = select(planted(1), figure_1((1, 2)), test=planted(2))
+    assert json.dumps(selection_to_dict(again)) == json.dumps(selection_to_dict(selection))
+
+
+def test_physical_results_carry_their_errors(selection):
+    results = {r.name: r for r in physical(selection.selected, selection.task)}
+    assert results["total inertia"].value == pytest.approx(1.6, abs=4 * results["total inertia"].standard_error)
+    antiresonance, resonance = results["antiresonance 1"], results["resonance 1"]
+    exact = [oscillating(r(PLANTED.structure, np.array(list(VALUES.values()))))[0] for r in (zeros, poles)]
+    for found, root in zip((antiresonance, resonance), exact, strict=True):
+        assert abs(found.value - abs(root) / 2 / np.pi) < 4 * found.standard_error < 0.2
+    assert results["dead time"].standard_error < 1e-5 and results["stiffness k12"].standard_error > 0
+
+
+def test_sweeps_count_what_each_criterion_allows(selection):
+    for criterion in CRITERIA:
+        found = sweep(selection.candidates, criterion)
+        assert list(found.fulfilling) == sorted(found.fulfilling) and found.thresholds[[0, -1]] == pytest.approx([1, 1e4])
+        values = [getattr(c.practical, criterion) for c in selection.candidates]
+        assert found.fulfilling[-1] == sum(v <= 1e4 for v in values)
+    with pytest.raises(InputError, match="the criteria are"):
+        sweep(selection.candidates, "beauty")
+
+
+def test_a_profile_rises_on_both_sides(selection):
+    found = profile(selection.selected, selection.task, "k12")
+    middle = len(found.values) // 2
+    assert found.values[middle] == pytest.approx(selection.selected.estimate.parameters["k12"])
+    assert np.all(np.diff(found.costs[middle:]) > 0) and np.all(np.diff(found.costs[: middle + 1]) < 0)
+    # Three standard errors raise J by about 9 s^2, s^2 = J / (n_y - N_p), as in a linear problem.
+    expected = 9 * selection.selected.j_train / (2 * OMEGA.size - 6)
+    assert found.costs[-1] - found.costs[middle] == pytest.approx(expected, rel=0.1)
+    with pytest.raises(InputError, match="m9 is no fitted parameter"):
+        profile(selection.selected, selection.task, "m9")
+
+
+def test_without_test_data_lines_are_left_out_in_turn():
+    found = select(planted(1), figure_1((2,)))
+    assert "cross-validation" in found.validation and found.selected.chain.n_masses == 2
+    assert all(c.j_test > c.j_train for c in found.candidates if c.admissible)
+
+
+def test_nothing_is_selected_where_no_candidate_is_admissible():
+    found = select(planted(1), figure_1((1,)), test=planted(2), thresholds=Thresholds(0.5, 0.5, 0.5))
+    assert found.selected is None and found.alternatives == () and selection_to_dict(found)["selected"] is None
+
+
+def test_indistinguishable_candidates_are_fitted_once_and_named():
+    """Force and sensor at the two ends: reciprocity mirrors the chain, so a ground damper may sit at either end."""
+    ends = Chain(2, meas_plus=2, damped=True)
+    candidates = [c for c in variants(ends) if not c.lag]
+    measured = response(Chain(2, meas_plus=2, damped=True, ground_dampers=(1,)), VALUES | {"b1": 20.0}, noise=0.01)
+    wide = Thresholds(100.0, 1000.0, 50.0)
+    pruned, whole = (select(measured, candidates, thresholds=wide, prune=prune) for prune in (True, False))
+    first, second, third = (Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (2,), (1, 2)))
+    assert pruned.saved == 4 and pruned.same_as[second] == pruned.same_as[third] == first and whole.saved == 0
+    costs = {c.chain: c.j_train for c in whole.candidates}
+    assert costs[first] == pytest.approx(costs[second], rel=1e-6) == pytest.approx(costs[third], rel=1e-6)
+    assert pruned.selected.chain == first
+    assert [(a.chain, a.relation) for a in pruned.alternatives] == [(c, Relation.INDISTINGUISHABLE) for c in (second, third)]
+
+
+def test_a_reversed_sensor_is_found():
+    reversed_sensor = response(PLANTED, VALUES, noise=0.01, sign=-1)
+    assert select(reversed_sensor, [PLANTED], sign=0).task.sign == -1
+    assert select(planted(1), [PLANTED], sign=0).task.sign == 1
+
+
+def test_a_parameter_at_its_bound_excludes_and_a_fixed_one_does_not_count():
+    found = select(planted(1), [PLANTED], test=planted(2), bounds={"k12": (0.0, 2e4)}, fixed={"Td": 4e-4})
+    (candidate,) = found.candidates
+    assert candidate.at_bound == ("k12",) and "k12 is at its bound" in candidate.reasons and candidate.n_parameters == 5
+
+
+def test_input_that_does_not_fit_together_is_refused():
+    with pytest.raises(InputError, match="at least one candidate"):
+        select(planted(1), [])
+    with pytest.raises(InputError, match="the data shows acceleration, a candidate velocity"):
+        select(planted(1), [Chain(1, sensor="velocity")])
+    with pytest.raises(InputError, match="training shows acceleration, test velocity"):
+        select(planted(1), [Chain(1)], test=planted(2).to_quantity("velocity"))
+    with pytest.raises(InputError, match="choose other weights"):
+        select(planted(1), [Chain(1)], lines=lines_by_deviation)
+
+
+def test_repeatability_comes_from_common_lines_then_deviations_then_residuals():
+    one, two = planted(1), planted(2)
+    assert repeatability(one, two, np.ones(4)).source == "120 lines that training and test share"
+    other = response(PLANTED, VALUES, OMEGA * 1.01, noise=0.01)
+    assert repeatability(one, other, np.full(4, 0.5)).typical == 0.5
+    known = replace(other, deviation=0.02 * np.abs(other.G))
+    assert repeatability(one, known, np.ones(4)).typical == pytest.approx(0.02 / np.sqrt(2))
+
+
+def test_the_bench_is_a_two_mass_drive_and_predicts_the_load_that_it_never_saw():
+    train, test = bench("A"), bench("B")
+    found = select(train, figure_1((1, 2)), test=test)
+    chosen = found.selected
+    assert chosen.chain.n_masses == 2
+    results = {r.name: r for r in physical(chosen, found.task)}
+    assert 52.0 < results["antiresonance 1"].value < 56.0 and 75.0 < results["resonance 1"].value < 79.0
+    load = bench("A", "load")
+    chain = Chain(2, meas_plus=2, damped=True, ground_dampers=chosen.chain.ground_dampers, dead_time=chosen.chain.dead_time)
+    chain = chain if not chosen.chain.lag else Chain(*chain.indices, damped=True, ground_dampers=chain.ground_dampers, lag=True)
+    seen = predicted(chain, chosen.estimate.parameters, load.omega)
+    band = load.omega < 2 * np.pi * 150
+    assert np.median(np.abs(np.log(np.abs(seen / load.G))[band])) < 0.1

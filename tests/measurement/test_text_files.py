@@ -1,0 +1,276 @@
+"""Text files of every dialect that oscilloscopes, analysers and spreadsheets write; and damaged ones."""
+
+from contextlib import suppress
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from disting.errors import InputError
+from disting.measurement import (
+    FrequencyResponse,
+    Signal,
+    csv_text,
+    from_frame,
+    read,
+    read_time_series,
+    series_from_frame,
+    write_csv,
+)
+from disting.model.chain import Sensor
+
+FREQUENCY = np.arange(1.0, 13.0)
+G = 2.0 * np.exp(1j * np.deg2rad(7.5 * FREQUENCY)) * FREQUENCY
+ROWS = [(f, g.real, g.imag) for f, g in zip(FREQUENCY, G, strict=True)]
+
+
+def written(path, lines):
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def lines(rows, delimiter=",", decimal="."):
+    return [delimiter.join(repr(float(x)).replace(".", decimal) for x in row) for row in rows]
+
+
+@pytest.mark.parametrize(
+    ("delimiter", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), ("  ", "."), (" ", ",")]
+)
+@pytest.mark.parametrize("head", [[], ["# a bench, 2026"], ["f [Hz]{d}Re{d}Im"], ["% f_Hz{d}real{d}imag"], ["f{d}Re G{d}Im G"]])
+def test_dialects_of_three_columns(tmp_path, delimiter, decimal, head):
+    if delimiter.strip() == "" and delimiter != "\t":
+        head = [h.replace("f [Hz]", "f[Hz]").replace(" G", "G") for h in head]
+    text = [*(h.format(d=delimiter) for h in head), *lines(ROWS, delimiter, decimal)]
+    found = read(written(tmp_path / "a.csv", text), sensor="velocity")
+    assert np.array_equal(found.omega, FREQUENCY * 2 * np.pi)
+    assert np.array_equal(found.G, G) and found.sensor is Sensor.VELOCITY
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_encodings_and_line_ends(tmp_path, encoding, end):
+    text = end.join(
+        [
+            "Frequency (Hz);Magnitude;Phase (°)",
+            *lines([(f, abs(g), np.angle(g, deg=True)) for f, g in zip(FREQUENCY, G, strict=True)], ";"),
+        ]
+    )
+    (tmp_path / "a.txt").write_bytes(text.encode(encoding))
+    np.testing.assert_allclose(read(tmp_path / "a.txt").G, G, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("header", "columns"),
+    [
+        ("omega [rad/s],Re,Im", lambda f, g: (2 * np.pi * f, g.real, g.imag)),
+        ("frequency / kHz,Re,Im", lambda f, g: (f / 1000, g.real, g.imag)),
+        ("f,abs,phase [rad]", lambda f, g: (f, abs(g), np.angle(g))),
+        ("f (Hz),Gain (dB),Phase (deg)", lambda f, g: (f, 20 * np.log10(abs(g)), np.angle(g, deg=True) - 360)),
+        ("Freq_Hz,mag_dB,phase_rad", lambda f, g: (f, 20 * np.log10(abs(g)), np.angle(g))),
+        ("Im,Re,f", lambda f, g: (g.imag, g.real, f)),
+    ],
+)
+def test_headers_name_columns_and_units(tmp_path, header, columns):
+    text = [header, *lines([columns(f, g) for f, g in zip(FREQUENCY, G, strict=True)])]
+    found = read(written(tmp_path / "a.csv", text))
+    np.testing.assert_allclose(found.G, G, rtol=1e-13)
+    np.testing.assert_allclose(found.frequency, FREQUENCY, rtol=1e-14)
+
+
+def test_names_and_units_in_two_header_lines(tmp_path):
+    text = ["Frequency;Magnitude;Phase", "Hz;dB;deg", *lines([(f, 20.0, 90.0 - f) for f in FREQUENCY], ";", ",")]
+    np.testing.assert_allclose(read(written(tmp_path / "a.csv", text)).G, 10j * np.exp(-1j * np.deg2rad(FREQUENCY)), rtol=1e-13)
+
+
+def test_several_responses_with_deviation_and_coherence(tmp_path):
+    rows = [(f, g.real, g.imag, 0.1, 0.9, -g.real, g.imag, 0.2, 0.8) for f, g in zip(FREQUENCY, G, strict=True)]
+    text = ["# f_Hz,ReG_a,ImG_a,std_a,coh_a,ReG_b,ImG_b,std_b,coh_b   (velocity/force, m/s per N)", *lines(rows)]
+    path = written(tmp_path / "a.csv", text)
+    first, second = read(path), read(path, column="ReG_b")
+    assert first == read(path, column=2) and second == read(path, column="coh_b")
+    assert np.array_equal(second.G, -G.conj()) and np.array_equal(second.deviation, np.full(12, 0.2))
+    assert np.array_equal(first.coherence, np.full(12, 0.9)) and first.sensor is Sensor.VELOCITY
+    assert np.array_equal(read(path, column="ReG_b", sign=-1).G, G.conj())
+    assert second.origin == "a.csv, column 6 (ReG_b)"
+
+
+def test_columns_named_by_the_caller(tmp_path):
+    rows = [(i, f, 0.5, abs(g), np.angle(g)) for i, (f, g) in enumerate(zip(FREQUENCY, G, strict=True))]
+    path = written(tmp_path / "a.csv", lines(rows))
+    with pytest.raises(InputError, match="5 columns, no header; say what they are"):
+        read(path)
+    found = read(path, columns=["-", "Hz", "coherence", "magnitude", "rad"])
+    np.testing.assert_allclose(found.G, G, rtol=1e-14)
+    assert np.array_equal(found.coherence, np.full(12, 0.5))
+    for wrong in (["Hz"], ["Hz", "re", "im", "-", "degrees"], ["-"] * 5):
+        with pytest.raises(InputError, match="column"):
+            read(path, columns=wrong)
+
+
+def test_phases_in_a_doubtful_unit_are_said(tmp_path):
+    degrees = lines([(f, 1.0, 30 * f - 180) for f in FREQUENCY])
+    radians = lines([(f, 1.0, 0.5 * f - 3) for f in FREQUENCY])
+    said = read(written(tmp_path / "a.csv", ["f [Hz],abs,phase [rad]", *degrees])).notes
+    assert any('degrees read as radians? then give phase_unit="deg"' in note for note in said)
+    said = read(written(tmp_path / "b.csv", ["f [Hz],abs,phase [deg]", *radians])).notes
+    assert any('radians read as degrees? then give phase_unit="rad"' in note for note in said)
+    for text, unit in ((degrees, "deg"), (radians, "rad")):
+        path = written(tmp_path / "c.csv", ["f [Hz],abs,phase", *text])
+        assert any(f"phases taken as {unit}, by their size" in note for note in read(path).notes)
+        assert read(path) == read(path, phase_unit=unit) and not any("phases" in n for n in read(path, phase_unit=unit).notes)
+    with pytest.raises(InputError, match="phase_unit"):
+        read(path, phase_unit="grad")
+
+
+def test_the_sensor_is_taken_from_words_or_said_to_be_assumed(tmp_path):
+    def found(head, **options):
+        return read(written(tmp_path / "a.csv", [f"# {head}", "f [Hz],Re,Im", *lines(ROWS)]), **options)
+
+    assert found("mobility of the spindle").sensor is Sensor.VELOCITY
+    assert found("rad/s^2 per A").sensor is Sensor.ACCELERATION and not found("rad/s^2 per A").notes
+    assert found("displacement per force").sensor is Sensor.POSITION
+    doubtful = found("velocity from position")
+    assert doubtful.sensor is Sensor.ACCELERATION and "taken as acceleration" in doubtful.notes[0]
+    assert found("mobility", sensor="position").sensor is Sensor.POSITION
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (["f,Re,Im", *lines(ROWS[:5]), "6,1", *lines(ROWS[6:])], "a.csv, line 7: 2 columns where the others have 3"),
+        (["f,Re,Im", *lines(ROWS[:5]), "6,x1,2", *lines(ROWS[6:])], r"line 7, column 2 \(Re\): 'x1' is no number"),
+        (["f,Re,Im", "1,1,?", *lines(ROWS[1:])], "line 2, column 3: '\\?' is no number"),
+        (["f,Re,Im", *lines(ROWS[:5]), "6,nan,2", *lines(ROWS[6:])], r"line 7, column 2 \(Re\): the value is not finite"),
+        (["f,Re,Im", "6,1e999,2", *lines(ROWS[:5]), *lines(ROWS[6:])], "line 2, column 2 .*not finite"),
+        (["f,Re,Im", *lines(ROWS[:7])], "7 frequencies are too few"),
+        (["f,Re,Im", "0,1,1", *lines(ROWS)], "not positive"),
+        (["f,Re,Im", *lines(ROWS), "3,1,1"], "occurs twice"),
+        (["a,Re,Im", *lines(ROWS)], "no column is a frequency; give columns=; headers: a, Re, Im"),
+        (["f,Re,b", *lines(ROWS)], "columns for re: 1, for im: 0; give columns=; headers: f, Re, b"),
+        (["f,a,b", *lines(ROWS)], "no real and imaginary part, no magnitude and phase"),
+        (["f,abs,deg", "1,-1,3", *lines(ROWS[1:])], "a magnitude is negative"),
+        (["f,Re,Im,coh", *(f"{line},50" for line in lines(ROWS))], "coherence lies in 0..1"),
+        (["f,Re,Im,coh,coh", *(f"{line},1,1" for line in lines(ROWS))], "coherence occurs twice"),
+        (["nothing", "here"], "no columns of numbers"),
+        ([""], "no columns of numbers"),
+    ],
+)
+def test_mistakes_are_named_with_line_and_column(tmp_path, text, words):
+    with pytest.raises(InputError, match=words):
+        read(written(tmp_path / "a.csv", text))
+
+
+def test_unsorted_lines_are_sorted_and_said(tmp_path):
+    found = read(written(tmp_path / "a.csv", ["f [Hz],Re,Im", *lines(ROWS[::-1])]))
+    assert np.array_equal(found.G, G) and any("sorted" in note for note in found.notes)
+
+
+def test_time_series_from_text(tmp_path):
+    time = np.arange(400) * 1e-3
+    rows = np.column_stack([time, np.sin(time), np.cos(time)])
+    path = written(tmp_path / "a.csv", ["t [s];torque;angle", *lines(rows, ";", ",")])
+    found = read_time_series(path, "torque", 3, sign=-1)
+    assert np.array_equal(found.y, -np.cos(time)) and found.sampling_rate == pytest.approx(1000, rel=1e-12)
+    assert read_time_series(path, "torque", "angle", sampling_rate=50).sampling_rate == 50
+    with pytest.raises(InputError, match="headers: t \\[s\\], torque, angle"):
+        read_time_series(path, "torque", "speed")
+    with pytest.raises(InputError, match="not equidistant"):
+        read_time_series(path, "torque", "angle", time="torque")
+    with pytest.raises(InputError, match="sampling_rate"):
+        read_time_series(written(tmp_path / "b.csv", ["u;y", *lines(rows[:, 1:], ";")]), "u", "y")
+
+
+def test_options_that_a_format_does_not_know_are_refused(tmp_path):
+    path = written(tmp_path / "a.csv", ["f,Re,Im", *lines(ROWS)])
+    with pytest.raises(InputError, match="unknown option record; known for this format: column, columns"):
+        read(path, record=2)
+    with pytest.raises(InputError, match="there is no file"):
+        read(tmp_path / "absent.csv")
+    with pytest.raises(InputError, match="give both"):
+        read(path, input="f")
+    with pytest.raises(InputError, match="sign of a sensor"):
+        read(path, sign=0)
+
+
+def test_data_frames(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"f [Hz]": FREQUENCY, "Re": G.real, "Im": G.imag, "coherence": 0.5})
+    assert np.array_equal(from_frame(frame, sensor="position").G, G)
+    assert from_frame(frame.set_index("f [Hz]")) == from_frame(frame)
+    assert len(series_from_frame(frame, "Re", "Im", sampling_rate=10)) == 12
+    for wrong in (frame.assign(Re="a"), frame[:0], frame.assign(Re=np.nan), [1, 2], frame[["Re", "Im"]]):
+        with pytest.raises(InputError):
+            from_frame(wrong)
+
+
+FINITE = st.floats(-1e300, 1e300, allow_subnormal=True).filter(bool)
+
+
+@given(
+    st.lists(st.floats(1e-6, 1e6), min_size=8, max_size=20, unique=True),
+    st.data(),
+    st.sampled_from(list(Sensor)),
+)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+def test_what_is_written_reads_back_bit_by_bit(tmp_path, omega, data, sensor):
+    size = len(omega)
+    column = st.lists(FINITE, min_size=size, max_size=size)
+    G = np.array(data.draw(column)) + 1j * np.array(data.draw(column))
+    deviation = np.abs(data.draw(column)) if data.draw(st.booleans()) else None
+    coherence = data.draw(st.lists(st.floats(0, 1), min_size=size, max_size=size)) if data.draw(st.booleans()) else None
+    word = st.text(st.characters(codec="utf-8", exclude_categories=("C", "Z")), max_size=8)
+    signals = [Signal(data.draw(word), data.draw(word)) for _ in range(2)]
+    response = FrequencyResponse(
+        omega, G, deviation, coherence, sensor, *signals, origin="here: acceleration", notes=("velocity",)
+    )
+    write_csv(response, tmp_path / "a.csv")
+    assert read(tmp_path / "a.csv") == response
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8") == csv_text(response)
+
+
+def test_a_file_that_cannot_be_written_is_named(tmp_path):
+    response = FrequencyResponse(FREQUENCY, G)
+    with pytest.raises(InputError, match="cannot be written"):
+        write_csv(response, tmp_path / "absent" / "a.csv")
+
+
+GARBLED = st.text(st.sampled_from('0123456789.,;+-eE#%\t\n" fReImHzdB[]nainf/°'), max_size=300)
+
+
+@given(st.one_of(st.binary(max_size=300), GARBLED.map(lambda t: t.encode())))
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=300, deadline=None)
+def test_garbled_text_is_refused_and_nothing_else(tmp_path, content):
+    path = tmp_path / "a.csv"
+    path.write_bytes(content)
+    refused(lambda: read(path))
+    refused(lambda: read_time_series(path, 1, 2, sampling_rate=100.0))
+
+
+@given(st.integers(0, 700), st.integers(0, 700), st.binary(max_size=4))
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=200, deadline=None)
+def test_a_damaged_file_is_refused_or_still_a_response(tmp_path, start, length, filling):
+    whole = "\n".join(["f [Hz],Re,Im", *lines(ROWS)]).encode()
+    path = tmp_path / "a.csv"
+    path.write_bytes(whole[:start] + filling + whole[start + length :])
+    refused(lambda: read(path))
+
+
+def refused(call):
+    """Any other error than InputError fails the test."""
+    with suppress(InputError):
+        call()
+
+
+def test_parts_in_blocks_or_given_twice(tmp_path):
+    blocks = [(f, g.real, 2 * g.real, g.imag, 2 * g.imag) for f, g in zip(FREQUENCY, G, strict=True)]
+    path = written(tmp_path / "a.csv", ["f [Hz],Re a,Re b,Im a,Im b", *lines(blocks)])
+    assert np.array_equal(read(path).G, G) and np.array_equal(read(path, column="Im b").G, 2 * G)
+    both = [(f, abs(g), 20 * np.log10(abs(g)), np.angle(g, deg=True)) for f, g in zip(FREQUENCY, G, strict=True)]
+    path = written(tmp_path / "b.csv", ["f [Hz],magnitude,mag_dB,phase [deg]", *lines(both)])
+    np.testing.assert_allclose(read(path).G, G, rtol=1e-14)
+
+
+def test_a_comment_of_three_words_is_no_header(tmp_path):
+    path = written(tmp_path / "a.txt", ["# measured on Monday", *lines(ROWS, " ")])
+    assert np.array_equal(read(path).G, G) and "no header" in read(path).notes[0]
