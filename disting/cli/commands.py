@@ -17,6 +17,7 @@ from disting.comparison import compare as compare_chains
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.conditions.inclusion import Inclusion
+from disting.conditions.ways import BothWays
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, Store
 from disting.errors import InputError
@@ -90,25 +91,38 @@ def compare(options: argparse.Namespace) -> int:
     if options.prove:
         verdict = prove(verdict, chains[0], chains[1])
     print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False) if options.json else _explained(verdict, chains))
-    if not options.json and (options.range or options.domain == Domain.POSITIVE):
+    if not options.json and _tells_ways(verdict, options):
         print("\n".join(_both_ways(verdict, chains, dict(options.range))))
     return 0
 
 
+def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
+    """Whether there is something to tell of positive equivalents that the verdict's evidence does not say."""
+    if options.range or isinstance(verdict.evidence, BothWays):
+        return bool(options.range)
+    return options.domain == Domain.POSITIVE or verdict.inclusion in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+
+
 def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]) -> Iterator[str]:
-    """Which positive models of each side, within ranges if there are any, have an equivalent on the other side."""
+    """Which positive models of each side, within ranges if there are any, have an equivalent on the other side.
+
+    Without ranges and over complex parameters that is told only where the verdict tells it.
+    """
     from disting.positivity import positive_finding, ranges, within_ranges
 
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:
         raise InputError(f"no parameter of the two models is called {', '.join(sorted(unknown))}")
-    sides = list(zip((verdict.left, verdict.right), chains, strict=True))
-    for (name, given), (other_name, other) in (sides, sides[::-1]):
+    sides = list(zip((verdict.left, verdict.right), chains, (verdict.left_positive, verdict.right_positive), strict=True))
+    for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
         boxes = ({n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other))
-        found = within_ranges(given, other, ranges(*boxes)) if limits else positive_finding(given, other)
+        found = within_ranges(given, other, ranges(*boxes)) if limits else known
+        if found is None and verdict.domain is not Domain.POSITIVE:
+            continue
+        found = positive_finding(given, other) if found is None else found
         where = "within the ranges" if limits else "positive"
         why = found.evidence.sentence(name, other_name) if found.evidence else found.reason
-        seen = f" ({found.empirical.hits} of {found.empirical.tries} random points have one)" if found.empirical else ""
+        seen = f" ({found.empirical.sentence})" if found.empirical else ""
         yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
 
 
@@ -128,6 +142,13 @@ def verdicts(options: argparse.Namespace) -> int:
     if "-" not in (options.csv, options.json):
         print(_summary(decided))
     return 0
+
+
+def fit(options: argparse.Namespace) -> int:
+    """Fit measured data."""
+    from disting.cli import fit as command  # loads what no other command needs
+
+    return command.run(options)
 
 
 def report(options: argparse.Namespace) -> int:

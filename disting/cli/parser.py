@@ -8,7 +8,7 @@ from typing import Any
 
 from disting import __version__
 from disting.catalogs.files import shipped_folder
-from disting.cli import commands, equivalents
+from disting.cli import commands, equivalents, fit_arguments, simulate
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
 from disting.model.chain import Sensor
@@ -56,7 +56,9 @@ def parser() -> argparse.ArgumentParser:
     top = _Parser(prog="disting", description=DESCRIPTION, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("--version", action="version", version=f"disting {__version__}")
     groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
-    for add in (_add_models, _add_compare, _add_verdicts, _add_equivalents, _add_report, _add_catalog, _add_cache, _add_doctor):
+    for add in (_add_models, _add_compare, _add_verdicts, _add_equivalents, _add_fit, _add_report, _add_catalog):
+        add(groups)
+    for add in (_add_simulate, _add_cache, _add_doctor):
         add(groups)
     return top
 
@@ -98,6 +100,18 @@ def _add_verdicts(groups: Groups) -> None:
 def _add_equivalents(groups: Groups) -> None:
     p = _command(groups, "equivalents", equivalents.run, "all parameters of other models with the same transfer function")
     equivalents.add_arguments(p)
+    _shared(p, damped=True)
+
+
+def _add_fit(groups: Groups) -> None:
+    p = _command(groups, "fit", commands.fit, "the structures that explain a measured frequency response")
+    fit_arguments.add_arguments(p)
+    _shared(p, work=True)
+
+
+def _add_simulate(groups: Groups) -> None:
+    p = _command(groups, "simulate", simulate.run, "what a bench would measure on a chain with known parameters")
+    simulate.add_arguments(p)
     _shared(p, damped=True)
 
 

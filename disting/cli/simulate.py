@@ -1,0 +1,92 @@
+"""disting simulate: what a bench would measure on a chain with known parameters."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from disting.errors import InputError
+from disting.model.chain import Chain, Sensor
+from disting.model.family import Family
+
+KINDS = ("schroeder", "random-phase", "chirp")
+QUANTITIES = [s.value for s in Sensor]
+
+
+def add_arguments(p: argparse.ArgumentParser) -> None:
+    """Everything but --damped."""
+    text = "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the ground; +lag; +delay"
+    p.add_argument("model", nargs="?", metavar="N:I", help=f"{text} (default: a small two-mass drive)")
+    text = "values of all parameters of the model, such as m1=0.01,k12=500"
+    p.add_argument("--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text)
+    p.add_argument("--sensor", choices=QUANTITIES, default="position", help="what the sensor shows (default: position)")
+    p.add_argument("--to", choices=QUANTITIES, default="acceleration", help="what the response shows (default: acceleration)")
+    p.add_argument("--excitation", choices=KINDS, default="schroeder", help="test signal (default: a Schroeder multisine)")
+    for name, value, text in (
+        ("low", 10.0, "lowest excited frequency [Hz]"),
+        ("high", 250.0, "highest excited frequency [Hz]"),
+        ("rms", 1.0, "root mean square of the input"),
+        ("rate", 2500.0, "sampling rate [Hz]"),
+        ("input-noise", 0.0, "standard deviation of noise on the recorded input"),
+        ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
+        ("quantum", 0.0, "step of the sensor"),
+    ):
+        p.add_argument(f"--{name}", type=float, default=value, metavar="X", help=f"{text} (default: {value:g})")
+    for name, whole, text in (
+        ("samples", 2500, "samples of a period"),
+        ("periods", 20, "periods"),
+        ("seed", 0, "seed of noise and phases"),
+    ):
+        p.add_argument(f"--{name}", type=int, default=whole, metavar="K", help=f"{text} (default: {whole})")
+    text = "Coulomb friction of a mass, such as 1=0.3; may be repeated (default: none)"
+    p.add_argument("--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text)
+    p.add_argument("--csv", metavar="FILE", default="-", help="where the response goes (default: standard output)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Simulate, estimate the response, write it."""
+    from disting.measurement import csv_text
+    from disting.simulation import DEMO_PARAMETERS, Bench, Excitation, Friction, simulate
+
+    chain, values = _model(options)
+    excitation = Excitation(options.excitation, options.low, options.high, options.rms)
+    bench = Bench(
+        options.rate,
+        options.samples,
+        options.periods,
+        options.input_noise,
+        options.output_noise,
+        options.quantum,
+        {mass: Friction(coulomb=force) for mass, force in options.friction},
+        options.seed,
+    )
+    series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
+    response = series.response(options.to, period=options.samples)
+    text = csv_text(response)
+    if options.csv == "-":
+        sys.stdout.write(text)
+        return 0
+    Path(options.csv).write_text(text, encoding="utf-8")
+    print(f"{len(response)} lines from {response.frequency[0]:g} to {response.frequency[-1]:g} Hz in {options.csv}")
+    return 0
+
+
+def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
+    """The chain and its parameters; of the demonstration drive if none is named."""
+    from disting.equivalence.given import assignments, chain_of, point_of
+    from disting.simulation import DEMO_MODEL
+
+    if options.model is None:
+        if options.values or options.damped:
+            raise InputError("parameters belong to a model: name it, such as 2:1")
+        return DEMO_MODEL, {}
+    chain = chain_of(options.model, Family(1, options.damped, Sensor(options.sensor)))
+    exact = point_of(chain, assignments(options.values))
+    return chain, {name: int(value.p) / int(value.q) for name, value in exact.items()}
+
+
+def _friction(text: str) -> tuple[int, float]:
+    mass, _, force = text.partition("=")
+    try:
+        return int(mass), float(force)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"friction is written like 1=0.3, not {text!r}") from None

@@ -1,0 +1,129 @@
+"""disting fit and disting simulate as real processes on real files."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from disting.cli import main
+from disting.fit import predicted, read_model
+from disting.measurement import read
+from tests.measurement.bench_data import measured_data
+
+DRIVE = ("2:1+b2+delay", "--damped", "--set", "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4", "--output-noise", "1e-6")
+
+
+def disting(*arguments, cache="off"):
+    """The command with its result; no traceback ever reaches a user."""
+    command = [sys.executable, "-m", "disting", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | {"DISTING_CACHE": str(cache)})
+    assert "Traceback" not in done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Training and test responses of a simulated drive."""
+    folder = tmp_path_factory.mktemp("drive")
+    paths = [folder / f"{seed}.csv" for seed in (0, 1)]
+    for seed, path in enumerate(paths):
+        done = disting("simulate", *DRIVE, "--seed", seed, "--csv", path)
+        assert done.stdout == f"241 lines from 10 to 250 Hz in {path}\n"
+    return paths
+
+
+def test_what_is_simulated_is_selected(files, tmp_path):
+    done = disting("fit", files[0], "--test", files[1], "--masses", "2", "--json", "-", "--jobs", 2)
+    assert done.returncode == 0 and done.stderr == ""
+    found = json.loads(done.stdout)
+    chosen = found["selected"]
+    assert (chosen["n_masses"], chosen["ground_dampers"], chosen["lag"], chosen["delay"]) == (2, [2], False, True)
+    assert chosen["n_parameters"] == 6 and chosen["parameters"]["k12"] == pytest.approx(800, rel=2e-3)
+    assert len(found["candidates"]) == 16 and all(c["admissible"] or c["reasons"] for c in found["candidates"])
+    path = tmp_path / "fit.json"
+    path.write_text(done.stdout)
+    chain, values = read_model(path)
+    train = read(files[0])
+    assert np.median(np.abs(predicted(chain, values, train.omega) / train.G - 1)) < 1e-3
+
+
+def test_the_printed_result_says_what_matters(files):
+    said = disting("fit", files[0], "--test", files[1], "--masses", "2").stdout
+    assert said.startswith("16 candidates fitted to 241 frequency lines, validated on test data\n")
+    assert "selected: 2 masses, gap 0, force 1-0, sensor 1-0, damped, ground dampers 2, dead time" in said
+    assert "  b2   = " in said and "antiresonance 1" in said and " Hz\n" in said
+    assert "no other candidate behaves the same" in said
+
+
+def test_an_interrupted_fit_finds_its_results_in_the_cache(files, tmp_path):
+    cache = tmp_path / "cache.sqlite3"
+    arguments = ("fit", files[0], "--test", files[1], "--masses", "1", "--json", "-")
+    first, again, fresh = (disting(*arguments, cache=c) for c in (cache, cache, "off"))
+    assert cache.stat().st_size > 10_000 and first.stdout == again.stdout == fresh.stdout
+
+
+def test_a_folder_gets_everything(files, tmp_path):
+    done = disting("fit", files[0], "--masses", "1", "--out", tmp_path / "out", "--thresholds", "1e9,1e9,1e9")
+    assert f"open {tmp_path / 'out' / 'fit.html'}" in done.stdout
+    assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in (tmp_path / "out").iterdir()}
+
+
+def test_options_reach_the_fit(files):
+    done = disting("fit", files[0], "--masses", "2", "--fix", "Td=2e-4", "--band", "20..200", "--json", "-", "--seed", "other")
+    with_delay = [c for c in json.loads(done.stdout)["candidates"] if c["delay"]]
+    assert {c["parameters"]["Td"] for c in with_delay} == {2e-4}
+    assert all("Td" not in c["standard_errors"] for c in with_delay)
+    last = disting("fit", files[0], "--masses", "2", "--sensor", "last", "--json", "-")
+    assert {tuple(c["sensor"]) for c in json.loads(last.stdout)["candidates"]} == {(0, 2)}
+    assert len(json.loads(last.stdout)["not_fitted"]) == 8
+
+
+def test_the_demonstration_drive_is_recognised():
+    done = disting("fit", "--demo", "--masses", "2")
+    assert "ground dampers 1, dead time" in done.stdout.split("selected:")[1].splitlines()[0]
+    assert "A/(rad/s^2)" in done.stdout
+
+
+def test_time_series_are_fitted_like_their_response():
+    records = [measured_data(f"fditools_motorbench_{x}.mat") for x in "AB"]
+    options = [f"--read={o}" for o in ("input=iq_adx", "output=theta_mx", "sampling_rate=2500", "to=acceleration")]
+    raw = disting("fit", records[0], "--test", records[1], *options, "--masses", "2", "--json", "-")
+    responses = [measured_data(f"fditools_motorbench_frf_{x}.csv") for x in "AB"]
+    derived = disting("fit", responses[0], "--test", responses[1], "--masses", "2", "--json", "-")
+    one, other = (json.loads(d.stdout)["selected"] for d in (raw, derived))
+    assert one["parameters"] == pytest.approx(other["parameters"], rel=1e-4)
+    assert "period of 2500 samples (1 s) detected" in raw.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("fit",), "give a file with measured data, or --demo"),
+        (("fit", "missing.csv"), "there is no file missing.csv"),
+        (("fit", "--demo", "x.csv"), "not both"),
+        (("fit", "--demo", "--masses", "1-"), "written like 3, 1-4 or 1,3"),
+        (("fit", "--demo", "--thresholds", "1,2"), "thresholds are written like 30,1000,20"),
+        (("fit", "--demo", "--band", "9..8"), "a range is written like 11..250"),
+        (("fit", "--demo", "--bound", "k12"), "a range is written like"),
+        (("fit", "--demo", "--fix", "m1"), "a value is written like m1=0.02"),
+        (("fit", "--demo", "--read", "x"), "an option is written like sampling_rate=2500"),
+        (("fit", "--demo", "--band", "10..12"), "line"),
+        (("fit", "--demo", "--masses", "1", "--actuator", "3"), "no chain of 1 masses has these ports"),
+        (("fit", "--demo", "--masses", "1", "--actuator", "x"), "a port is written like 2, last or 1:3"),
+        (("simulate", "2:1", "--set", "m1=1"), "the value of m2, k12 is missing"),
+        (("simulate", "--set", "m1=1"), "parameters belong to a model"),
+        (("simulate", "--friction", "x"), "friction is written like 1=0.3"),
+        (("simulate", "--high", "2000"), "passes half the sampling rate"),
+    ],
+)
+def test_bad_input_gets_one_sentence(arguments, message, capsys):
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capsys.readouterr()
+    lines = [line for line in err.splitlines() if " detected in the input" not in line]
+    assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
