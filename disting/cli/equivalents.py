@@ -37,8 +37,12 @@ SOURCES = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Everything but --damped, which other commands have too."""
-    parser.add_argument("model", metavar="N:I", help="the given model: masses:number, as 'disting models' lists it")
-    parser.add_argument("--to", required=True, metavar="M:J|M", help="another structure, or all structures of M masses")
+    named = (
+        "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to the ground; +lag; +delay"
+    )
+    parser.add_argument("model", metavar="N:I", help=named)
+    others = "another structure, or all of M masses (M+b1: all with this damper to the ground, M+b*: with any set of them)"
+    parser.add_argument("--to", required=True, metavar="M:J|M", help=others)
     text = "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly"
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text)
     form = parser.add_mutually_exclusive_group()

@@ -1,9 +1,14 @@
-"""What a user gives: models as chains or text such as 3:1, values as numbers or text, taken exactly as fractions."""
+"""What a user gives: models as chains or text such as 3:1+b2, values as numbers or text, taken exactly as fractions.
+
+Behind masses and number +b2 stands for a damper from mass 2 to the ground, +lag for a first-order lag, +delay for a dead time.
+"""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from itertools import chain as chained
+from itertools import combinations
 from numbers import Number
 
 from flint import fmpq
@@ -12,6 +17,7 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
 
+EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
 MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
 Value = Number | str
 
@@ -20,26 +26,47 @@ def chain_of(model: Chain | str, family: Family) -> Chain:
     """A chain as it is; text such as 3:11 is model 11 of the 3-mass family, with damping and sensor of the given family.
 
     Raises InputError.
+
+    >>> chain_of("3:1+b1+b3+lag", Family(3)).parameters
+    ('m1', 'm2', 'm3', 'k12', 'k23', 'b1', 'b3', 'T1')
     """
     if isinstance(model, Chain):
         return model
-    match = re.fullmatch(r"(\d{1,2}):(\d{1,6})", str(model).strip())
+    match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
     if not match:
-        raise InputError(f"a model is a Chain or written masses:number, for instance 3:4, not {model!r}")
-    return replace(family, n_masses=int(match[1]))[int(match[2])]
+        raise InputError(f"a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not {model!r}")
+    return _extended(replace(family, n_masses=int(match[1]))[int(match[2])], match[3])
 
 
 def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
     """The chains to look at: one, or all of a family; text such as 3:11 or 3 means damping and sensor of the given chain.
+
+    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with any set of them.
 
     Raises InputError.
     """
     if isinstance(to, Family):
         return to.models
     family = Family(given.n_masses, given.damped, given.sensor)
-    if isinstance(to, str) and re.fullmatch(r"\s*\d{1,2}\s*", to):
-        return replace(family, n_masses=int(to)).models
-    return (chain_of(to, family),)
+    match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", to.strip()) if isinstance(to, str) else None
+    if match is None:
+        return (chain_of(to, family),)
+    plain = [_extended(chain, match[3]) for chain in replace(family, n_masses=int(match[1])).models]
+    return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
+
+
+def _extended(chain: Chain, extras: str) -> Chain:
+    """The chain with +b1, +lag, +delay."""
+    words = extras.split("+")[1:]
+    dampers = tuple(int(word[1:]) for word in words if word[0] == "b")
+    return replace(chain, ground_dampers=dampers, lag="lag" in words, dead_time="delay" in words)
+
+
+def _rubbed(chain: Chain) -> Iterator[Chain]:
+    """The chain with every set of dampers to the ground."""
+    masses = range(1, chain.n_masses + 1)
+    for chosen in chained.from_iterable(combinations(masses, size) for size in range(chain.n_masses + 1)):
+        yield replace(chain, ground_dampers=chosen)
 
 
 def point_of(chain: Chain, values: Mapping[str, Value]) -> dict[str, fmpq]:

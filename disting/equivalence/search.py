@@ -6,6 +6,7 @@ proportional damping the synthesis without dampers.
 """
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -34,7 +35,8 @@ def equivalents(
     """All models of the structure `to`, or of all structures of a family, with the transfer function of the given model.
 
     `model` and `to` are chains (or a family), or text: 3:11 is model 11 of the 3-mass family, 3 the family; `damped` says how
-    `model` is meant if it is text, and `to` follows it. `values` by parameter name, numbers or text such as 3/4, positive, any
+    `model` is meant if it is text, and `to` follows it; 3:11+b1+lag has a damper from mass 1 to the ground and a lag, 3+b* are
+    all structures with any such dampers. `values` by parameter name, numbers or text such as 3/4, positive, any
     consistent units; they are taken exactly, floats by their decimal text. Raises InputError for wrong names and values.
 
     >>> given = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": "0.3"}
@@ -76,9 +78,13 @@ def _fibre(given: Chain, point: Point, other: Chain) -> Fibre:
     """The synthesis, where it says something; a dead time is no rational function and belongs to both models or to none."""
     if given.dead_time != other.dead_time:
         return Fibre(Status.EMPTY, reason="only one of them has a dead time")
-    found = fibre(other, target(given.structure, {name: point[name] for name in given.parameters if name != "Td"}))
+    plain = replace(other, dead_time=False)
+    found = fibre(plain, target(given.structure, {name: point[name] for name in given.parameters if name != "Td"}))
     why = not_covered(given, other)
-    return Fibre(Status.NOT_COVERED, reason=why) if found.status is Status.DEGENERATE and why else found
+    if found.status is Status.DEGENERATE and why:
+        return Fibre(Status.NOT_COVERED, reason=why)
+    late = {"Td": acb(point["Td"])} if other.dead_time else {}
+    return replace(found, solutions=tuple(replace(s, values={**s.values, **late}) for s in found.solutions))
 
 
 def _others(found: Fibre, exact: list[Image]) -> list[Solution]:

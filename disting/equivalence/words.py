@@ -21,6 +21,8 @@ def sentence(found: Fibre, count: int, cause: str) -> str:
     listed = "the list may be incomplete" if count else "nothing can be said"
     if found.status is Status.NOT_COVERED:
         return f"{listed}: {found.reason}"
+    if found.tests.boundary:
+        return f"{listed}, since an element cannot be told from zero: a structure without it may serve"
     return f"special values: {listed}, since {cause}; change a value slightly"
 
 
@@ -28,17 +30,16 @@ def not_covered(given: Chain, other: Chain) -> str:
     """Why the synthesis does not apply to this pair, or nothing."""
     if other.n_masses > given.n_masses:
         return "a structure with more masses would need poles that cancel, which is not covered"
-    if other.damped and not given.damped and not given.ground_dampers:
+    if (other.damped or other.ground_dampers) and not given.damped and not given.ground_dampers:
         return "a structure with dampers for a model without any is not covered"
-    if given.ground_dampers or given.lag or other.ground_dampers or other.lag or other.dead_time:
-        return "lag, dead time and ground dampers are not covered"
+    if other.lag and not given.lag:
+        return "a structure with a lag would need a pole that cancels, which is not covered"
     return ""
 
 
 def special(given: Chain, point: Mapping[str, fmpq]) -> str:
     """What is special about the values of a model whose poles or zeros coincide."""
-    order = (2 if given.damped else 1) * given.n_masses
-    if target(given.structure, point).folded(order // given.n_masses).denominator.degree() < order:
+    if target(given.structure, point).denominator.degree() < 2 * given.n_masses + given.lag:
         return "a vibration mode is not seen by force and sensor (poles and zeros cancel)"
     equal = _equal_ratios(given, point)
     return f"springs have the same ratio k/d ({equal})" if equal else "poles, zeros or elements coincide"

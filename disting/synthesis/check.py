@@ -34,6 +34,8 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
     for ours, given in ((raw.num, target.numerator), (raw.den, target.denominator)):
         for i, coefficient in enumerate(_padded(given, ours.degree())):
             gap = ours[i] / lead - acb(coefficient)
+            if not gap.is_finite():
+                raise Imprecise("a coefficient is not finite")
             if not gap.contains(0):
                 return NONZERO
             width = max(width, float(gap.abs_upper() / acb(coefficient or _largest(given)).abs_lower()))

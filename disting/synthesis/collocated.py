@@ -34,8 +34,8 @@ def between(segment: Segment, data: Data, left: list[Ball], right: list[Ball]) -
     whole = data.denominator // data.numerator  # degree 2 (undamped 1), leading coefficient m_a
     lefts, rights = ([Residue(z, data.denominator(z) / slope(z)) for z in side] for side in (left, right))
     low: list[Ball] = [sum((r.value / r.at ** (i + 1) for r in rights), 0 * whole[0]) for i in range(q)]
-    w_right = Stiffness(grounded_at_zero(_over(rights, low), q), product(right), segment.nodes - segment.a, False, q)
-    p_left = _over(lefts, [whole[i] - low[i] for i in range(q)])
+    w_right = Stiffness(grounded_at_zero(over(rights, low), q), product(right), segment.nodes - segment.a, False, q)
+    p_left = over(lefts, [whole[i] - low[i] for i in range(q)])
     if not segment.wall:
         p_left = grounded_at_zero(p_left, q)
     w_left = Stiffness(p_left, product(left), segment.a - 1, segment.wall, q)
@@ -47,7 +47,7 @@ def between(segment: Segment, data: Data, left: list[Ball], right: list[Ball]) -
     yield from combined(peel(w_left), lambda: peel(w_right), join)
 
 
-def _over(residues: list[Residue], polynomial: list[Ball]) -> Poly:
+def over(residues: list[Residue], polynomial: list[Ball]) -> Poly:
     """Numerator of (polynomial + sum of residue/(s - z)) over the product of all (s - z)."""
     total = poly(polynomial) * product([r.at for r in residues])
     for i, residue in enumerate(residues):

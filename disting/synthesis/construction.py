@@ -22,19 +22,24 @@ from disting.synthesis.segment import Segment
 from disting.synthesis.target import Exact, Target, target
 
 
+def is_plain(chain: Chain) -> bool:
+    """Whether it consists of masses and springs alone."""
+    return not (chain.damped or chain.ground_dampers or chain.lag or chain.dead_time)
+
+
 def is_untested(chain: Chain) -> bool:
     """Whether the synthesis of this chain has no tests at all: undamped, one part or force and sensor at one mass of each part.
 
     Then every solution that is listed exists.
     """
     grounded, free = segments(chain)
-    return not chain.damped and (grounded is None or grounded.distance == free.distance == 0)
+    return is_plain(chain) and (grounded is None or grounded.distance == free.distance == 0)
 
 
 def is_constructed(given: Chain, point: Mapping[str, fmpq], other: Chain) -> bool:
     """Whether a solution of `other` for the given model is proven to exist; False says nothing."""
     grounded, free = segments(canonical(other).chain)
-    if given.damped or other.damped or not all(is_covered(s) for s in (grounded, free) if s):
+    if not is_plain(given) or not is_plain(other) or not all(is_covered(s) for s in (grounded, free) if s):
         return False
     whole = target(given.structure, point).folded(1)
     if grounded is None:

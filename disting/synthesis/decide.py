@@ -12,6 +12,7 @@ THEOREM, RENAMING or CONSTRUCTION; otherwise its members satisfy some equations 
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import ceil, log2
 
 from flint import fmpq
 
@@ -113,6 +114,18 @@ def rational_point(chain: Chain, label: str) -> dict[str, fmpq]:
     names, low = chain.parameters, 1 << POINT_BITS
     numbers = [low + r for r in residues(label, 2 * len(names), low)]
     return {name: fmpq(a, b) for name, a, b in zip(names, numbers[::2], numbers[1::2], strict=True)}
+
+
+def safety_of_point(n_masses: int, unknowns: int) -> int:
+    """Largest b with DRAWS D^(n+1) / 2^POINT_BITS <= 2^-b, n unknowns: one rational point tells of generic ones.
+
+    D = max(3 N_B + 2, n + 1) bounds the degrees of equal coefficients and of the equation that no element is zero.
+
+    Special points lie on a hypersurface of degree D^(n+1) at most (see `disting.conditions.exact`), which a random point with
+    POINT_BITS bits a coordinate meets with a probability of at most that degree / 2^POINT_BITS (Schwartz, Zippel); up to DRAWS
+    points are drawn.
+    """
+    return POINT_BITS - ceil((unknowns + 1) * log2(max(3 * n_masses + 2, unknowns + 1)) + log2(DRAWS))
 
 
 def _refuse(given: Chain, other: Chain) -> None:

@@ -5,6 +5,11 @@ ports. 1. every subset of the poles for R (`poles`);  2. every chain with recept
 every pair is multiplied out and compared. Where a ball leaves out a zero that every solution has, a branch is refuted; if all
 are, no solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls double the precision;
 what stays undecided at the last one is a special point.
+
+Dampers to the ground: `friction`, `driving`, `end`, `inner`. A damper b_1 beside the damped spring from mass 1 to the ground is
+counted to it: only d_01 + b_1 is determined, a family of which half and half is listed. The pole of a lag 1/(1 + T1 s) is one
+of the poles of H, each is tried; without any damper it is the one that makes H even. A dead time is no rational function, and
+H exp(-Td s) determines both factors: it is left out on both sides.
 """
 
 from collections import Counter
@@ -14,25 +19,27 @@ from dataclasses import replace
 from flint import ctx
 
 from disting.model.chain import Chain
-from disting.model.structure import Damper, Mass, Spring
+from disting.model.structure import Damper, GroundDamper, Mass, Spring
 from disting.model.symmetry import canonical
 from disting.synthesis.ball import Ball, Imprecise
 from disting.synthesis.check import Checked, checked
+from disting.synthesis.family import shared
+from disting.synthesis.lag import lag_poles, lagged, without_lag
 from disting.synthesis.leaves import BOUNDARY, Dead, Leaf, Part, Reason, combined
 from disting.synthesis.methods import synthesise
 from disting.synthesis.poles import Split, pole_splits
 from disting.synthesis.result import Exclusions, Fibre, Solution, Status
-from disting.synthesis.segment import Segment
+from disting.synthesis.segment import Data, Segment
 from disting.synthesis.solutions import listed
-from disting.synthesis.target import Target, degrees_differ, is_regular
+from disting.synthesis.target import Target, degrees_differ, is_regular, poles_at_zero, rests_differently
 
 PRECISIONS = (192, 384, 768, 1536, 3072, 5000)
 
 
 def fibre(chain: Chain, target: Target) -> Fibre:
     """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`."""
-    if chain.lag or chain.dead_time or chain.ground_dampers:
-        return Fibre(Status.NOT_COVERED, reason="lag, dead time and ground dampers are not covered")
+    if chain.dead_time:
+        return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")
     form = canonical(chain)
     found = _canonical_fibre(form.chain, target)
     back = {here: given for given, here in form.renaming.items()}
@@ -41,53 +48,83 @@ def fibre(chain: Chain, target: Target) -> Fibre:
 
 def segments(chain: Chain) -> tuple[Segment | None, Segment]:
     """Grounded part (None without a gap) and free part."""
-    q, g = 2 if chain.damped else 1, chain.gap
+    q, g = 2 if chain.damped or chain.ground_dampers else 1, chain.gap
+    elastic = q == 2 and not chain.damped
     low, high = sorted((chain.act_plus, chain.meas_plus))
-    free = Segment(chain.n_masses - g, low - g, high - g, False, q)
     below, above = sorted((chain.act_minus, chain.meas_minus))
-    return (Segment(g, below, above, True, q) if g else None), free
+    outer, inner = (tuple(i for i in chain.ground_dampers if (i <= g) == near) for near in (False, True))
+    free = Segment(chain.n_masses - g, low - g, high - g, False, q, tuple(i - g for i in outer), elastic)
+    return (Segment(g, below, above, True, q, inner, elastic) if g else None), free
 
 
 def _canonical_fibre(chain: Chain, target: Target) -> Fibre:
+    if chain.damped and chain.gap and 1 in chain.ground_dampers:
+        single = replace(chain, ground_dampers=chain.ground_dampers[1:])
+        return shared(chain, _canonical_fibre(single, target))
+    if chain.lag and not chain.damped and not chain.ground_dampers:
+        found = without_lag(target)
+        if found is None:
+            return _without_lag_pole(chain, target)
+        return lagged(chain, _canonical_fibre(replace(chain, lag=False), found[0]), found[1])
+    ruled_out = _ruled_out(chain, target)
+    return _searched(chain, target) if ruled_out is None else ruled_out
+
+
+def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
+    """Of full degree, no pole cancels."""
+    if target.denominator.degree() > 2 * chain.n_masses:
+        return Fibre(Status.EMPTY, reason="no pole is that of a lag before an undamped chain")
+    return Fibre(Status.DEGENERATE, reason="missing poles")
+
+
+def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
+    """What the degrees and the multiplicities of the target alone say."""
     grounded, free = segments(chain)
-    q, n = free.q, chain.n_masses
+    q, n, lag = free.q, chain.n_masses, int(chain.lag)
     whole = free if grounded is None else None
     if q == 1 and not target.is_even:
         return Fibre(Status.EMPTY, reason="a damped receptance has no undamped chain")
     folded = target.folded(q)
-    if degrees_differ(folded, q, n, whole):
+    if degrees_differ(folded, q, n, whole, lag):
         return Fibre(Status.EMPTY, reason="the degrees of numerator and denominator differ")
-    if not is_regular(folded, q, n, whole) or (q == 2 and target.is_even):
+    if folded.denominator.degree() == q * n + lag and rests_differently(folded, free):
+        return Fibre(Status.EMPTY, reason="the multiplicities of the pole at zero differ")
+    if not is_regular(folded, q, n, whole, lag) or (q == 2 and target.is_even):
         return Fibre(Status.DEGENERATE, reason="multiple or missing poles or zeros")
+    return None
+
+
+def _searched(chain: Chain, target: Target) -> Fibre:
+    """Every branch, with as many bits as it takes."""
     for bits in PRECISIONS:
         with ctx.workprec(bits):
             try:
-                return _judged(chain, target, list(_solutions(chain, target, folded, grounded, free)), bits)
+                return _judged(chain, target, list(_solutions(chain, target)), bits)
             except Imprecise as failure:
                 reason = str(failure)
     return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
 
 
-def _solutions(
-    chain: Chain, target: Target, folded: Target, grounded: Segment | None, free: Segment
-) -> Iterator[Checked | Dead]:
+def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
     """Every leaf, the parts multiplied out."""
-    for leaf in _leaves(folded, grounded, free):
-        yield _multiplied(chain, leaf, target) if isinstance(leaf, Part) else leaf
+    grounded, free = segments(chain)
+    folded, low = target.folded(free.q), poles_at_zero(target.folded(free.q))
+    for data, time in lag_poles(folded.balls, low) if chain.lag else [(folded.balls, {})]:
+        for leaf in _leaves(data, low, grounded, free):
+            yield _multiplied(chain, leaf, time, target) if isinstance(leaf, Part) else leaf
 
 
-def _multiplied(chain: Chain, part: Part, target: Target) -> Checked | Dead:
+def _multiplied(chain: Chain, part: Part, time: dict[str, Ball], target: Target) -> Checked | Dead:
     """The part checked; a member of a family that fails refutes nothing but itself."""
-    result = checked(chain, _named(part, chain), part.gauges, target)
+    result = checked(chain, _named(part, chain) | time, part.gauges, target)
     return BOUNDARY if part.gauges and isinstance(result, Dead) else result
 
 
-def _leaves(folded: Target, grounded: Segment | None, free: Segment) -> Iterator[Leaf]:
-    data = folded.balls
+def _leaves(data: Data, low: int, grounded: Segment | None, free: Segment) -> Iterator[Leaf]:
     if grounded is None:
         yield from synthesise(free, data)
         return
-    for split in pole_splits(data, grounded, free):
+    for split in pole_splits(data, grounded, free, low):
         yield from [split] if isinstance(split, Dead) else _both(split, grounded, free)
 
 
@@ -97,7 +134,7 @@ def _both(split: Split, grounded: Segment, free: Segment) -> Iterator[Leaf]:
 
 
 def _joined(a: Part, b: Part) -> Part:
-    return Part(a.masses + b.masses, a.springs + b.springs, a.gauges + b.gauges)
+    return Part(a.masses + b.masses, a.springs + b.springs, a.gauges + b.gauges, a.all_dampers + b.all_dampers)
 
 
 def _named(part: Part, chain: Chain) -> dict[str, Ball]:
@@ -105,7 +142,9 @@ def _named(part: Part, chain: Chain) -> dict[str, Ball]:
     joints = [i for i in range(chain.n_masses) if i != chain.gap]
     values = {Mass(i).parameter: m for i, m in enumerate(part.masses, 1)}
     values |= {Spring(i).parameter: k[0] for i, k in zip(joints, part.springs, strict=True)}
-    return values | ({Damper(i).parameter: k[1] for i, k in zip(joints, part.springs, strict=True)} if chain.damped else {})
+    if chain.damped:
+        values |= {Damper(i).parameter: k[1] for i, k in zip(joints, part.springs, strict=True)}
+    return values | {GroundDamper(i).parameter: part.all_dampers[i - 1] for i in chain.ground_dampers}
 
 
 def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solution:

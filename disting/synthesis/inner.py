@@ -11,16 +11,20 @@ for one of the subsets of the roots of G_d. The product E(d) of that over all su
 d grows: those with B, one of the two roots near -rho and one of the two that go to infinity. With a free left end D has a
 double root at 0, so that d^L with L = K - C(2n-2, 2(n-a)-1) is a factor. E is found from its values on a circle; its roots are
 all candidates for d.
+
+Dampers to the ground on the left side alone change nothing but that D has a simple root at 0, so that L = 0.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import combinations
-from math import comb, log2
+from math import comb, inf, log2
 
 from flint import acb, fmpq
 
-from disting.synthesis.ball import Ball, Poly, cut, is_boundary, poly, product, roots, shifted, vanishes
+from disting.synthesis import friction
+from disting.synthesis.ball import Ball, Imprecise, Poly, cut, is_boundary, poly, product, roots, shifted, vanishes
 from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part, combined
 from disting.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.synthesis.segment import Data, Segment, splits
@@ -54,9 +58,14 @@ class Branch:
         return cut(self.data.denominator + d * self.spring * self.data.numerator, 2 * self.segment.nodes)
 
 
+def serves(segment: Segment) -> bool:
+    """Whether b and what is right of it has no damper to the ground, and E(d) is not too long."""
+    return degree_of(segment) <= DEGREE_LIMIT and not any(i >= segment.b for i in segment.dampers)
+
+
 def degree_of(segment: Segment) -> int:
     """Degree of E(d), known factors d taken out."""
-    return comb(2 * segment.nodes - (1 if segment.wall else 2), 2 * (segment.nodes - segment.a) - 1) - 2
+    return comb(2 * segment.nodes - (1 if segment.wall or segment.dampers else 2), 2 * (segment.nodes - segment.a) - 1) - 2
 
 
 def inner_neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
@@ -81,15 +90,19 @@ def _product(branch: Branch, d: Ball) -> Ball:
     value: Ball = whole[0] ** comb(2 * nodes - 1, size - 1)
     for chosen in combinations(inverse, size):
         value = value * sum(chosen, sigma)
-    known = 0 if branch.segment.wall else comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1)
+    loose = not branch.segment.wall and not branch.segment.dampers
+    known = comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1) if loose else 0
     return value / d**known
 
 
 def _radius(branch: Branch) -> float:
     """A power of two near the d at which the lowest coefficient of G_d may vanish: where the roots of E are to be expected."""
-    low = 0 if branch.segment.wall else 2
+    low = 0 if branch.segment.wall else 2 if is_boundary(branch.data.denominator[1]) else 1
     ratio = branch.data.denominator[low] / (branch.spring * branch.data.numerator)[low]
-    return float(2.0 ** round(log2(float(ratio.abs_upper()))))
+    size = float(ratio.abs_upper())
+    if not 0 < size < inf:
+        raise Imprecise("coefficients vanish at a special point")
+    return float(2.0 ** round(log2(size)))
 
 
 def interpolated(value: Callable[[Ball], Ball], degree: int, radius: float = 1.0) -> Poly:
@@ -119,16 +132,28 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
     m_b = d * branch.rho * b_poly[0] / phi[0]
     m_a = d / (branch.gain * m_b)
     nodes, a, spring = branch.segment.nodes, branch.segment.a, d * branch.spring
-    w_left = _side(m_a * theta - spring * a_poly, a_poly, m_a, a - 1, branch.segment.wall)
-    w_right = _side(m_b * phi - spring * b_poly, b_poly, m_b, nodes - a - 1, False)
+    w_left = _side(m_a * theta - spring * a_poly, a_poly, m_a, a - 1, branch.segment)
+    w_right = _side(m_b * phi - spring * b_poly, b_poly, m_b, nodes - a - 1, None)
 
     def join(x: Part, y: Part) -> Part:
         return Part((*x.masses[::-1], m_a, m_b, *y.masses), (*x.springs[::-1], spring, *y.springs), x.gauges + y.gauges)
 
-    yield from combined(peel(w_left), lambda: peel(w_right), join)
+    def join_damped(b: Ball, x: Part, y: Part) -> Leaf:
+        plain = join(x, y)
+        dampers = (*x.all_dampers[::-1], b, friction.NOTHING, *y.all_dampers)
+        return replace(plain, dampers=dampers) if a not in branch.segment.dampers or not is_boundary(b) else BOUNDARY
+
+    if not branch.segment.dampers:
+        yield from combined(peel(w_left), lambda: peel(w_right), join)
+        return
+    dampers = tuple(i in branch.segment.dampers for i in range(a, 0, -1))
+    node = friction.Node(w_left.numerator, w_left.denominator, dampers[0], dampers[1:], w_left.wall, False)
+    for b, leaf in friction.behind(node):
+        yield from combined([leaf], lambda: peel(w_right), partial(join_damped, b))
 
 
-def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, wall: bool) -> Stiffness:
-    """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu."""
+def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, segment: Segment | None) -> Stiffness:
+    """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu; `segment` for its left side, with its dampers in W."""
+    wall, known = (segment.wall, segment.poles_at_zero) if segment else (False, 2)
     numerator = cut(whole - mass * shifted(zeros, 2), 2 * nu + 1)
-    return Stiffness(numerator if wall else grounded_at_zero(numerator, 2), zeros, nu, wall, 2)
+    return Stiffness(numerator if wall else grounded_at_zero(numerator, known), zeros, nu, wall, 2)

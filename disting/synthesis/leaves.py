@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from itertools import product
 
+from flint import acb
+
 from disting.synthesis.ball import Ball, Poly
 
 
@@ -25,18 +27,27 @@ class Dead:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Masses and springs in a row, k(s) = c + d s (undamped: c). `gauges`: how many free choices were made to get here."""
+    """Masses and springs in a row, k(s) = c + d s (undamped: c). `gauges`: how many free choices were made to get here.
+
+    `dampers`: from each mass to the ground, 0 where there is none; empty where no mass has one.
+    """
 
     masses: tuple[Ball, ...] = ()
     springs: tuple[Poly, ...] = ()
     gauges: int = 0
+    dampers: tuple[Ball, ...] = ()
+
+    @property
+    def all_dampers(self) -> tuple[Ball, ...]:
+        """One for every mass."""
+        return self.dampers or (acb(0),) * len(self.masses)
 
 
 Leaf = Part | Dead
 NONZERO, BOUNDARY, OPEN = (Dead(reason) for reason in Reason)
 
 
-def combined(left: Iterable[Leaf], right: Callable[[], Iterable[Leaf]], join: Callable[[Part, Part], Part]) -> Iterator[Leaf]:
+def combined(left: Iterable[Leaf], right: Callable[[], Iterable[Leaf]], join: Callable[[Part, Part], Leaf]) -> Iterator[Leaf]:
     """All pairs of parts, then what is left open; nothing but proofs if one side is proven impossible.
 
     `right` is asked only if the left side is not refuted.

@@ -1,12 +1,15 @@
 """Which method serves which segment; the ports decide."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from disting.synthesis.collocated import collocated
-from disting.synthesis.end import next_to_end
-from disting.synthesis.inner import DEGREE_LIMIT, degree_of, inner_neighbours
+from disting.synthesis.driving import driving_point
+from disting.synthesis.end import is_untested, next_to_end
+from disting.synthesis.inner import inner_neighbours, serves
 from disting.synthesis.leaves import OPEN, Leaf
 from disting.synthesis.segment import Data, Segment, mirrored
+from disting.synthesis.swinging import adapts, swinging
 from disting.synthesis.undamped import neighbours, to_end
 
 Method = Callable[[Segment, Data], Iterator[Leaf]]
@@ -14,6 +17,9 @@ Method = Callable[[Segment, Data], Iterator[Leaf]]
 
 def synthesise(segment: Segment, data: Data) -> Iterator[Leaf]:
     """Yield the segments with this receptance; OPEN where no method serves."""
+    if segment.elastic and not segment.dampers:
+        yield from synthesise(replace(segment, q=1, elastic=False), data.even)
+        return
     turned = not segment.wall and _rank(segment.mirrored) < _rank(segment)
     method = method_of(segment.mirrored if turned else segment)
     if method is None:
@@ -29,6 +35,8 @@ def is_covered(segment: Segment) -> bool:
 
 def cost(segment: Segment) -> int:
     """Rank of the method that serves this segment or its mirror image, cheapest first."""
+    if segment.elastic and not segment.dampers:
+        return cost(replace(segment, q=1, elastic=False))
     return min(_rank(segment), _rank(segment if segment.wall else segment.mirrored))
 
 
@@ -39,7 +47,9 @@ def method_of(segment: Segment) -> Method | None:
     True
     """
     if segment.distance == 0:
-        return collocated
+        return driving_point if segment.dampers or segment.elastic else collocated
+    if segment.elastic:
+        return swinging if segment.distance == 1 and segment.b == segment.nodes and adapts(segment) else None
     if segment.q == 2:
         return _damped(segment)
     if segment.b == segment.nodes:
@@ -50,13 +60,13 @@ def method_of(segment: Segment) -> Method | None:
 def _damped(segment: Segment) -> Method | None:
     if segment.distance > 1:
         return None
-    if segment.b == segment.nodes:
+    if segment.b == segment.nodes and (segment.nodes not in segment.dampers or is_untested(segment)):
         return next_to_end
-    return inner_neighbours if degree_of(segment) <= DEGREE_LIMIT else None
+    return inner_neighbours if serves(segment) and segment.b < segment.nodes else None
 
 
 def _rank(segment: Segment) -> int:
     return _ORDER.index(method_of(segment))
 
 
-_ORDER = (collocated, next_to_end, to_end, neighbours, inner_neighbours, None)  # cheapest first
+_ORDER = (collocated, driving_point, swinging, next_to_end, to_end, neighbours, inner_neighbours, None)  # cheapest first

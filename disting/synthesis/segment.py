@@ -3,19 +3,27 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from flint import acb_poly
+
 from disting.synthesis.ball import Ball, Poly
 from disting.synthesis.leaves import Leaf, Part
 
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """n nodes in a row, left end at the wall or free, right end free; ports a <= b, numbered from 1; q = 2 damped, 1 not."""
+    """n nodes in a row, left end at the wall or free, right end free; ports a <= b, numbered from 1.
+
+    q = 2: in s; q = 1: in x = s^2, neither springs nor nodes are damped. `dampers`: the nodes with a damper to the ground;
+    `elastic`: no dampers beside the springs, though in s.
+    """
 
     nodes: int
     a: int
     b: int
     wall: bool
     q: int
+    dampers: tuple[int, ...] = ()
+    elastic: bool = False
 
     @property
     def distance(self) -> int:
@@ -25,12 +33,23 @@ class Segment:
     @property
     def numerator_degree(self) -> int:
         """Degree of theta_(a-1) k_a .. k_(b-1) phi_(b+1): q (n - 1) less one (damped) or q (undamped) a spring."""
-        return self.q * (self.nodes - 1) - self.distance
+        return self.q * (self.nodes - 1) - self.distance * (1 + self.elastic)
+
+    @property
+    def decay(self) -> int:
+        """How many of the leading terms of H = sum h_i s^(-i-1) (or in x) vanish."""
+        return self.distance * (1 + self.elastic) + self.q - 1
+
+    @property
+    def poles_at_zero(self) -> int:
+        """Multiplicity of the pole at 0 of a free row: a motion of the whole, stopped by dampers to the ground."""
+        return 1 if self.dampers else self.q
 
     @property
     def mirrored(self) -> "Segment":
         """The same chain seen from the other side; only if both ends are free."""
-        return replace(self, a=self.nodes + 1 - self.b, b=self.nodes + 1 - self.a)
+        dampers = tuple(self.nodes + 1 - i for i in reversed(self.dampers))
+        return replace(self, a=self.nodes + 1 - self.b, b=self.nodes + 1 - self.a, dampers=dampers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,10 +63,17 @@ class Data:
         """Leading coefficient of the numerator."""
         return self.numerator[segment.numerator_degree]
 
+    @property
+    def even(self) -> "Data":
+        """In x = s^2, of a function of s^2."""
+        return Data(*(acb_poly(p.coeffs()[::2]) for p in (self.numerator, self.denominator)))
+
 
 def mirrored(leaf: Leaf) -> Leaf:
     """The same part read from right to left."""
-    return replace(leaf, masses=leaf.masses[::-1], springs=leaf.springs[::-1]) if isinstance(leaf, Part) else leaf
+    if not isinstance(leaf, Part):
+        return leaf
+    return replace(leaf, masses=leaf.masses[::-1], springs=leaf.springs[::-1], dampers=leaf.dampers[::-1])
 
 
 def splits(items: list[Ball], size: int) -> Iterator[tuple[list[Ball], list[Ball]]]:

@@ -110,10 +110,6 @@ def test_degree_of_the_inner_equation(segment: tuple[int, int, int, bool], degre
 def test_uncovered_chains_say_so() -> None:
     _, found = own_fibre(Family(3, damped=True)[3])
     assert found.status is Status.NOT_COVERED
-    plain = Chain(2, damped=True)
-    t = target(plain.structure, rational_point(plain, "test"))
-    assert fibre(replace(plain, ground_dampers=(1,)), t).status is Status.NOT_COVERED
-    assert fibre(replace(plain, lag=True), t).status is Status.NOT_COVERED
 
 
 def test_equal_ratios_of_stiffness_and_damping_are_no_generic_point() -> None:

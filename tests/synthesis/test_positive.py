@@ -7,15 +7,13 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from disting import Chain, Family, Outcome, Settings
-from disting.conditions.admissible import positive_finding, real_finding
+from disting import Chain, Family
 from disting.conditions.exact import theorem
-from disting.conditions.verify import Witness
-from disting.synthesis.admit import positive_equivalent, positive_point
 from disting.synthesis.fibre import fibre
 from disting.synthesis.foster import are_foster, are_same_by_parts
 from disting.synthesis.result import Answer, Status
 from disting.synthesis.target import target
+from tests.oracles.positive_synthesis import positive_equivalent, positive_point
 
 
 def theorem_pairs(n):
@@ -77,11 +75,6 @@ def test_some_positive_models_have_an_equivalent_and_others_have_none():
     assert all(positive_equivalent(two, positive_point(two, str(k)), six) is Answer.YES for k in range(30))
     answers = [positive_equivalent(six, positive_point(six, str(k)), two) for k in range(60)]
     assert set(answers) == {Answer.YES, Answer.NO}
-    found = positive_finding(two, six, Settings())
-    assert found.outcome is Outcome.SOMETIMES
-    assert Witness().confirms(found.evidence, "parameters", two, six)
-    low, high = found.evidence.interval
-    assert 0 < low < found.evidence.hits / found.evidence.tries < high < 1
 
 
 def test_a_refuted_point_has_no_member_of_the_family_that_is_positive():
@@ -110,12 +103,6 @@ def _positive_member(chain, point, kappa):
 def _alternate(poles, zeros):
     """Roots of Phi and of B alternate, starting and ending with Phi: then Phi/B is a row with positive elements."""
     return all(poles[i] < zeros[i] < poles[i + 1] for i in range(len(zeros)))
-
-
-def test_over_real_parameters_only_rational_maps_count():
-    family = Family(3)
-    assert real_finding(family[2], family[5], Settings()).outcome is Outcome.HOLDS
-    assert real_finding(family[1], family[4], Settings()).outcome is Outcome.ABANDONED
 
 
 def test_damped_points_never_have_the_negative_equivalent_taken_for_positive():
