@@ -1,68 +1,94 @@
 """Whether indistinguishable models stay so over real or positive parameters: what the paper calls admissible parameter sets.
 
-A pair that is indistinguishable over complex parameters is looked at both ways: has every model of the one with admissible
-parameters an equivalent in the other with admissible parameters, have some, or none? Every one, both ways: indistinguishable.
-None, both ways: distinguishable. Known otherwise: it depends on the parameters.
+Positive. Both ways it is asked which positive models of the one have a positive equivalent in the other (`disting.positivity`).
+All, both ways: indistinguishable. None, both ways: distinguishable. Some in any way, and others not: it depends on the
+parameters. None in one way and some in the other cannot be: the images of both chains have one closure V, and the behaviours
+with positive parameters on both sides are either part of a proper subvariety of V, so that none occurs for generic parameters
+of either chain, or they contain an open set of V(R), which parameters on both sides reach.
+
+Real. Symmetry and duality are rational maps, which take real parameters to real ones. Odd fibres: let n be the number of
+parameter vectors of a chain with one generic behaviour of V, each a simple solution (n is the number of points of a generic
+fibre of a dominant map, all of them simple in characteristic zero). If the behaviour is real, the conjugate of a solution is a
+solution, so an odd n leaves at least one that is its own conjugate. A unique solution (n = 1) is real for that reason.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable
+from dataclasses import replace
 
-from disting.certainty import Certainty
-from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.evidence import Sometimes, Theorem
+from disting.certainty import Certainty, Grade
+from disting.conditions.evidence import Theorem
 from disting.conditions.exact import theorem
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.question import Question
-from disting.domain import Domain
+from disting.conditions.ways import BothWays, OddFibres, weakest
+from disting.errors import ContradictionError, InputError
+from disting.identifiability import Identifiability
 from disting.model.chain import Chain
+from disting.positivity import PositiveFinding, Share, positive_finding
+from disting.question import Question
 from disting.settings import Settings
-from disting.synthesis.admit import positive_equivalent, positive_point
-from disting.synthesis.result import Answer
 
 ADMISSIBLE = 11  # number of this question, after the exact decision
+SAME = {Share.ALWAYS: Outcome.HOLDS, Share.SOMETIMES: Outcome.SOMETIMES, Share.NEVER: Outcome.FAILS}  # of both ways
+NOT_REAL = "over real parameters no rational map is known, and the numbers of equivalents are not odd or not known"
 RATIONAL = ("symmetry", "duality")  # theorems whose maps are rational, so that they take real parameters to real ones
-TRIES = 40  # random points a direction
-WAYS = ("of the first", "of the second")
 
 
-def positive_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Over positive parameters: a theorem, or points with and without an equivalent."""
-    named = theorem(a, b)
+def positive_share(given: Chain, other: Chain, settings: Settings) -> PositiveFinding:
+    """Which positive models of one canonical chain have a positive equivalent in another; UNKNOWN for chains of two kinds."""
+    try:
+        return positive_finding(given, other, settings)
+    except InputError as reason:
+        return PositiveFinding(Share.UNKNOWN, reason=str(reason))
+
+
+POSITIVELY = Question("positive equivalents", positive_share, PositiveFinding.to_json, PositiveFinding.from_json)
+
+
+def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
+    """Over positive parameters, from the shares of both sides of a pair that is indistinguishable over complex ones.
+
+    Raises ContradictionError where one side has equivalents and the other has none.
+    """
+    shares, known = {left.share, right.share}, [x for x in (left, right) if x.certainty]
+    if Share.NEVER in shares and shares & {Share.ALWAYS, Share.SOMETIMES}:
+        raise ContradictionError(f"positive equivalents {left.share} one way and {right.share} the other")
+    if Share.UNKNOWN in shares and Share.SOMETIMES not in shares:
+        reasons = "; ".join(dict.fromkeys(x.reason for x in (left, right) if x.share is Share.UNKNOWN))
+        return Finding(ADMISSIBLE, Outcome.ABANDONED, note=f"whether equivalents are positive is not known: {reasons}")
+    outcome = SAME[left.share] if len(shares) == 1 else Outcome.SOMETIMES
+    certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
+    return Finding(ADMISSIBLE, outcome, certainty, safety, BothWays(left, right))
+
+
+def rational_map(left: Chain, right: Chain) -> str:
+    """Name of the theorem that gives a rational map, "" if there is none."""
+    named = theorem(left, right)
+    return named if named in RATIONAL else ""
+
+
+def real_finding(left: Chain, right: Chain, counted: Callable[[Chain], Identifiability]) -> Finding:
+    """Over real parameters: a rational map, or odd numbers of equivalents on both sides, for pairs that are equal over C."""
+    named = rational_map(left, right)
     if named:
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    ways = [_sampled(left_given, a, b, settings) for left_given in (True, False)]
-    for found in ways:
-        if found.with_one and found.without:
-            return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=found)
-    shares = " and ".join(f"{found.hits} of {found.tries} random points {way}" for found, way in zip(ways, WAYS, strict=True))
-    return Finding(
-        ADMISSIBLE, Outcome.ABANDONED, note=f"{shares} are known to have a positive equivalent, which proves nothing"
-    )
+    return _by_counts(counted(left), counted(right))
 
 
-def _sampled(left_given: bool, a: Chain, b: Chain, settings: Settings) -> Sometimes:
-    """What random points of one model show."""
-    given, searched = (a, b) if left_given else (b, a)
-    points = [positive_point(given, f"positive:{settings.seed}:{k}") for k in range(TRIES)]
-    answers = [positive_equivalent(given, point, searched) for point in points]
-    first = {answer: points[answers.index(answer)] for answer in set(answers)}
-    with_one, without = (_spelled(first.get(answer, {})) for answer in (Answer.YES, Answer.NO))
-    return Sometimes(left_given, with_one, without, answers.count(Answer.YES), TRIES)
+def _by_counts(left: Identifiability, right: Identifiability) -> Finding:
+    """As sure as both numbers are."""
+    certainty, safety = weakest(left.count_grade, right.count_grade)
+    if certainty is not Certainty.NUMERICAL and all(_is_odd(x) for x in (left, right)):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, certainty, safety, OddFibres(left.least, right.least))
+    return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_REAL)
 
 
-def _spelled(point: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    return tuple((name, str(value)) for name, value in point.items())
+def resting_on(finding: Finding, equal: Grade) -> Finding:
+    """The finding on admissible parameters; odd fibres presuppose that the images are equal over C, which is so sure."""
+    if not isinstance(finding.evidence, OddFibres):
+        return finding
+    certainty, safety = weakest((finding.certainty, finding.safety), equal)
+    return replace(finding, certainty=certainty, safety=safety)
 
 
-def real_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Over real parameters the theorems with rational maps decide."""
-    named = theorem(a, b)
-    if named in RATIONAL:
-        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    return Finding(ADMISSIBLE, Outcome.ABANDONED, note="over real parameters no theorem applies, and nothing else is tried")
-
-
-ADMISSIBLY = {
-    Domain.REAL: Question("real equivalents", real_finding, finding_to_json, finding_from_json),
-    Domain.POSITIVE: Question("positive equivalents", positive_finding, finding_to_json, finding_from_json),
-}
+def _is_odd(found: Identifiability) -> bool:
+    return found.least == found.most and found.least % 2 == 1

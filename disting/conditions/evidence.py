@@ -5,9 +5,9 @@ Each kind says itself in a sentence and in a formula, and turns into plain data 
 
 from dataclasses import asdict, dataclass
 from itertools import groupby
-from math import sqrt
 from typing import ClassVar, get_args
 
+from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import Refuted, Solved
 
@@ -241,43 +241,7 @@ class ByProgram:
 ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
 
 
-@dataclass(frozen=True, slots=True)
-class Sometimes:
-    """Two positive points (name, fraction) of one model: one with a positive equivalent in the other, one without.
-
-    `left_given`: they are of the left model. So many `hits` of `tries` random points had one.
-    """
-
-    kind: ClassVar[str] = "sometimes"
-    left_given: bool
-    with_one: tuple[tuple[str, str], ...]
-    without: tuple[tuple[str, str], ...]
-    hits: int
-    tries: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        low, high = self.interval
-        return (
-            f"Some positive parameters of {given} have a positive equivalent in {searched}, others have none; both kinds are "
-            f"proven to occur ({self.hits} of {self.tries} random points have one: empirically {low:.0%} to {high:.0%})."
-        )
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """Wilson's 95 % interval of the share, for this distribution of points (E. B. Wilson 1927)."""
-        n, p, z = self.tries, self.hits / self.tries, 1.96
-        middle, spread = p + z * z / (2 * n), z * sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-        return (middle - spread) / (1 + z * z / n), (middle + spread) / (1 + z * z / n)
-
-    @property
-    def formula(self) -> str:
-        """The empirical share."""
-        return f"{self.hits}/{self.tries} random points"
-
-
-Evidence = ByConditions | Theorem | FibreAt | Solved | Refuted | ByProgram | Sometimes | Witnesses
+Evidence = ByConditions | Theorem | FibreAt | Solved | Refuted | ByProgram | BothWays | OddFibres | Witnesses
 _THEOREMS = {
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
     "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
@@ -289,11 +253,13 @@ _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 def to_dict(evidence: Evidence) -> dict[str, object]:
     """Plain data, ready for JSON."""
-    return {"kind": evidence.kind, **asdict(evidence)}
+    return evidence.to_dict() if isinstance(evidence, BothWays) else {"kind": evidence.kind, **asdict(evidence)}
 
 
 def from_dict(data: dict[str, object]) -> Evidence:
-    """Evidence from plain data; lists become tuples. Raises KeyError or TypeError for what is none."""
+    """Evidence from plain data; lists become tuples. Raises KeyError, TypeError or ValueError for what is none."""
+    if data["kind"] == BothWays.kind:
+        return BothWays.from_dict(data)
     fields = {name: _tupled(value) for name, value in data.items() if name != "kind"}
     return _KINDS[str(data["kind"])](**fields)  # type: ignore[arg-type]
 

@@ -4,25 +4,25 @@ Both sets of behaviours have irreducible closures V1 and V2; of equal dimension 
 lies in the image of the other. So a random rational point of one model is taken and all parameters of the other model with the
 same transfer function are listed (see `disting.synthesis`).
 
-What one point proves. Let D = 3 N_B + 2 and n the number of parameters of the searched model. The pairs (p, q) of equal
-transfer functions with all elements of q non-zero (one more unknown and one more equation say so) are given by equations of
-degree D at most, so a component that dominates the points p has a degree of at most D^(n+1) (Bezout). If V1 = V2 there is one,
+What one point proves. Let n be the number of parameters of the searched model and D = max(3 N_B + 2, n + 1). The pairs (p, q)
+of equal transfer functions with all elements of q non-zero (one more unknown and one more equation say so) are given by
+equations of degree D at most, so a component that dominates the points p has a degree of at most D^(n+1) (Bezout). If V1 = V2 there is one,
 and the points p without an equivalent lie where its projection is not proper: on a hypersurface of no larger degree
 (Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). If V1 is not V2, the points with an
 equivalent lie on the pull-back of an equation of V2, of degree D^(n+1) at most too. Coordinates are fractions whose numerators
 have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a probability of at most D^(n+1) / 2^POINT_BITS;
 up to DRAWS points are drawn.
 
-Where the synthesis has no method (ground dampers, lag, force and sensor two or more masses apart inside a part) or finds only
-numbers, the fibre's ideal decides, modulo random primes and with bounds of its own (see `disting.ideals`).
+Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
+some neighbouring ports) or finds only numbers, the fibre's ideal decides, modulo random primes and with bounds of its own (see
+`disting.ideals`).
 """
 
 from dataclasses import replace
-from math import ceil, log2
 
 from disting import ideals
 from disting.certainty import Certainty
-from disting.conditions.evidence import ByProgram, FibreAt, Sometimes, Theorem
+from disting.conditions.evidence import ByProgram, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised, programs
 from disting.ideals.fibre_ideal import fibre_ideal
@@ -32,7 +32,7 @@ from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.settings import Settings
-from disting.synthesis.decide import DRAWS, POINT_BITS, Direction, Exact, Grounds, Membership, decide
+from disting.synthesis.decide import Direction, Exact, Grounds, Membership, decide, safety_of_point
 from disting.synthesis.duality import are_dual
 from disting.synthesis.foster import are_foster, are_same_by_parts
 
@@ -107,7 +107,7 @@ def rational_part(chain: Chain) -> Structure:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram | Sometimes):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 
@@ -127,13 +127,8 @@ def theorem(a: Chain, b: Chain) -> str:
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
 
 
-def safety_of_point(n_masses: int, unknowns: int) -> int:
-    """Largest b with DRAWS * D^(n+1) / 2^POINT_BITS <= 2^-b, for n unknowns."""
-    return POINT_BITS - ceil((unknowns + 1) * log2(3 * n_masses + 2) + log2(DRAWS))
-
-
 def _covered(a: Chain, b: Chain) -> bool:
-    plain = not any(c.lag or c.dead_time or c.ground_dampers for c in (a, b))
+    plain = not any(c.lag or c.dead_time for c in (a, b))
     return plain and (a.n_masses, a.damped, a.sensor) == (b.n_masses, b.damped, b.sensor)
 
 

@@ -6,17 +6,19 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
-from disting.conditions.admissible import ADMISSIBLY
+from disting.conditions.admissible import POSITIVELY, positive_ways, real_finding
 from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.exact import EXACT, exact_finding, mirrored
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.question import Answerer, Question, computed
 from disting.domain import Domain
+from disting.identifiability import IDENTIFIABILITY, Identifiability
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
+from disting.positivity import PositiveFinding
+from disting.question import Answerer, Question, computed
 from disting.settings import Settings
 
 ProfileSource = Callable[[Structure, Representation, int, Settings], Profile]
@@ -50,7 +52,16 @@ class Subject:
 
     def admissible(self, other: "Subject", domain: Domain) -> Finding:
         """Whether two models that are indistinguishable over complex parameters are so over this domain."""
-        return self._asked(ADMISSIBLY[domain], other)
+        if domain is Domain.POSITIVE:
+            return positive_ways(self.positive(other), other.positive(self))
+        return real_finding(self.canonical.chain, other.canonical.chain, self._identifiability)
+
+    def positive(self, other: "Subject") -> PositiveFinding:
+        """Which positive models of the one have a positive equivalent in the other; evidence in canonical names."""
+        return self.answerer(POSITIVELY, (self.canonical.chain, other.canonical.chain), self.settings)
+
+    def _identifiability(self, canonical_chain: Chain) -> Identifiability:
+        return self.answerer(IDENTIFIABILITY, (canonical_chain,), self.settings)
 
     def _asked(self, question: Question[Finding], other: "Subject") -> Finding:
         first, second = self.in_order(other)

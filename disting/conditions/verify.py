@@ -13,23 +13,25 @@ from disting.conditions.evidence import (
     FreeChoice,
     Ranks,
     Renaming,
-    Sometimes,
     Supermodel,
     Theorem,
 )
 from disting.conditions.exact import program_refutes, rational_part, theorem
+from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, normalised
+from disting.identifiability import identifiability
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation, Sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.synthesis.admit import positive_equivalent
+from disting.positivity import proves
+from disting.settings import Settings
 from disting.synthesis.decide import Grounds
 from disting.synthesis.fibre import fibre
-from disting.synthesis.result import Answer, Status
+from disting.synthesis.result import Status
 from disting.synthesis.target import fraction, target
 
 POINTS = 3
@@ -70,8 +72,10 @@ class Witness:
                 return _ideal(evidence, left, right)
             case Witnesses():
                 return False  # it speaks of general models, see `parametric.confirms`
-            case Sometimes():
-                return _sometimes(evidence, canonical(left).chain, canonical(right).chain)
+            case BothWays():
+                return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
+            case OddFibres():
+                return _odd(evidence, left, right)
             case ByProgram():
                 return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
             case Theorem():
@@ -124,11 +128,17 @@ class Witness:
         return free == set(evidence.free) and self._rank(structure, representation, evidence.free) == len(free)
 
 
-def _sometimes(evidence: Sometimes, a: Chain, b: Chain) -> bool:
-    """Both points once more."""
-    given, searched = (a, b) if evidence.left_given else (b, a)
-    points = ({n: fraction(v) for n, v in point} for point in (evidence.with_one, evidence.without))
-    return [positive_equivalent(given, point, searched) for point in points] == [Answer.YES, Answer.NO]
+def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
+    """What is known of either way, once more; something is."""
+    ways = [(x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty]
+    return bool(ways) and all(proves(*way) for way in ways)
+
+
+def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
+    """Both numbers once more, at fresh points."""
+    fresh = Settings(seed="verify")
+    found = [(identifiability(chain, fresh), n) for chain, n in ((left, evidence.left), (right, evidence.right))]
+    return all(n % 2 == 1 and x.least == x.most == n for x, n in found)
 
 
 def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:

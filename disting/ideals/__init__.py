@@ -1,8 +1,17 @@
 """Engine B of the exact decision: the fibre of one model over a generic point of another as a polynomial ideal.
 
-For any two models that are given as coefficient maps, not only chains; independent of `disting.synthesis`.
+For any two models that are given as coefficient maps, not only chains; chains with a gap are taken apart first (`by_parts`).
+Independent of `disting.synthesis`.
 """
 
+from disting.ideals.by_parts import ByParts as ByParts
+from disting.ideals.by_parts import PartsDecision as PartsDecision
+from disting.ideals.by_parts import PartStep as PartStep
+from disting.ideals.by_parts import Vanishing as Vanishing
+from disting.ideals.by_parts import confirms_by_parts as confirms_by_parts
+from disting.ideals.by_parts import decide_by_parts as decide_by_parts
+from disting.ideals.by_parts import included_by_parts as included_by_parts
+from disting.ideals.by_parts import refuted_by_parts as refuted_by_parts
 from disting.ideals.decide import Decision as Decision
 from disting.ideals.decide import Limits as Limits
 from disting.ideals.decide import Membership as Membership

@@ -1,6 +1,7 @@
 """How surely one fibre modulo one random prime tells what holds for generic parameters over the complex numbers.
 
 Notation: n1, n2 parameters, c coordinates, V1 and V2 the closures of the images of Phi1 and Phi2. Point and prime are random.
+Of numerators of unequal degrees the missing coordinates are the polynomial 0, to which all of the following applies.
 
 EMPTY FIBRE. Suppose that generic points of V1 were reached by Phi2. Then {(p, q): Phi1(p) = Phi2(q)} has a component over the
 rational numbers that dominates the points p. Cut by as many planes as its generic fibres have dimensions (for equal ranks:

@@ -101,10 +101,11 @@ def decide(
 ) -> Decision:
     """Whether generic models of `given` are models of `other`; `equal_rank` lets the other direction decide as well.
 
-    Raises InputError if the ranks at random points are not as told, or the given model has the larger one.
+    Numerators of unequal degrees are compared with zeros where one has no coefficient. Raises InputError if the ranks at random
+    points are not as told, or the given model has the larger one.
     """
-    if given.degrees != other.degrees:
-        return Decision(Membership.UNKNOWN, reason="the degrees of the transfer functions differ")
+    if given.degrees[1] != other.degrees[1]:
+        return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
     left, right = matched(given, other)
     _refuse(left, right, equal_rank, seed)
     if safety_of_empty(left, right, equal_rank) < LEAST:

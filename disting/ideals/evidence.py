@@ -89,6 +89,8 @@ def confirms(evidence: Evidence, left: CoefficientMap, right: CoefficientMap) ->
 
 
 def _agree(given: CoefficientMap, other: CoefficientMap, label: str, solution: Sequence[int]) -> bool:
+    if not len(other.parameters) <= len(solution) <= len(other.parameters) + 1:
+        return False
     modulus, point = drawn(given, label)
     num1, den1 = _at(given, point, modulus)
     num2, den2 = _at(other, solution[: len(other.parameters)], modulus)

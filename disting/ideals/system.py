@@ -18,7 +18,7 @@ rows without a port, which the transfer function does not contain, are left out.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from operator import mul
 
@@ -32,6 +32,7 @@ from disting.model.structure import Structure
 SCALE = "scale"  # the unknown common factor of numerator and denominator
 Term = tuple[tuple[int, ...], int]  # exponents and coefficient
 Terms = tuple[Term, ...]
+Span = tuple[int, int]  # first and last mass of a row
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,7 @@ class CoefficientMap:
     def coordinates(self) -> tuple[Terms, ...]:
         """Terms of b_0, b_1, .. and a_0, a_1, .., the last a left out where it is 1."""
         kept = self.denominator[:-1] if self.is_monic else self.denominator
-        top = self.degrees[0] + 1
-        return tuple(_terms(p) for p in (*self.numerator[:top], *kept))
+        return tuple(terms(p) for p in (*self.numerator, *kept))
 
     def with_scale(self) -> "CoefficientMap":
         """All coefficients times one more parameter: then equal functions have equal coefficients, monic or not."""
@@ -89,7 +89,7 @@ def coefficient_map(structure: Structure) -> CoefficientMap:
     """
     written = expanded(structure)
     names = tuple(p for p in structure.parameters if p != "Td")
-    return _separated(names, written.num, written.den)
+    return separated(names, written.num, written.den)
 
 
 def normalised(structure: Structure) -> CoefficientMap:
@@ -102,25 +102,39 @@ def normalised(structure: Structure) -> CoefficientMap:
     """
     names = tuple(_names(structure))
     ring = symbols(["s", *names])
-    rows = [_row(structure, span, ring) for span in structure.blocks if _ports(structure, span)]
-    num, den = reduce(lambda x, y: (x[0] * y[1] + y[0] * x[1], x[1] * y[1]), rows)
+    fractions = [receptance_of_row(structure, span, ring) for span, _ in rows(structure)]
+    num, den = reduce(lambda x, y: (x[0] * y[1] + y[0] * x[1], x[1] * y[1]), fractions)
     if structure.lag:
         den = den * (ring["s"] + ring["lag"])
     num = num * ring["s"] ** structure.sensor_order
     power = min(min(e[0] for e in p.monoms()) for p in (num, den))
-    return _separated(names, num // ring["s"] ** power, den // ring["s"] ** power)
+    return separated(names, num // ring["s"] ** power, den // ring["s"] ** power)
 
 
 def matched(given: CoefficientMap, other: CoefficientMap) -> tuple[CoefficientMap, CoefficientMap]:
-    """Both maps in a form in which equal transfer functions are equal coefficients; raises InputError for unequal degrees."""
-    if given.degrees != other.degrees:
-        raise InputError(f"transfer functions of equal degrees are compared, not {given.degrees} and {other.degrees}")
+    """Both maps in a form in which equal transfer functions are equal coefficients, as many in both, zeros included.
+
+    Of equally many poles all functions have their coefficients in one space, whatever the degrees of the numerators. Raises
+    InputError for denominators of unequal degrees.
+    """
+    if given.degrees[1] != other.degrees[1]:
+        raise InputError(f"transfer functions of equally many poles are compared, not {given.degrees} and {other.degrees}")
+    top = max(given.degrees[0], other.degrees[0]) + 1
+    given, other = _padded(given, top), _padded(other, top)
     if given.is_monic and other.is_monic:
         return given, other
     return given.with_scale(), other.with_scale()
 
 
-def _separated(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> CoefficientMap:
+def _padded(model: CoefficientMap, count: int) -> CoefficientMap:
+    """The map with that many numerator coefficients; those left out are zero."""
+    zero = model.denominator[-1] - model.denominator[-1]
+    numerator = (*model.numerator, *[zero] * count)[:count]
+    return model if numerator == model.numerator else replace(model, numerator=numerator)
+
+
+def separated(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> CoefficientMap:
+    """The map of a fraction of polynomials in s, the first symbol, and the names."""
     ring = symbols(names)
     context = next(iter(ring.values())).context()
     parts = [tuple(_without_s(c, context) for c in coefficients(p, "s")) for p in (num, den)]
@@ -131,7 +145,8 @@ def _without_s(polynomial: fmpz_mpoly, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
     return context.from_dict({e[1:]: int(c) for e, c in polynomial.to_dict().items()})
 
 
-def _terms(polynomial: fmpz_mpoly) -> Terms:
+def terms(polynomial: fmpz_mpoly) -> Terms:
+    """Exponents and coefficients of a polynomial."""
     return tuple((tuple(map(int, e)), int(c)) for e, c in polynomial.to_dict().items())
 
 
@@ -144,22 +159,32 @@ def _ports(structure: Structure, span: tuple[int, int]) -> tuple[int, int] | Non
     return None
 
 
+def rows(structure: Structure) -> Iterator[tuple[Span, tuple[str, ...]]]:
+    """The rows of connected masses that have ports, (first, last), each with the names of its unknowns."""
+    for span in structure.blocks:
+        if _ports(structure, span):
+            yield span, tuple(_names_of_row(structure, span))
+
+
 def _names(structure: Structure) -> Iterator[str]:
-    kinds = {(e.kind, e.at) for e in structure.elements}
-    for first, last in structure.blocks:
-        if not _ports(structure, (first, last)):
-            continue
-        for i in range(first - 1, last):
-            yield from (name for kind, name in (("k", f"u{i}"), ("d", f"e{i}")) if (kind, i) in kinds)
-            yield from ([f"r{i}"] if i >= first else [])
-        yield from (f"f{i}" for i in range(first, last + 1) if ("b", i) in kinds)
-        yield f"g{first}"
+    for _, names in rows(structure):
+        yield from names
     if structure.lag:
         yield "lag"
 
 
-def _row(structure: Structure, span: tuple[int, int], ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-    """Receptance (numerator, denominator) of one row of connected masses."""
+def _names_of_row(structure: Structure, span: Span) -> Iterator[str]:
+    """Unknowns of one row of connected masses."""
+    kinds, (first, last) = {(e.kind, e.at) for e in structure.elements}, span
+    for i in range(first - 1, last):
+        yield from (name for kind, name in (("k", f"u{i}"), ("d", f"e{i}")) if (kind, i) in kinds)
+        yield from ([f"r{i}"] if i >= first else [])
+    yield from (f"f{i}" for i in range(first, last + 1) if ("b", i) in kinds)
+    yield f"g{first}"
+
+
+def receptance_of_row(structure: Structure, span: Span, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """Receptance (numerator, denominator) of one row of connected masses; `ring` has s and the row's unknowns."""
     first, last = span
     s, zero, one = ring["s"], ring["s"] - ring["s"], ring["s"] ** 0
     joint = {i: ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)} | {last: zero}

@@ -1,22 +1,24 @@
 """Inclusion of models of unequal rank: known cases, laws, and false evidence."""
 
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, permutations
 
 import pytest
 
 from disting import Engine, Family, Query, Relation, View, compare
 from disting.conditions.evidence import Counts
 from disting.conditions.inclusion import (
-    FullImage,
     Inclusion,
-    LargerProjection,
     Sense,
     confirms,
     inclusion_finding,
     inclusion_from_dict,
     inclusion_to_dict,
 )
+from disting.conditions.inclusion_finding import FullImage, LargerProjection, RelativeDegrees
+from disting.conditions.inclusion_profiles import by_relative_degrees, part_falls
+from disting.ideals import Vanishing, coefficient_map
+from disting.model.chain import Chain, Sensor
 
 ENGINE = Engine()
 
@@ -67,11 +69,59 @@ def test_false_evidence_is_refused():
     assert not confirms(replace(true, free=true.free[1:], rank=4), two, one)
     assert not confirms(LargerProjection(("a0",), 1, 1), one, two)
     assert not confirms(Counts((4, 4), (2, 4)), one, two)
+
+
+def test_false_evidence_of_parts_is_refused():
     seven, six = (subjects(3, True)[k] for k in (6, 5))
     solved = inclusion_finding(seven, six).evidence
-    assert confirms(solved, seven, six) and not confirms(replace(solved, left_given=False), seven, six)
-    spoiled = tuple(tuple(x + 1 for x in q) for q in solved.solutions)
-    assert not confirms(replace(solved, solutions=spoiled), seven, six)
+    assert solved.is_member and confirms(solved, seven, six) and not confirms(replace(solved, left_given=False), seven, six)
+    first, second = solved.steps
+    spoiled = tuple(tuple(x + 1 for x in q) for q in second.shown.solutions)
+    false = replace(second, shown=replace(second.shown, solutions=spoiled))
+    assert not confirms(replace(solved, steps=(first, false)), seven, six)
+    for steps in ((first,), (), (first, replace(second, part=first.part)), (first, replace(second, split="same"))):
+        assert not confirms(replace(solved, steps=steps), seven, six)
+
+
+def test_false_refutations_of_parts_are_refused():
+    small, large = (ENGINE.subject("", Chain(3, *ports, damped=True)) for ports in ((0, 0, 1, 0, 3), (2, 2, 3, 2, 3)))
+    found = inclusion_finding(small, large)
+    assert (found.inclusion, found.sense) == (Inclusion.NEITHER, Sense.IMAGE)
+    (step,) = found.evidence.steps
+    assert isinstance(step.shown, Vanishing) and found.certainty == "proven" and confirms(found.evidence, small, large)
+    for index in (0, 1, step.shown.index + 1, step.shown.index + 2):
+        assert not confirms(replace(found.evidence, steps=(replace(step, shown=Vanishing(index)),)), small, large)
+    assert not confirms(replace(found.evidence, steps=()), small, large)
+
+
+def test_false_relative_degrees_are_refused():
+    small, large = (ENGINE.subject("", Chain(4, *ports)) for ports in ((2, 1, 3, 2, 4), (2, 2, 3, 2, 4)))
+    found = inclusion_finding(small, large)
+    assert (found.inclusion, found.sense, found.certainty) == (Inclusion.NEITHER, Sense.IMAGE, "proven")
+    assert found.evidence == RelativeDegrees(False, 4, 2) and confirms(found.evidence, small, large)
+    for false in (replace(found.evidence, left_is_larger=True), replace(found.evidence, right=3)):
+        assert not confirms(false, small, large)
+    assert not confirms(replace(found.evidence, left=5), small, large)
+
+
+@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
+def test_part_falls_are_relative_degrees(n, damped):
+    for chain in Family(n, damped):
+        for more in ({}, {"lag": True}, {"ground_dampers": (1,)}):
+            form = replace(chain, sensor=Sensor.POSITION, **more)
+            numerator, denominator = coefficient_map(form.structure).degrees
+            assert denominator - numerator == min(part_falls(form))
+
+
+def test_a_lag_on_one_side_is_no_refutation():
+    """Relative degree 3 on both sides: by the distance of the ports, or by the lag."""
+    apart, lagging = Chain(3, 0, 0, 1, 0, 2, damped=True), Chain(3, 0, 0, 1, 0, 1, damped=True, lag=True)
+    assert by_relative_degrees(apart, lagging) is None and by_relative_degrees(apart, replace(lagging, lag=False)) is not None
+
+
+@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
+def test_no_inclusion_of_small_classes_is_unknown(n, damped):
+    assert all(inclusion_finding(a, b).inclusion is not Inclusion.UNKNOWN for a, b in unequal(n, damped))
 
 
 def test_verdicts_tell_it():
@@ -96,3 +146,20 @@ def test_equal_ranks_are_left_to_the_verdict():
     family = subjects(3, True)
     with pytest.raises(ValueError, match="equal rank"):
         inclusion_finding(family[0], family[5])
+
+
+@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
+def test_inclusion_is_transitive(n, damped):
+    """A in B and B in (or equal to) C: no finding may say that A does not lie even in the closure of C."""
+    models = subjects(n, damped)
+    decided = ENGINE.decisions(models, Query())
+    inside, apart = set(), set()
+    for i, j in permutations(range(len(models)), 2):
+        found = decided.inclusions.get((min(i, j), max(i, j)))
+        inclusion = decided.inclusion(min(i, j), max(i, j))
+        if inclusion is Inclusion.EQUAL or inclusion is (Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT):
+            inside.add((i, j))
+        elif inclusion is Inclusion.NEITHER and (found is None or found.sense is Sense.BOTH):
+            apart.add((i, j))
+    assert not [(i, j, k) for i, j in inside for k in range(len(models)) if (j, k) in inside and (i, k) in apart]
+    assert inside and apart

@@ -148,6 +148,6 @@ def test_bad_questions():
     line, plane = family_of_squares()
     with pytest.raises(InputError, match="ranks"):
         decide(line, plane, equal_rank=False)
-    assert decide(model(3, 1), model(3, 2), equal_rank=True).membership is Membership.UNKNOWN
+    assert decide(model(3, 1), model(2, 1), equal_rank=True).membership is Membership.UNKNOWN
     with pytest.raises(TypeError):
         bool(decide(line, line, equal_rank=True))

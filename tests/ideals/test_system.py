@@ -97,10 +97,21 @@ def test_bad_maps_are_refused():
         CoefficientMap(("x", "y"), (x,), (y, x - x))
 
 
-def test_maps_of_unequal_degree_are_not_compared():
-    a, b = (normalised(Family(2)[i].structure) for i in (1, 2))
-    with pytest.raises(InputError, match="degrees"):
+def test_maps_of_unequally_many_poles_are_not_compared():
+    a, b = normalised(Family(2)[1].structure), normalised(Family(3)[1].structure)
+    with pytest.raises(InputError, match="equally many poles"):
         matched(a, b)
+
+
+def test_a_shorter_numerator_is_compared_with_zeros():
+    a, b = (normalised(Family(2)[i].structure) for i in (1, 2))
+    assert a.degrees[0] < b.degrees[0] or a.degrees[0] > b.degrees[0]
+    one, other = matched(a, b)
+    short, long = (one, other) if a.degrees[0] < b.degrees[0] else (other, one)
+    top = max(a.degrees[0], b.degrees[0])
+    assert len(short.coordinates) == len(long.coordinates)
+    assert short.coordinates[top] == () != long.coordinates[top]
+    assert short.degrees == min(a.degrees, b.degrees)
 
 
 def test_the_scale_makes_functions_comparable():

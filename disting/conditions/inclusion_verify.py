@@ -1,0 +1,81 @@
+"""Checks the evidence of an inclusion again, from itself alone."""
+
+from dataclasses import replace
+
+from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels
+from disting.conditions.exact import rational_part
+from disting.conditions.inclusion_finding import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.conditions.inclusion_profiles import degrees_refute, ordered
+from disting.conditions.subject import Subject
+from disting.conditions.verify import POINTS, Witness
+from disting.ideals import ByParts, Refuted, Solved, coefficient_map, confirms_by_parts
+from disting.invariants.profile import samples
+from disting.invariants.sample import Representation
+from disting.model.chain import Chain, Sensor
+from disting.model.structure import Structure
+
+
+def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool:
+    """Whether the evidence is true of the two chains, at fresh points, and speaks of the model of the smaller rank.
+
+    A fibre is computed again. The ranks of the two models are taken from their profiles.
+    """
+    a, b = left.canonical.chain, right.canonical.chain
+    left_is_smaller, fresh = left.rank < right.rank, Witness("inclusion")
+    match evidence:
+        case Counts():
+            small, large = ordered(evidence.left, evidence.right, left_is_smaller)
+            return degrees_refute(small, large) and fresh.confirms(evidence, "tf", a, b)
+        case LargerProjection():
+            here, there = ordered(evidence.left, evidence.right, left_is_smaller)
+            return here > there and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
+        case FullImage():
+            larger = a if evidence.left_is_larger else b
+            free = FreeChoice(evidence.rank, evidence.free)
+            same = evidence.left_is_larger != left_is_smaller and _same_elsewhere(evidence.free, a, b)
+            return same and fresh.confirms(free, "tf", larger, larger)
+        case RelativeDegrees():
+            larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
+            here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
+            return evidence.left_is_larger != left_is_smaller and _fall_apart(smaller, larger, here, there)
+        case ByParts():
+            parts = (rational_part(a), rational_part(b))
+            return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)
+        case FibreAt():
+            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
+        case Solved() | Refuted():
+            plain = isinstance(evidence, Solved) or not evidence.tangent
+            return evidence.left_given == left_is_smaller and plain and fresh.confirms(evidence, "tf", a, b)
+
+
+def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
+    """Ranks of named invariants of both chains at fresh points; None if they have different numbers of poles."""
+    seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
+    here, there = (max(s.rank(tuple(i for i, x in enumerate(s.labels) if x in rows)) for s in each) for each in seen)
+    poles = {sum(x[0] == "a" for x in each[0].labels) for each in seen}
+    return (here, there) if len(poles) == 1 else None
+
+
+def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
+    """Whether all invariants but the free ones have the same values in both chains at fresh points, absent ones zero."""
+    seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
+    values = [[dict(zip(s.labels, s.values, strict=True)) for s in each] for each in seen]
+    poles = {sum(x[0] == "a" for x in each[0]) for each in values}
+    labels = {*values[0][0], *values[1][0]} - set(free)
+    return len(poles) == 1 and all(x.get(n, 0) == y.get(n, 0) for x, y in zip(*values, strict=True) for n in labels)
+
+
+def _fall_apart(small: Chain, large: Chain, here: int, there: int) -> bool:
+    """Whether, written out, the first one's relative degree is `here` at least, the second one's always `there`, smaller.
+
+    That is so if both leading coefficients are products of elements.
+    """
+    one, other = (coefficient_map(_receptance(c)) for c in (small, large))
+    (low, poles), (top, others) = one.degrees, other.degrees
+    products = len(other.numerator[top]) == 1 == len(other.denominator[-1])
+    return products and poles - low >= here > there == others - top
+
+
+def _receptance(chain: Chain) -> Structure:
+    """The structure with a sensor of position, without dead time."""
+    return replace(chain, sensor=Sensor.POSITION, dead_time=False).structure
