@@ -1,0 +1,201 @@
+"""Bode diagram of data and model, as in Figs. 3 and 4 of the paper: asymptotes, resonances and antiresonances marked."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, log, pi, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from disting.fit.estimate import Task
+from disting.fit.export import predicted
+from disting.fit.modes import Result
+from disting.fit.plant import Complex, Real
+from disting.fit.select import Candidate
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.report.fit.axes import degrees, logarithmic, spread
+from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.words import name, readable, response_unit, result_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+POINTS = 1200  # of the model's line
+PEAK = 1 / sqrt(2)  # damping ratio from which on a second-order factor has no extremum
+HIGHEST = 20.0  # phases are shown below this angle and 90 for each differentiation [degree]
+EDGE = 1.02  # the diagram is this much wider than the data, on either side
+LABEL = 0.085  # room of a label, in widths of the diagram
+SIGNS = {"antiresonance": "▽", "resonance": "△"}
+MARKERS = {"antiresonance": "v", "resonance": "^"}
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A resonance or antiresonance [Hz] that shows in the measured band."""
+
+    kind: str
+    frequency: float
+
+    @property
+    def label(self) -> str:
+        """Sign and frequency."""
+        return f"{SIGNS[self.kind]} {readable(self.frequency)} Hz"
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Measured points beside the model's line, whose phase they follow."""
+
+    label: str
+    measured: FrequencyResponse
+    tone: Tone
+    marker: str
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """The model at rising angular frequencies [rad/s], its phase [degree] without jumps."""
+
+    omega: Real
+    G: Complex
+    phase: Real
+
+    def phase_of(self, measured: FrequencyResponse) -> Real:
+        """Phase of the data [degree]: that of the model and the difference arg(G/G_model), which is free of jumps."""
+        at = np.searchsorted(self.omega, measured.omega)
+        return np.asarray(self.phase[at] + np.degrees(np.angle(measured.G / self.G[at])))
+
+
+def bode(
+    candidate: Candidate, task: Task, results: Sequence[Result], train: FrequencyResponse, test: FrequencyResponse | None = None
+) -> Drawn:
+    """Training and test data, coherence where there is one, the model, its inertia asymptotes and its resonances."""
+    series = [Series("training data", train, Tone.FIRST, "o")]
+    series += [Series("test data", test, Tone.SECOND, "x")] if test is not None else []
+    line = model_line(candidate, task, [s.measured for s in series])
+    strips = any(s.measured.coherence is not None for s in series)
+
+    def draw(figure: "Figure") -> None:
+        panels = figure.subplots(2 + strips, 1, sharex=True, height_ratios=[3, 1.8, 0.7][: 2 + strips])
+        low, high = line.omega[0] / (2 * pi) / EDGE, line.omega[-1] / (2 * pi) * EDGE
+        panels[0].set_xscale("log")
+        panels[0].set_xlim(low, high)
+        logarithmic(panels[-1].xaxis, low, high)
+        _amplitude(panels[0], line, series, asymptotes(candidate.chain, results, line.omega, train))
+        _phase(panels[1], line, series)
+        if strips:
+            _coherence(panels[2], series)
+        _marks(panels[0], panels[1], line, marks(results, line.omega))
+        panels[-1].set_xlabel("Frequency [Hz]")
+        figure.suptitle(f"Measured response and model: {name(candidate.chain)}", x=0.01, ha="left", size=10.5, weight="bold")
+        figure.legend(loc="outside lower center", ncols=4, columnspacing=2)
+
+    said = ", ".join(f"{m.kind} {readable(m.frequency)} Hz" for m in marks(results, line.omega))
+    return drawn("bode", f"Bode diagram of {name(candidate.chain)} and the data. {said}", (9.4, 6.4 + 0.8 * strips), draw)
+
+
+def model_line(candidate: Candidate, task: Task, measured: Sequence[FrequencyResponse]) -> Line:
+    """The model between the lowest and the highest measured line, at every measured line too."""
+    lines = np.concatenate([m.omega for m in measured])
+    omega = np.unique(np.concatenate([lines, np.geomspace(lines.min(), lines.max(), POINTS)[1:-1]]))
+    response = predicted(candidate.chain, candidate.estimate.parameters, omega, task.sign)
+    phase = np.degrees(np.unwrap(np.angle(response)))
+    highest = HIGHEST + 90 * candidate.chain.sensor.order
+    return Line(omega, response, phase - 360 * ceil((phase.max() - highest) / 360))
+
+
+def marks(results: Sequence[Result], omega: Real) -> list[Mark]:
+    """The resonances and antiresonances in the measured band that are damped little enough to show, by rising frequency."""
+    values = {r.name: r.value for r in results}
+    low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
+    found = [
+        Mark(kind, value)
+        for key, value in values.items()
+        for kind in MARKERS
+        if key.startswith(kind) and low <= value <= high and values[f"damping ratio of {key}"] < PEAK
+    ]
+    return sorted(found, key=lambda m: m.frequency)
+
+
+def asymptotes(chain: Chain, results: Sequence[Result], omega: Real, measured: FrequencyResponse) -> list[tuple[str, Real]]:
+    """Label and amplitude of omega^(n-2)/inertia: all masses move together at low, the motor alone at high frequencies.
+
+    Only where the response tends to them: a free chain, force and sensor against the ground, for the motor's at one mass.
+    """
+    inertias = {r.name: r for r in results}
+    free = chain.gap == 0 and chain.act_minus == 0 and chain.meas_minus == 0
+    wanted = ["total inertia"] * free + ["motor inertia"] * (free and chain.collocated)
+    return [
+        (f"{key} {readable(inertias[key].value)} {result_unit(inertias[key], measured)}", _inertia(inertias[key], chain, omega))
+        for key in wanted
+        if key in inertias
+    ]
+
+
+def _inertia(found: Result, chain: Chain, omega: Real) -> Real:
+    return np.asarray(omega ** (chain.sensor.order - 2) / found.value)
+
+
+def _amplitude(panel: "Axes", line: Line, series: Sequence[Series], inertias: Sequence[tuple[str, Real]]) -> None:
+    hertz = line.omega / (2 * pi)
+    for s in series:
+        _points(panel, s, np.abs(s.measured.G), label=s.label)
+    panel.semilogy(hertz, np.abs(line.G), color=Tone.INK, linewidth=1.5, label="model", zorder=3)
+    for (label, values), dashes in zip(inertias, ((0, (6, 3)), (0, (1.5, 2))), strict=False):
+        panel.semilogy(hertz, values, color=Tone.MUTED, linestyle=dashes, linewidth=1.2, label=label, zorder=1.5)
+    shown = np.concatenate([np.abs(line.G), *(np.abs(s.measured.G) for s in series)])
+    low, high = shown.min() / 1.4, shown.max() * 1.4
+    panel.set_ylim(low, high)
+    logarithmic(panel.yaxis, low, high)
+    of = response_unit(series[0].measured)
+    panel.set_ylabel(f"Amplitude [{of}]" if of else f"Amplitude, {series[0].measured.sensor.value} per input")
+
+
+def _phase(panel: "Axes", line: Line, series: Sequence[Series]) -> None:
+    for s in series:
+        _points(panel, s, line.phase_of(s.measured))
+    panel.plot(line.omega / (2 * pi), line.phase, color=Tone.INK, linewidth=1.5, zorder=3)
+    degrees(panel.yaxis, float(line.phase.max() - line.phase.min()))
+    panel.set_ylabel("Phase")
+
+
+def _coherence(panel: "Axes", series: Sequence[Series]) -> None:
+    for s in series:
+        if s.measured.coherence is not None:
+            _points(panel, s, s.measured.coherence)
+    panel.set_ylim(0, 1.08)
+    panel.set_yticks([0, 0.5, 1])
+    panel.set_ylabel("Coherence")
+
+
+def _points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
+    panel.plot(
+        s.measured.frequency,
+        values,
+        linestyle="none",
+        marker=s.marker,
+        markersize=3.6 if s.marker == "o" else 4.6,
+        markerfacecolor="none",
+        markeredgecolor=s.tone,
+        markeredgewidth=0.9,
+        label=label,
+        zorder=2,
+    )
+
+
+def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark]) -> None:
+    """Signs on the model's line, thin lines through both panels, and labels above that keep their distance."""
+    low, high = top.get_xlim()
+    places = [log(m.frequency / low) / log(high / low) for m in found]
+    labels = spread(places, min(LABEL, 1 / max(len(found), 1)))
+    for kind, marker in MARKERS.items():
+        at = [m.frequency for m in found if m.kind == kind]
+        heights = np.interp(np.array(at), line.omega / (2 * pi), np.abs(line.G))
+        top.plot(at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=kind if at else "")
+    for mark, place, label in zip(found, places, labels, strict=True):
+        for panel in (top, below):
+            panel.axvline(mark.frequency, color=Tone.MUTED, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1)
+        top.plot([place, label], [1.0, 1.035], transform=top.transAxes, color=Tone.MUTED, linewidth=0.7, clip_on=False)
+        top.text(label, 1.045, mark.label, transform=top.transAxes, ha="center", va="bottom", size=8.5)

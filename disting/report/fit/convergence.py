@@ -1,0 +1,101 @@
+"""Whether the optimum is one: costs that all starts reached, and profiles of single parameters."""
+
+from collections.abc import Sequence
+from math import ceil, isfinite
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from disting.fit.estimate import REACHED, Task
+from disting.fit.select import Candidate
+from disting.fit.sweep import Profile
+from disting.report.fit.axes import logarithmic
+from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.words import percent, readable, unit_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LOWEST = 1e-12  # of the highest cost: what is below is drawn here, a perfect fit too
+COLUMNS = 3  # of the profiles
+
+
+def hits(candidate: Candidate) -> int:
+    """Number of starts that reached the best cost."""
+    return round(candidate.estimate.hit_rate * len(candidate.estimate.costs))
+
+
+def hits_in_words(candidate: Candidate) -> str:
+    """How many starts reached the best cost."""
+    found = candidate.estimate
+    said = f"{hits(candidate)} of {len(found.costs)} starts ({percent(found.hit_rate)})"
+    return f"{said} within {percent(REACHED)} of the best cost"
+
+
+def waterfall(candidate: Candidate) -> Drawn:
+    """Cost of each start after the rough search, in rising order; a long flat stretch at the bottom tells of a safe optimum."""
+    costs = np.array([cost for cost in candidate.estimate.costs if isfinite(cost)])
+    hit = np.arange(len(costs)) < hits(candidate)
+    highest = float(costs.max(initial=candidate.j_train))
+    best = max(candidate.j_train, LOWEST * highest)
+    title = f"Cost from each start, sorted: {hits_in_words(candidate)}"
+
+    def draw(figure: "Figure") -> None:
+        panel = figure.subplots()
+        place = np.arange(1, len(costs) + 1)
+        shown = np.maximum(costs, best)
+        for chosen, inside, edge, label in (
+            (hit, Tone.FIRST, Tone.FIRST, "reached the best cost"),
+            (~hit, "none", Tone.SECOND, "stopped above it"),
+        ):
+            if chosen.any():
+                panel.semilogy(place[chosen], shown[chosen], "o", ms=4.5, mfc=inside, mec=edge, label=label)
+        panel.axhline(best, color=Tone.INK, linewidth=1, label=f"best cost J = {readable(candidate.j_train)}", zorder=1)
+        edge = max(1.3, (highest / best) ** 0.04)
+        low, high = best / edge, highest * edge
+        panel.set_ylim(low, high)
+        panel.set_xlim(0, len(costs) + 1)
+        logarithmic(panel.yaxis, low, high)
+        panel.set_xlabel("Start")
+        panel.set_ylabel("Cost J on training data")
+        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
+        figure.legend(loc="outside lower center", ncols=3)
+
+    return drawn("starts", title, (9.4, 3.5), draw)
+
+
+def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]) -> Drawn:
+    """Smallest cost at each value of a parameter, beside the parabola that its standard error stands for."""
+    rows = ceil(len(profiles) / COLUMNS)
+    title = "Smallest cost at each value of one parameter, all others fitted anew"
+
+    def draw(figure: "Figure") -> None:
+        panels = figure.subplots(rows, COLUMNS, squeeze=False).ravel()
+        for panel, found in zip(panels, profiles, strict=False):
+            _profile(panel, candidate, task, found)
+        for panel in panels[len(profiles) :]:
+            panel.remove()
+        panels[0].plot([], [], "-o", ms=4, color=Tone.FIRST, label="profile")
+        panels[0].plot([], [], color=Tone.SECOND, linestyle=(0, (5, 3)), label="as the standard error predicts")
+        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
+        figure.supylabel("Cost J on training data", size=9)
+        handles, labels = panels[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+
+    return drawn("profiles", title, (9.4, 1.0 + 2.1 * rows), draw)
+
+
+def _profile(panel: "Axes", candidate: Candidate, task: Task, found: Profile) -> None:
+    """J(p) and J (1 + (ln p/p0)^2 / (sigma^2 (n_y - N_p))), what it would be were the model linear in ln p."""
+    best, sigma = candidate.estimate.parameters[found.name], candidate.practical.relative_errors[found.name]
+    freedom = task.cost.n_residuals - candidate.n_parameters
+    fine = np.geomspace(found.values[0], found.values[-1], 60)
+    if np.isfinite(sigma) and freedom > 0:
+        parabola = candidate.j_train * (1 + (np.log(fine / best) / sigma) ** 2 / freedom)
+        panel.plot(fine, parabola, color=Tone.SECOND, linestyle=(0, (5, 3)), linewidth=1.2)
+    panel.plot(found.values, found.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2)
+    panel.axvline(best, color=Tone.MUTED, linewidth=0.8)
+    panel.set_title(f"{found.name} [{unit_of(found.name[0], task.cost.measured)}]", weight="normal")
+    panel.ticklabel_format(axis="y", useOffset=False)
+    panel.locator_params(axis="x", nbins=4)

@@ -1,0 +1,263 @@
+"""A selection as one HTML page that needs nothing else: the result first, then why, then how sure."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+from markupsafe import Markup
+
+import disting
+from disting.fit.alternatives import Alternative
+from disting.fit.estimate import Task
+from disting.fit.modes import Result
+from disting.fit.practical import Thresholds
+from disting.fit.select import Candidate, Selection
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.report.drawing import draw
+from disting.report.environment import render
+from disting.report.fit.convergence import hits, hits_in_words
+from disting.report.fit.style import Drawn
+from disting.report.fit.thresholds import TITLES
+from disting.report.fit.words import cost_in_words, name, percent, readable, result_unit, unit_of, with_error
+from disting.report.scene import PAGE_PALETTE
+from disting.report.svg import body, number
+from disting.report.words import listed, plural
+from disting.verdict import Relation
+
+FIRST = 30  # rows of candidates that are shown at once
+NEAREST = 5  # candidates that are named where none is admissible
+NEVER = (
+    "These structures have the same transfer functions for generic complex parameter values. No data with this force and "
+    "sensor tell them from the selected one, unless the values that they would need are not positive; another place "
+    "for the sensor may:"
+)
+UNKNOWN = "Whether these data can tell these structures from the selected one depends on the parameters, or is not known:"
+CERTAIN = 2  # starts that reach the best cost, at least
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of a table of numbers: what, value with standard error, unit, standard error in percent, a remark."""
+
+    name: str
+    value: str
+    unit: str
+    percent: str
+    remark: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A criterion of the shown candidate and its threshold."""
+
+    title: str
+    value: float
+    threshold: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is fulfilled."""
+        return self.value <= self.threshold
+
+
+def fit_page(
+    selection: Selection,
+    results: Sequence[Result],
+    figures: Sequence[Drawn],
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+) -> str:
+    """HTML of a selection; `results` and `figures` are those of `shown(selection)`, the Bode diagram first."""
+    candidate = shown(selection)
+    return render(
+        "fit.html",
+        selection=selection,
+        candidate=candidate,
+        title=name(candidate.chain),
+        drawing=drawing(candidate.chain),
+        description=draw(candidate.chain).title,
+        results=[result_row(r, train) for r in results],
+        parameters=parameter_rows(candidate, selection.task, train),
+        bode=figures[0],
+        figures=figures[1:],
+        limits=limits(candidate, selection.thresholds),
+        limits_of=lambda c: limits(c, selection.thresholds),
+        weakest=weakest(candidate),
+        nearest=nearest(selection)[:NEAREST],
+        alternatives=alternatives(selection),
+        others=rivals(selection),
+        reasoning=reasoning(selection),
+        measured="J test" if test is not None else "J cross-validated",
+        cost=cost_in_words(selection.task.cost),
+        data=[("Training", train)] + ([("Test", test)] if test is not None else []),
+        choices=choices(selection),
+        first=FIRST,
+        name=name,
+        readable=readable,
+        percent=percent,
+        plural=plural,
+    )
+
+
+def shown(selection: Selection) -> Candidate:
+    """The candidate that a report describes: the selected one, else the nearest to being admissible."""
+    return selection.selected or nearest(selection)[0]
+
+
+def nearest(selection: Selection) -> list[Candidate]:
+    """Excluded candidates, those first whose worst criterion exceeds its threshold by the smallest factor."""
+    return sorted((c for c in selection.candidates if not c.admissible), key=lambda c: _excess(c, selection.thresholds))
+
+
+def _excess(candidate: Candidate, thresholds: Thresholds) -> float:
+    return max(limit.value / limit.threshold for limit in limits(candidate, thresholds))
+
+
+def limits(candidate: Candidate, thresholds: Thresholds) -> list[Limit]:
+    """The three criteria."""
+    names = [f.name for f in fields(thresholds)]
+    return [Limit(TITLES[n], getattr(candidate.practical, n), getattr(thresholds, n)) for n in names]
+
+
+def drawing(chain: Chain) -> Markup:
+    """The chain as an engineer sketches it."""
+    scene = draw(chain)
+    box = f"0 0 {number(scene.width)} {number(scene.height)}"
+    return Markup('<svg class="chain" width="{}" viewBox="{}" role="img" aria-label="{}">{}</svg>').format(
+        number(1.4 * scene.width), box, scene.title, Markup(body(scene, PAGE_PALETTE))
+    )
+
+
+def result_row(found: Result, measured: FrequencyResponse) -> Row:
+    """A physical result in the units of the data."""
+    share = found.standard_error / abs(found.value) if found.value else 0.0
+    low, high = measured.frequency[0], measured.frequency[-1]
+    outside = found.unit == "Hz" and not low <= found.value <= high
+    remark = "outside the measured band" if outside else ""
+    what = "its damping ratio" if found.name.startswith("damping ratio") else found.name  # follows its mode
+    return Row(what, with_error(found.value, found.standard_error), result_unit(found, measured), percent(share), remark)
+
+
+def parameter_rows(candidate: Candidate, task: Task, measured: FrequencyResponse) -> list[Row]:
+    """Parameters in the order of the chain."""
+    values = candidate.estimate.parameters
+    return [_parameter(candidate, task, n, value, unit_of(n[0], measured)) for n, value in values.items()]
+
+
+def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) -> Row:
+    if n in task.fixed:
+        return Row(n, readable(value, 6), of, "", "fixed")
+    share = candidate.practical.relative_errors[n]
+    return Row(n, with_error(value, share * value), of, percent(share), "at its bound" if n in candidate.at_bound else "")
+
+
+def weakest(candidate: Candidate) -> str:
+    """The combination of parameters that the data determine least, such as "ln k12 + 0.81 ln m2"."""
+    terms = sorted(candidate.practical.worst_direction.items(), key=lambda row: -abs(row[1]))
+    texts = [("− " if v < 0 else "+ ") + (f"{abs(v):.2g} " if abs(v) < 0.995 else "") + f"ln {n}" for n, v in terms]
+    return " ".join(texts).removeprefix("+ ")
+
+
+def reasoning(selection: Selection) -> list[tuple[str, str]]:
+    """Keyword and one sentence each: how the cost was validated, what noise may do, why this one, how safe the optimum is."""
+    typical = selection.repeatability.typical
+    rows = [
+        ("Validation", _validation(selection)),
+        (
+            "Repeatability",
+            f"Amplitude and phase of a line scatter by about {percent(typical)} and {readable(typical, 2)} rad, "
+            f"known from {selection.repeatability.source}.",
+        ),
+        ("Margin", _margin(selection)),
+        ("Akaike weights", _akaike(selection)),
+        ("Starts", _starts(shown(selection))),
+        ("Standard errors", "They take the residuals as independent: what the model leaves out counts as noise."),
+    ]
+    return [(keyword, sentence) for keyword, sentence in rows if sentence]
+
+
+def alternatives(selection: Selection) -> list[tuple[str, list[tuple[str, str]]]]:
+    """What the same data can come from, and what is not decided: an introduction, then names and reasons."""
+    never, unknown = list[tuple[str, str]](), list[tuple[str, str]]()
+    for a in selection.alternatives:
+        (never if a.relation is Relation.INDISTINGUISHABLE else unknown).append((name(a.chain), _reason(a, selection)))
+    return [(NEVER, never), (UNKNOWN, unknown)]
+
+
+def _reason(found: Alternative, selection: Selection) -> str:
+    """The verdict's sentence with short names; the longer one first, of which the other may be the beginning."""
+    sentence, chains = found.sentence, [found.chain, shown(selection).chain]
+    for chain in sorted(chains, key=lambda c: -len(str(c))):
+        sentence = sentence.replace(str(chain), name(chain))
+    return sentence
+
+
+def rivals(selection: Selection) -> int:
+    """Number of other candidates with as many masses, fitted or not."""
+    chains = [*(c.chain for c in selection.candidates), *selection.same_as]
+    return sum(c.n_masses == shown(selection).chain.n_masses for c in chains) - 1
+
+
+def _validation(selection: Selection) -> str:
+    if selection.test is not selection.task.cost.measured:
+        return "The cost that decides is measured on test data, which no fit has seen."
+    return f"The cost that decides comes from {selection.validation}: each line is predicted by a fit without it."
+
+
+def _margin(selection: Selection) -> str:
+    """Why the selected candidate and not the one with the lowest cost."""
+    chosen = selection.selected
+    if chosen is None:
+        return ""
+    excluded, best = _excluded(selection, chosen), next(c for c in selection.candidates if c.admissible)
+    if best is chosen:
+        return f"The selected candidate has the lowest cost of all admissible ones.{excluded}"
+    fewer = plural(best.n_parameters - chosen.n_parameters, "parameter")
+    return (
+        f"{name(best.chain)} has the lowest cost of all admissible ones, {readable(best.j_test)}; the selected candidate has "
+        f"{fewer} fewer and loses {readable(chosen.j_test - best.j_test)}, less than the {readable(selection.margin)} that "
+        f"noise alone may make (two standard deviations of the difference).{excluded}"
+    )
+
+
+def _excluded(selection: Selection, chosen: Candidate) -> str:
+    """How many excluded candidates fit better, and how much: far lower costs call for other thresholds or candidates."""
+    lower = [c.j_test for c in selection.candidates if not c.admissible and c.j_test < chosen.j_test]
+    if not lower:
+        return ""
+    reach = f"{plural(len(lower), 'excluded candidate')} reach{'es' * (len(lower) == 1)}"
+    return f" {reach} a lower one, down to {readable(min(lower))}, by parameters that these data do not determine."
+
+
+def _akaike(selection: Selection) -> str:
+    if selection.selected is None:
+        return ""
+    heaviest = max(selection.candidates, key=lambda c: c.akaike_weight)
+    said = "They compare the admissible candidates on the training data alone, as if the residuals were independent noise"
+    if heaviest is selection.selected:
+        return f"{said}; the selected candidate has the largest."
+    largest = readable(heaviest.akaike_weight, 2)
+    return f"{said}; {name(heaviest.chain)} has the largest ({largest}), but the validation decides."
+
+
+def _starts(candidate: Candidate) -> str:
+    """Hit rate, with a warning where the optimum was reached from hardly any start."""
+    rare = " Reached so rarely, it may not be the lowest." if hits(candidate) < CERTAIN else ""
+    return f"{hits_in_words(candidate)} after the rough search.{rare}"
+
+
+def choices(selection: Selection) -> list[tuple[str, str]]:
+    """What was set, for the foot of the page."""
+    task = selection.task
+    bounds = [f"{n} {readable(low)}..{readable(high)}" for n, (low, high) in sorted(task.bounds.items())]
+    fixed = [f"{n} = {readable(value, 6)}" for n, value in sorted(task.fixed.items())]
+    rows = [
+        ("Cost", f"J adds {cost_in_words(task.cost)}"),
+        ("Weights of lines", "equal" if task.cost.lines is None else "one for each line"),
+        ("Sign of the sensor", f"{task.sign:+d}".replace("-", "−")),
+        ("Bounds", listed(bounds) or "none"),
+        ("Fixed", listed(fixed) or "none"),
+        ("Seed", task.seed),
+        ("disting", disting.__version__),
+    ]
+    return rows

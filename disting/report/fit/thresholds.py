@@ -1,0 +1,85 @@
+"""What each criterion alone would select at other thresholds: Figs. 5 to 8 of the paper."""
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from disting.fit.plant import Real
+from disting.fit.practical import Thresholds
+from disting.fit.select import Candidate
+from disting.fit.sweep import CRITERIA, Sweep, sweep
+from disting.report.fit.axes import logarithmic
+from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.words import readable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+TITLES = {
+    "condition_index": "largest condition index",
+    "importance_ratio": "largest / smallest importance (PII)",
+    "collinearity": "collinearity index",
+}
+
+
+def parameters_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
+    """N_p of the best candidate that fulfils one criterion alone, against its threshold."""
+    title = "Parameters of the best model that fulfils one criterion alone"
+    return _panels("parameters-by-threshold", title, "Parameters", candidates, thresholds, lambda s: s.n_parameters)
+
+
+def models_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
+    """Number of candidates that fulfil one criterion alone, against its threshold."""
+    title = f"Models that fulfil one criterion alone, of {len(candidates)} fitted"
+    return _panels("models-by-threshold", title, "Models", candidates, thresholds, lambda s: s.fulfilling)
+
+
+def _panels(
+    name: str,
+    title: str,
+    counted: str,
+    candidates: Sequence[Candidate],
+    thresholds: Thresholds,
+    values: Callable[[Sweep], Real],
+) -> Drawn:
+    """One panel a criterion, the threshold in use dashed, its value written beside it."""
+
+    def draw(figure: "Figure") -> None:
+        panels = figure.subplots(1, len(CRITERIA), sharey=True)
+        for panel, criterion in zip(panels, CRITERIA, strict=True):
+            found = sweep(candidates, criterion)
+            _steps(panel, found.thresholds, values(found), getattr(thresholds, criterion))
+            panel.set_title(TITLES[criterion], weight="normal")
+            panel.set_xlabel("Threshold")
+        panels[0].set_ylabel(counted)
+        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
+
+    return drawn(name, title, (9.4, 3.1), draw)
+
+
+def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:
+    """A staircase; nothing where no candidate is left. A threshold beyond the axis is written at its end."""
+    from matplotlib.ticker import MaxNLocator
+
+    shown = np.where(counts > 0, counts, np.nan)
+    panel.set_xscale("log")
+    panel.set_xlim(float(thresholds[0]), float(thresholds[-1]))
+    panel.set_ylim(0, max(float(counts.max()) * 1.18, 1.0))
+    panel.plot(thresholds, shown, color=Tone.FIRST, linewidth=1.8, drawstyle="steps-post")
+    if thresholds[0] <= used <= thresholds[-1]:
+        panel.axvline(used, color=Tone.SECOND, linewidth=1.2, linestyle=(0, (5, 3)))
+    panel.yaxis.set_major_locator(MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10]))
+    logarithmic(panel.xaxis, 1.0, 1e4)
+    at = int(np.searchsorted(thresholds, used, side="right")) - 1
+    if 0 <= at < len(thresholds) - 1 and counts[at] > 0:
+        panel.plot(used, counts[at], "o", ms=6, mfc=Tone.PAPER, mec=Tone.SECOND, mew=1.4, zorder=4)
+        note = f"{counts[at]:.0f} at {readable(used)}"
+    else:
+        note = f"in use: {readable(used)}"
+    side, place = "right" if used > 100 else "left", min(max(used, thresholds[0]), thresholds[-1])
+    panel.annotate(
+        note, (place, 0.03), xycoords=("data", "axes fraction"), xytext=(-5 if side == "right" else 5, 0),
+        textcoords="offset points", ha=side, va="bottom", color=Tone.SECOND, size=8.5,
+    )  # fmt: skip

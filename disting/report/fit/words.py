@@ -1,0 +1,161 @@
+"""Numbers, units and names of models as pages and figures of a fit write them."""
+
+from math import floor, inf, isfinite, log10, pi
+
+from disting.fit.cost import Case, Cost
+from disting.fit.modes import Result
+from disting.fit.select import Candidate
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain, Sensor
+from disting.report.words import plural
+
+NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+MOTIONS = {"m": Sensor.ACCELERATION, "d": Sensor.VELOCITY, "b": Sensor.VELOCITY, "k": Sensor.POSITION}
+SIMPLE = {  # what a quotient of units is usually called
+    "N/(m/s²)": "kg",
+    "N/(m/s)": "N s/m",
+    "Nm/(rad/s²)": "kg m²",
+    "Nm/(rad/s)": "N m s/rad",
+    "N m/(rad/s²)": "kg m²",
+    "N m/(rad/s)": "N m s/rad",
+}
+CASES = {
+    Case.COMPLEX: "the squared distances in the complex plane",
+    Case.AMPLITUDE: "the squares of the amplitude errors and of the phase errors [rad]",
+    Case.LOGARITHM: "the squares of the amplitude errors [decades] and of the phase errors [rad]",
+}
+
+
+def readable(value: float, digits: int = 3, *, all_digits: bool = False) -> str:
+    """A number as one writes it by hand; `all_digits` keeps zeros at the end, for columns of a table.
+
+    >>> readable(0.63528), readable(12345.6), readable(1.0e-4), readable(6.2e26), readable(inf), readable(30.0)
+    ('0.635', '1.23·10⁴', '10⁻⁴', '6.2·10²⁶', '∞', '30')
+    """
+    if not isfinite(value):
+        return "∞" if value == inf else "–"
+    if value == 0 or 1e-3 <= abs(value) < 1e4:
+        text = plain(value, digits)
+        return text if all_digits else _shortened(text)
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    mantissa = mantissa if all_digits else _shortened(mantissa)
+    power = f"10{str(int(exponent)).translate(RAISED)}"
+    return power if mantissa == "1" else f"{mantissa}·{power}"
+
+
+def plain(value: float, digits: int) -> str:
+    """Significant digits without an exponent."""
+    if value == 0:
+        return "0"
+    decimals = digits - 1 - floor(log10(abs(value)))
+    return f"{round(value, decimals):.{max(decimals, 0)}f}"
+
+
+def _shortened(text: str) -> str:
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def with_error(value: float, error: float) -> str:
+    """Value and standard error, rounded to two digits of the error.
+
+    >>> with_error(53.8927, 0.0448), with_error(0.00478339, 0.0000182), with_error(548.966, 2.596), with_error(2.0, inf)
+    ('53.893 ± 0.045', '(4.783 ± 0.018)·10⁻³', '549.0 ± 2.6', '2 (not determined)')
+    """
+    if not isfinite(error) or error > abs(value) * 10:
+        return f"{readable(value)} (not determined)"
+    if error <= NEGLIGIBLE * abs(value):
+        return readable(value, 8)
+    size = floor(log10(abs(value)))
+    power = size if not -3 < size < 5 else 0
+    decimals = max(1 - floor(log10(error / 10.0**power)), 0)
+    both = f"{value / 10.0**power:.{decimals}f} ± {error / 10.0**power:.{decimals}f}"
+    return f"({both})·10{str(power).translate(RAISED)}" if power else both
+
+
+def percent(share: float) -> str:
+    """A share in percent.
+
+    >>> percent(0.0038), percent(0.0717), percent(1.0), percent(inf)
+    ('0.38 %', '7.2 %', '100 %', '∞')
+    """
+    if 0 < share < NEGLIGIBLE:
+        return f"< {readable(100 * NEGLIGIBLE)} %"
+    return f"{readable(100 * share, 2)} %" if isfinite(share) else "∞"
+
+
+def name(chain: Chain) -> str:
+    """A candidate in a few words; ports are named unless force and sensor sit at mass 1.
+
+    >>> name(Chain(2, damped=True, ground_dampers=(2,), dead_time=True)), name(Chain(1))
+    ('2 masses, damper b2, dead time', '1 mass')
+    """
+    said = [plural(chain.n_masses, "mass", "masses")]
+    if chain.indices[1:] != Chain(chain.n_masses).indices[1:]:
+        said += [f"gap {chain.gap}–{chain.gap + 1}"] * bool(chain.gap)
+        said.append(f"force {_port(chain.act_minus, chain.act_plus)}")
+        said.append(f"sensor {_port(chain.meas_minus, chain.meas_plus)}")
+    dampers = ", ".join(f"b{i}" for i in chain.ground_dampers)
+    said += [f"damper{'s' * (len(chain.ground_dampers) > 1)} {dampers}"] * bool(dampers)
+    return ", ".join(said + ["lag"] * chain.lag + ["dead time"] * chain.dead_time)
+
+
+def _port(minus: int, plus: int) -> str:
+    return f"{minus}–{plus}" if minus else f"{plus}"
+
+
+def unit_of(kind: str, measured: FrequencyResponse) -> str:
+    """Unit of a mass, spring or damper, m, k, d or b, that the units of the data give, in words where they give none; else s.
+
+    >>> import numpy as np
+    >>> drive = FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex), input=("", "Nm"), output=("", "rad/s^2"))
+    >>> unit_of("m", drive), unit_of("k", drive), unit_of("d", drive), unit_of("T", drive)
+    ('kg m²', 'Nm/rad', 'N m s/rad', 's')
+    """
+    if kind not in MOTIONS:
+        return "s"
+    motion = measured.to_quantity(MOTIONS[kind]).output.unit
+    if not measured.input.unit or not motion:
+        return f"input per {MOTIONS[kind]}"
+    quotient = f"{measured.input.unit}/({typeset(motion)})" if "/" in motion else f"{measured.input.unit}/{motion}"
+    return SIMPLE.get(quotient, quotient)
+
+
+def result_unit(found: Result, measured: FrequencyResponse) -> str:
+    """Unit of a physical result."""
+    if found.name.endswith("inertia"):
+        return unit_of("m", measured)
+    return unit_of("k", measured) if found.name.startswith("stiffness") else found.unit
+
+
+def response_unit(measured: FrequencyResponse) -> str:
+    """Unit of G, "" where the data do not tell."""
+    force, motion = measured.input.unit, measured.output.unit
+    return f"{typeset(motion)} per {force}" if force and motion else ""
+
+
+def typeset(text: str) -> str:
+    """A unit with raised powers.
+
+    >>> typeset("rad/s^2")
+    'rad/s²'
+    """
+    return text.replace("^2", "²").replace("^3", "³")
+
+
+def cost_in_words(cost: Cost) -> str:
+    """What J adds up.
+
+    >>> import numpy as np
+    >>> cost_in_words(Cost(FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex))))
+    'the squares of the amplitude errors [decades] and of the phase errors [rad], weighted π : 1'
+    """
+    first, second = cost.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
+    if first == second:
+        return CASES[cost.case]
+    return f"{CASES[cost.case]}, weighted {'π' if first == pi else readable(first)} : {readable(second)}"
+
+
+def violations(candidate: Candidate) -> str:
+    """The reasons why a candidate is excluded, in one text; "" if it is admissible."""
+    return "; ".join(candidate.reasons)

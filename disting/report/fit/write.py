@@ -1,0 +1,103 @@
+"""Writes the report of a selection into a folder: page, figures, data."""
+
+import csv
+import json
+from collections.abc import Iterator, Sequence
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+from disting.fit.export import candidate_to_dict, selection_to_dict
+from disting.fit.modes import Result, physical
+from disting.fit.select import Selection
+from disting.fit.sweep import Profile, profile
+from disting.measurement import FrequencyResponse
+from disting.report.fit.bode import bode
+from disting.report.fit.convergence import profile_panels, waterfall
+from disting.report.fit.page import fit_page, shown
+from disting.report.fit.sensitivity import collinearity_dots, importance_bars
+from disting.report.fit.style import Drawn
+from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
+from disting.report.fit.words import name
+
+COLUMNS = (
+    "n_masses", "gap", "actuator", "sensor", "ground_dampers", "lag", "delay", "n_parameters", "j_train", "j_test",
+    "condition_index", "pii_ratio", "collinearity", "akaike_weight", "hit_rate", "admissible", "reasons",
+)  # fmt: skip
+
+
+def write_fit_report(
+    selection: Selection,
+    folder: Path,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+    *,
+    profiles: Sequence[str] = (),
+) -> list[Path]:
+    """Write fit.html, its figures (SVG, PNG, PDF), fit.json and candidates.csv; the paths written, in order.
+
+    `train` and `test` are the data of the selection; `profiles` names parameters whose profiles are drawn, which takes a second
+    each. The same selection gives the same bytes. `folder` is made if it does not exist; other files in it stay as they are.
+    Raises InputError for the name of a parameter that the shown candidate does not have.
+    """
+    candidate = shown(selection)
+    found = [profile(candidate, selection.task, n) for n in profiles]
+    results = physical(candidate, selection.task)
+    figures = fit_figures(selection, results, train, test, found)
+    folder.mkdir(parents=True, exist_ok=True)
+    page = fit_page(selection, results, figures, train, test)
+    return [_written(folder / file, content) for file, content in _files(selection, page, figures)]
+
+
+def fit_figures(
+    selection: Selection,
+    results: Sequence[Result],
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+    profiles: Sequence[Profile] = (),
+) -> list[Drawn]:
+    """The figures of a selection: Bode diagram, criteria against thresholds, importance, collinearity, starts, profiles."""
+    candidate, task, thresholds = shown(selection), selection.task, selection.thresholds
+    drawn = [
+        bode(candidate, task, results, train, test),
+        parameters_by_threshold(selection.candidates, thresholds),
+        models_by_threshold(selection.candidates, thresholds),
+        importance_bars(candidate, thresholds),
+        collinearity_dots(candidate, task, thresholds),
+        waterfall(candidate),
+    ]
+    if profiles:
+        drawn.append(profile_panels(candidate, task, profiles))
+    return [figure for figure in drawn if figure is not None]
+
+
+def _files(selection: Selection, page: str, figures: Sequence[Drawn]) -> Iterator[tuple[str, bytes]]:
+    yield "fit.html", page.encode()
+    for figure in figures:
+        yield f"{figure.name}.svg", figure.svg
+        yield f"{figure.name}.png", figure.png
+        yield f"{figure.name}.pdf", figure.pdf
+    yield "fit.json", (json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    yield "candidates.csv", candidates_csv(selection).encode()
+
+
+def candidates_csv(selection: Selection) -> str:
+    """The candidates in the order of the cost on test, a line each; lists with blanks between; infinite numbers are empty."""
+    text = StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["rank", "name", *COLUMNS])
+    for rank, candidate in enumerate(selection.candidates, 1):
+        plain = candidate_to_dict(candidate)
+        table.writerow([rank, name(candidate.chain), *(_cell(plain[column]) for column in COLUMNS)])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    if isinstance(value, list):
+        return ("; " if any(isinstance(v, str) for v in value) else " ").join(map(str, value))
+    return "" if value is None else str(value).lower() if isinstance(value, bool) else value
+
+
+def _written(path: Path, content: bytes) -> Path:
+    path.write_bytes(content)
+    return path

@@ -1,0 +1,48 @@
+"""A measured two-mass drive, simulated: what both modules of tests look at."""
+
+import numpy as np
+import pytest
+
+from disting.fit.candidates import figure_1
+from disting.fit.export import predicted
+from disting.fit.practical import Thresholds
+from disting.fit.select import Selection, select
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+
+DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
+VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}  # antiresonance 33.8 Hz, resonance 58.5 Hz
+HOSTILE = """</script><img src=x onerror='alert(1)'>&amp;{{ 7*7 }} $x^2$ <!-- --"""
+
+
+def response(start: int, step: int, seed: int) -> FrequencyResponse:
+    """The drive between 5 and 200 Hz with 1 % noise."""
+    omega = 2 * np.pi * np.geomspace(5.0, 200.0, 90)[start::step]
+    noise = np.random.default_rng(seed).normal(size=(2, len(omega))) / 100
+    measured = predicted(DRIVE, VALUES, omega) * (1 + noise[0] + 1j * noise[1])
+    coherence = np.full(len(omega), 0.998)
+    signals = (("torque", "Nm"), (HOSTILE, "rad/s^2"))
+    return FrequencyResponse(omega, measured, None, coherence, DRIVE.sensor, *signals, HOSTILE)  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="session")
+def train() -> FrequencyResponse:
+    return response(0, 2, 1)
+
+
+@pytest.fixture(scope="session")
+def test() -> FrequencyResponse:
+    return response(1, 3, 2)
+
+
+@pytest.fixture(scope="session")
+def selection(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
+    return select(train, figure_1((1, 2)), test=test)
+
+
+@pytest.fixture(scope="session")
+def nothing(train: FrequencyResponse) -> Selection:
+    """No candidate is admissible, no test data, one parameter fixed, one at its bound."""
+    strict = Thresholds(condition_index=5.0, importance_ratio=10.0, collinearity=2.0)
+    candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag]
+    return select(train, candidates, thresholds=strict, fixed={"k12": 900.0}, bounds={"m1": (0.0, 0.009)})

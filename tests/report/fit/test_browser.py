@@ -1,0 +1,87 @@
+"""The page of a fit in a real browser: sort, scroll, print; nothing is fetched and nothing goes wrong."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from disting.fit.select import Selection
+from disting.measurement import FrequencyResponse
+from disting.report.fit import fit_page, waterfall
+from disting.report.fit.page import shown
+
+playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+pytestmark = pytest.mark.xdist_group("browser")
+CELL = ".candidates tbody tr:nth-child({}) td:nth-child({})"
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[object]:
+    with playwright.sync_playwright() as p:
+        if not CHROMIUM and not Path(p.chromium.executable_path).exists():
+            pytest.skip("no Chromium found, neither the system's nor Playwright's own")
+        chromium = p.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="module")
+def page(selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("browser") / "fit.html"
+    path.write_text(fit_page(selection, [], [waterfall(shown(selection))], train), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def tab(browser, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
+    """The page; at the end of the test: no message on the console, no request but for the file."""
+    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    opened, troubles, requests = context.new_page(), [], []
+    opened.on("console", lambda message: troubles.append(message.text))
+    opened.on("pageerror", lambda error: troubles.append(str(error)))
+    opened.on("request", lambda request: requests.append(request.url))
+    opened.goto(page.as_uri())
+    yield opened
+    assert troubles == []
+    assert requests == [page.as_uri()]
+    context.close()
+
+
+def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection) -> None:  # type: ignore[no-untyped-def]
+    def column(n: int) -> list[float]:
+        cells = tab.locator(f".candidates tbody tr td:nth-child({n})").all()
+        return [float(cell.get_attribute("data-value") or cell.inner_text()) for cell in cells]
+
+    for n, head in ((3, "Parameters"), (4, "J train"), (7, "PII ratio")):
+        before = column(n)
+        tab.get_by_role("button", name=head).click()
+        assert column(n) == sorted(before)
+        assert tab.locator('th[aria-sort="ascending"]').inner_text().startswith(head)
+        tab.get_by_role("button", name=head).click()
+        assert column(n) == sorted(before, reverse=True)
+    tab.get_by_role("button", name="Rank").click()
+    assert column(1) == list(range(1, len(selection.candidates) + 1))
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_page_never_scrolls_sideways(tab, width: int) -> None:  # type: ignore[no-untyped-def]
+    tab.set_viewport_size({"width": width, "height": 800})
+    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
+
+
+def test_figures_follow_light_and_dark(tab) -> None:  # type: ignore[no-untyped-def]
+    def paper() -> str:
+        return str(tab.evaluate("getComputedStyle(document.querySelector('.plot path')).fill"))
+
+    light = paper()
+    tab.emulate_media(color_scheme="dark")
+    assert (light, paper()) == ("rgb(255, 255, 255)", "rgb(26, 33, 41)")
+
+
+def test_reasons_open_on_demand(tab) -> None:  # type: ignore[no-untyped-def]
+    reasons = tab.locator(".candidates details").first
+    assert not reasons.locator("span").first.is_visible()
+    reasons.locator("summary").click()
+    assert "exceeds" in reasons.locator("span").first.inner_text()

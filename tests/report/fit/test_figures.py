@@ -1,0 +1,112 @@
+"""Figures show what was found, repeat byte by byte and leave no trace in matplotlib."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+from io import BytesIO
+
+import matplotlib
+import numpy as np
+import pytest
+from PIL import Image
+
+from disting.fit.modes import Result, physical
+from disting.fit.select import Selection
+from disting.fit.sweep import profile
+from disting.measurement import FrequencyResponse
+from disting.report.fit import bode, collinearity_dots, importance_bars, profile_panels, waterfall
+from disting.report.fit.bode import Mark, asymptotes, marks, model_line
+from disting.report.fit.style import VARIABLES, Drawn, Tone, drawn
+
+from .conftest import DRIVE, VALUES
+
+
+@pytest.fixture(scope="module")
+def figure(selection: Selection, train: FrequencyResponse, test: FrequencyResponse) -> Drawn:
+    assert selection.selected is not None
+    return bode(selection.selected, selection.task, physical(selection.selected, selection.task), train, test)
+
+
+def test_the_drive_is_found(selection: Selection) -> None:
+    assert selection.selected is not None
+    assert selection.selected.chain == DRIVE
+
+
+def test_files_are_what_they_claim(figure: Drawn) -> None:
+    assert ElementTree.fromstring(figure.svg).tag == "{http://www.w3.org/2000/svg}svg"
+    assert Image.open(BytesIO(figure.png)).width > 1500
+    assert figure.pdf.startswith(b"%PDF-") and b"CreationDate" not in figure.pdf
+    assert b"atplotlib" not in figure.png and b"<dc:date>" not in figure.svg
+
+
+def test_settings_of_the_user_neither_enter_nor_change(selection: Selection) -> None:
+    assert selection.selected is not None
+    before = waterfall(selection.selected)
+    with matplotlib.rc_context({"lines.linewidth": 9, "font.size": 20, "axes.facecolor": "red", "svg.hashsalt": "other"}):
+        after = waterfall(selection.selected)
+        assert matplotlib.rcParams["font.size"] == 20
+    assert (before.svg, before.png, before.pdf) == (after.svg, after.png, after.pdf)
+
+
+def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: Drawn) -> None:
+    text = str(figure.inline)
+    assert not any(tone.value in text for tone in VARIABLES)
+    assert all(f"var(--{VARIABLES[tone]})" in text for tone in (Tone.INK, Tone.FIRST, Tone.SECOND, Tone.MUTED))
+    assert "<style" not in text and "xlink:" not in text and "http" not in text
+    ids = re.findall(r'\bid="([^"]*)"', text)
+    assert ids and all(i.startswith("bode-") for i in ids) and len(ids) == len(set(ids))
+    assert set(re.findall(r'(?:href="#|url\(#)([^")]*)', text)) <= set(ids)
+
+
+def test_a_text_of_the_user_is_no_formula() -> None:
+    made = drawn("t", '"a" & <b>', (3, 2), lambda figure: figure.suptitle("$\\undefined{ <b> $"))
+    assert ElementTree.fromstring(made.svg) is not None
+    assert 'aria-label="&#34;a&#34; &amp; &lt;b&gt;"' in made.inline
+
+
+def test_marks_stay_in_the_band_and_where_something_shows() -> None:
+    rows = [
+        ("antiresonance 1", 20.0, 0.1),
+        ("resonance 1", 30.0, 0.8),
+        ("resonance 2", 40.0, 0.02),
+        ("resonance 3", 500.0, 0.1),
+    ]
+    pairs = [(Result(n, v, 0.0, "Hz"), Result(f"damping ratio of {n}", ratio, 0.0, "")) for n, v, ratio in rows]
+    omega = 2 * np.pi * np.array([10.0, 100.0])
+    assert marks([r for pair in pairs for r in pair], omega) == [Mark("antiresonance", 20.0), Mark("resonance", 40.0)]
+
+
+def test_marks_and_asymptotes_are_those_of_the_drive(selection: Selection, train: FrequencyResponse) -> None:
+    assert selection.selected is not None
+    results = physical(selection.selected, selection.task)
+    low, high = (2 * np.pi * m.frequency for m in marks(results, train.omega))
+    m1, m2, k = VALUES["m1"], VALUES["m2"], VALUES["k12"]
+    assert low == pytest.approx(np.sqrt(k / m2), rel=0.01)
+    assert high == pytest.approx(np.sqrt(k * (m1 + m2) / (m1 * m2)), rel=0.01)
+    (total, at_low), (motor, at_high) = asymptotes(DRIVE, results, train.omega, train)
+    assert total.startswith("total inertia") and motor.startswith("motor inertia") and total.endswith("kg m²")
+    assert at_low[0] == pytest.approx(1 / (m1 + m2), rel=0.01) and at_high[0] == pytest.approx(1 / m1, rel=0.01)
+
+
+def test_measured_phases_follow_the_model_without_jumps(selection: Selection, train: FrequencyResponse) -> None:
+    assert selection.selected is not None
+    line = model_line(selection.selected, selection.task, [train])
+    assert line.phase.max() <= 200.0
+    shown = line.phase_of(train)
+    assert np.cos(np.radians(shown)) == pytest.approx(np.cos(np.angle(train.G)), abs=1e-9)
+    assert np.abs(shown - line.phase[np.searchsorted(line.omega, train.omega)]).max() < 10
+
+
+def test_figures_of_the_parameters(selection: Selection) -> None:
+    found = selection.selected
+    assert found is not None
+    assert "allowed 1000" in importance_bars(found, selection.thresholds).title
+    collinearity = collinearity_dots(found, selection.task, selection.thresholds)
+    assert collinearity is not None and "all 5 " in collinearity.title
+    panels = profile_panels(found, selection.task, [profile(found, selection.task, "k12")])
+    assert len(panels.svg) > 5000
+
+
+def test_one_parameter_has_no_collinearity(selection: Selection) -> None:
+    smallest = min(selection.candidates, key=lambda c: c.n_parameters)
+    assert smallest.n_parameters == 1
+    assert collinearity_dots(smallest, selection.task, selection.thresholds) is None

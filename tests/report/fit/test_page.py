@@ -1,0 +1,198 @@
+"""The page of a fit: complete, closed in itself, safe against hostile text, reproducible."""
+
+import csv
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from disting.errors import InputError
+from disting.fit.candidates import chosen_ports
+from disting.fit.export import read_model
+from disting.fit.practical import Thresholds
+from disting.fit.select import Selection, select
+from disting.measurement import FrequencyResponse
+from disting.report.fit import fit_page, waterfall, write_fit_report
+from disting.report.fit.page import limits, nearest, reasoning, shown, weakest
+
+from .conftest import DRIVE, HOSTILE
+
+FIGURES = ["bode", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
+VOID = {"meta", "br", "link", "img"}
+
+
+class Outline(HTMLParser):
+    """Elements with attributes, and all text; fails where an end tag does not match."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.open: list[str] = []
+        self.text = ""
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if not self.open or self.open[-1] not in ("style", "script"):
+            self.text += data
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("fit") / "new" / "folder"
+
+
+@pytest.fixture(scope="module")
+def written(selection: Selection, train: FrequencyResponse, test: FrequencyResponse, folder: Path) -> list[Path]:
+    return write_fit_report(selection, folder, train, test)
+
+
+@pytest.fixture(scope="module")
+def outline(written: list[Path]) -> Outline:
+    return Outline(written[0].read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def empty(nothing: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Outline:
+    return Outline(write_fit_report(nothing, tmp_path_factory.mktemp("none"), train)[0].read_text(encoding="utf-8"))
+
+
+def test_all_files_are_written_and_linked(written: list[Path], outline: Outline) -> None:
+    figures = [f"{name}.{kind}" for name in FIGURES for kind in ("svg", "png", "pdf")]
+    assert [p.name for p in written] == ["fit.html", *figures, "fit.json", "candidates.csv"]
+    assert all(p.is_file() for p in written)
+    links = {a.get("href") for t, a in outline.elements if t == "a"}
+    assert {p.name for p in written[1:]} <= links
+
+
+def test_two_runs_write_the_same_bytes(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path], tmp_path: Path
+) -> None:
+    again = write_fit_report(selection, tmp_path, train, test)
+    assert [p.read_bytes() for p in again] == [p.read_bytes() for p in written]
+
+
+def test_nothing_is_fetched(written: list[Path], outline: Outline) -> None:
+    assert "http" not in written[0].read_text(encoding="utf-8")
+    beside = {p.name for p in written}
+    for _, attributes in outline.elements:
+        for key in ("src", "href", "action"):
+            target = attributes.get(key) or "#"
+            assert target.startswith("#") or target in beside
+
+
+def test_ids_are_unique_and_links_lead_somewhere(outline: Outline) -> None:
+    ids = [a["id"] for _, a in outline.elements if "id" in a]
+    assert len(ids) == len(set(ids))
+    inner = {str(a["href"])[1:] for _, a in outline.elements if str(a.get("href", "")).startswith("#")}
+    assert inner and inner <= set(ids)
+
+
+def test_hostile_text_stays_text(outline: Outline, empty: Outline) -> None:
+    for page in (outline, empty):
+        assert HOSTILE in page.text
+        assert not any(t == "img" or "onerror" in a for t, a in page.elements)
+
+
+def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
+    said = " ".join(outline.text.split())
+    admissible = sum(c.admissible for c in selection.candidates)
+    assert f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are admissible: 5 parameters" in said
+    assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
+    drawings = [a for t, a in outline.elements if t == "svg"]
+    assert len(drawings) == 1 + len(FIGURES) and all(a.get("aria-label") for a in drawings)
+
+
+def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
+    rows = [t for t, a in outline.elements if t == "th" and a.get("scope") == "row"]
+    assert len(rows) >= len(selection.candidates)
+    assert [a for t, a in outline.elements if a.get("class") == "chosen"] != []
+    for candidate in selection.candidates:
+        assert all(reason in outline.text for reason in candidate.reasons)
+
+
+def test_more_candidates_than_fit_are_behind_details(
+    selection: Selection, train: FrequencyResponse, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("disting.report.fit.page.FIRST", 10)
+    text = fit_page(selection, [], [waterfall(shown(selection))], train)
+    assert "<summary>All 24 candidates</summary>" in text
+    assert len(re.findall('class="plain candidates"', text)) == 2
+    assert len(re.findall('class="chosen"', text)) in (1, 2)
+
+
+def test_data_are_the_selection_s_own(selection: Selection, written: list[Path]) -> None:
+    assert selection.selected is not None
+    chain, values = read_model(written[-2])
+    assert chain == DRIVE and values == selection.selected.estimate.parameters
+    assert len(json.loads(written[-2].read_text(encoding="utf-8"))["candidates"]) == 24
+    rows = list(csv.DictReader(written[-1].read_text(encoding="utf-8").splitlines()))
+    assert [row["rank"] for row in rows] == [str(i) for i in range(1, 25)]
+    assert [float(row["j_test"]) for row in rows] == [c.j_test for c in selection.candidates]
+    assert [row["admissible"] == "true" for row in rows] == [c.admissible for c in selection.candidates]
+    assert all(bool(row["reasons"]) != (row["admissible"] == "true") for row in rows)
+
+
+def test_nothing_admissible_is_said_with_the_nearest_and_why(nothing: Selection, empty: Outline) -> None:
+    assert nothing.selected is None
+    said = " ".join(empty.text.split())
+    assert said.startswith("Fit: no admissible model No model is admissible Each of the 6 fitted candidates")
+    first = nearest(nothing)[0]
+    assert all(reason in said for reason in first.reasons)
+    assert "at its bound" in said and "fixed" in said and "J cross-validated" in said
+    assert "each line is predicted by a fit without it" in said
+
+
+def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
+    excess = [max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)]
+    assert excess == sorted(excess) and excess[0] > 1
+    assert shown(nothing) is nearest(nothing)[0]
+
+
+def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
+    said = dict(reasoning(selection))
+    best = next(c for c in selection.candidates if c.admissible)
+    assert ("lowest cost of all admissible ones." in said["Margin"]) == (best is selection.selected)
+    assert ("that noise alone may make" in said["Margin"]) == (best is not selection.selected)
+    assert set(said) == {"Validation", "Repeatability", "Margin", "Akaike weights", "Starts", "Standard errors"}
+
+
+def test_the_weakest_combination_names_its_largest_part_first(selection: Selection) -> None:
+    terms = re.findall(r"ln (\w+)", weakest(shown(selection)))
+    assert set(terms) == set(shown(selection).practical.worst_direction)
+    assert weakest(shown(selection)).startswith(f"ln {terms[0]}")
+
+
+def test_an_unknown_parameter_has_no_profile(selection: Selection, train: FrequencyResponse, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="k23"):
+        write_fit_report(selection, tmp_path / "x", train, profiles=["k23"])
+    assert not (tmp_path / "x").exists()
+
+
+def test_structures_that_no_data_can_tell_apart_are_named(train: FrequencyResponse, tmp_path: Path) -> None:
+    loose = Thresholds(1e12, 1e12, 1e12)
+    candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
+    found = select(train, candidates, thresholds=loose)
+    assert found.selected is not None and len(found.selected.chain.ground_dampers) == 1 and found.saved == 2
+    said = " ".join(Outline(write_fit_report(found, tmp_path, train)[0].read_text(encoding="utf-8")).text.split())
+    assert "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
+    assert "2 masses, force 1, sensor 2, dampers b1, b2." in said
+    assert "2 fits saved" in said and "None: each of" not in said
+
+
+def test_no_alternatives_are_said_so(outline: Outline) -> None:
+    assert "None: each of the 15 other candidates with 2 masses is distinguishable" in " ".join(outline.text.split())
