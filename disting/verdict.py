@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from disting.certainty import Certainty
-from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.admissible import ADMISSIBLE, resting_on
 from disting.conditions.evidence import Evidence
 from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
@@ -30,6 +30,7 @@ from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary
 from disting.domain import Domain
 from disting.errors import ContradictionError, InputError
 from disting.invariants.sample import Representation
+from disting.positivity import PositiveFinding
 
 ALL_CONDITIONS = tuple(c.number for c in CONDITIONS)
 RULE_NAMES = {0: "", **{n: str(n) for n in ALL_CONDITIONS}, EXACT: "exact", ADMISSIBLE: "admissible"}  # what `decided_by` says
@@ -105,7 +106,8 @@ class Verdict:
     `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
     or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned. `inclusion`
     tells, over complex parameters, whose generic models have equivalents on the other side; for models of unequal rank
-    `inclusion_finding` says why.
+    `inclusion_finding` says why. `left_positive`: which positive left models have a positive equivalent on the right, where
+    generic left ones have equivalents there; `right_positive`: the reverse.
     """
 
     left: str
@@ -120,6 +122,8 @@ class Verdict:
     notes: tuple[str, ...] = ()
     inclusion: Inclusion = Inclusion.UNKNOWN
     inclusion_finding: InclusionFinding | None = None
+    left_positive: PositiveFinding | None = None
+    right_positive: PositiveFinding | None = None
 
     def __post_init__(self) -> None:
         decided = self.relation is not Relation.UNDECIDED
@@ -166,6 +170,8 @@ class Verdict:
             "domain": self.domain.value,
             "inclusion": self.inclusion.value,
             "inclusion_finding": {} if self.inclusion_finding is None else inclusion_to_dict(self.inclusion_finding),
+            "left_positive": {} if self.left_positive is None else self.left_positive.to_dict(),
+            "right_positive": {} if self.right_positive is None else self.right_positive.to_dict(),
             "error_bound": self.error_bound,
             "evidence": evidence,
             "notes": list(self.notes),
@@ -189,7 +195,12 @@ class Verdict:
             tuple(map(str, data["notes"])) if isinstance(data["notes"], list) else (),
             Inclusion(str(data["inclusion"])),
             inclusion_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
+            *(_positive_from(data[side]) for side in ("left_positive", "right_positive")),
         )
+
+
+def _positive_from(data: object) -> PositiveFinding | None:
+    return PositiveFinding.from_dict(data) if isinstance(data, dict) and data else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,13 +239,30 @@ def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     found, domain = _decided(left, right, query), query.view.domain
     if FIBRE in query.view.representations:
         found = with_inclusion(found, left.rank == right.rank, lambda: inclusion_finding(left, right))
+        found = _with_shares(found, left, right)
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
-    step = Step(PARAMETERS, left.admissible(right, domain))
-    if step.relation is not Relation.UNDECIDED:
-        return replace(verdict_of(left.name, right.name, step, domain), inclusion=found.inclusion)
-    note = f"over complex parameters they are indistinguishable; {step.finding.note}"
-    return Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(note,), inclusion=found.inclusion)
+    grade = (found.certainty or Certainty.NUMERICAL, found.safety)
+    step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade))
+    open_pair = Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(open_note(step.finding.note),))
+    said = open_pair if step.relation is Relation.UNDECIDED else verdict_of(left.name, right.name, step, domain)
+    return replace(said, inclusion=found.inclusion, left_positive=found.left_positive, right_positive=found.right_positive)
+
+
+def open_note(reason: str) -> str:
+    """What is said of a pair that is open over admissible parameters only."""
+    return f"over complex parameters they are indistinguishable; {reason}"
+
+
+def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
+    """With the positive equivalents of each side whose generic models have equivalents on the other side."""
+    here = verdict.inclusion in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
+    there = verdict.inclusion in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
+    return replace(
+        verdict,
+        left_positive=left.positive(right) if here else None,
+        right_positive=right.positive(left) if there else None,
+    )
 
 
 def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], InclusionFinding]) -> Verdict:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import disting
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest, lines, name_of
+from disting.catalogs.files import LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
 from disting.catalogs.settle import Settled, preload
 from disting.conditions.evidence import to_dict
 from disting.conditions.inclusion import inclusion_to_dict
@@ -22,7 +22,7 @@ from disting.model.family import Family
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
-PARTS |= {view.value: view for view in (View.REAL, View.POSITIVE)}
+PARTS |= {View.REAL.value: View.REAL}  # what holds over positive parameters follows from the shares of both sides
 
 
 def build(
@@ -109,6 +109,7 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
             yield (
                 {"left": i + 1, "right": j + 1}
                 | told
+                | _shares(found[FIBRE], i, j)
                 | {
                     part: _step(decided, i, j)
                     for part, decided in found.items()
@@ -116,6 +117,12 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
                     and (part in ("tf", "markov") or _only_by(part, decided, i, j))
                 }
             )
+
+
+def _shares(decided: Decisions, i: int, j: int) -> Record:
+    """Positive equivalents of both sides, where they are asked for."""
+    sides = {LEFT_POSITIVE: decided.shares.get((i, j)), RIGHT_POSITIVE: decided.shares.get((j, i))}
+    return {name: share.to_dict() for name, share in sides.items() if share is not None}
 
 
 def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:

@@ -3,23 +3,20 @@
 import json
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from disting.catalogs.export import Row, csv_text
+from disting.catalogs.export import Row, csv_text, share_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
-from disting.certainty import Certainty
-from disting.conditions.evidence import from_dict
-from disting.conditions.inclusion import Inclusion, inclusion_from_dict
-from disting.conditions.table import NECESSARY
-from disting.domain import Domain
+from disting.catalogs.pairs import deciding, relation_of, stored_verdict
+from disting.conditions.inclusion import Inclusion
 from disting.errors import CatalogError, InputError
 from disting.identifiability import Identifiability
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.verdict import FIBRE, PARAMETERS, Relation, Verdict, View
+from disting.verdict import Relation, Verdict, View
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -85,17 +82,17 @@ class Catalog:
         low, high = sorted((left, right))
         if low == high or not 1 <= low <= high <= len(self.family):
             raise InputError(f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not {left}:{right}")
-        return self._verdict(self._pair(low, high), view)
+        return stored_verdict(self._pair(low, high), view)
 
     def pairs(self, view: View = View.EXACT) -> Iterator[tuple[int, int, Verdict]]:
         """Yield (left, right, verdict) for all pairs left < right."""
         for record in self.records[1 + len(self.family) :]:
-            yield record["left"], record["right"], self._verdict(record, view)
+            yield record["left"], record["right"], stored_verdict(record, view)
 
     def relation(self, left: int, right: int, view: View = View.EXACT) -> Relation:
         """Relation of two models, without building the verdict."""
         low, high = sorted((left, right))
-        return _relation(_deciding(self._pair(low, high), view)[1])
+        return relation_of(deciding(self._pair(low, high), view)[1])
 
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
@@ -113,7 +110,7 @@ class Catalog:
 
         graph: nx.Graph[int] = nx.Graph()
         pairs = self.records[1 + len(self.family) :]
-        relations = {(r["left"], r["right"]): _relation(_deciding(r, view)[1]) for r in pairs}
+        relations = {(r["left"], r["right"]): relation_of(deciding(r, view)[1]) for r in pairs}
         graph.add_edges_from(pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE)
         groups = sorted(tuple(sorted(c)) for c in nx.connected_components(graph))
         for members in groups:
@@ -123,7 +120,7 @@ class Catalog:
 
     def counts(self, view: View = View.EXACT) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
-        found = Counter(_deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
+        found = Counter(deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
         return {"": 0} | dict(sorted(found.items()))
 
     def matrix(self, view: View = View.EXACT) -> "pd.DataFrame":
@@ -172,24 +169,6 @@ class Catalog:
         before = (low - 1) * n - low * (low - 1) // 2  # pairs whose left model comes earlier
         return self.records[1 + n + before + high - low - 1]
 
-    def _verdict(self, record: Record, view: View) -> Verdict:
-        found = self._plain(record, view)
-        if FIBRE not in view.representations or found.relation is Relation.UNDECIDED:
-            return found
-        if "inclusion" in record:
-            finding = inclusion_from_dict(record["inclusion"])
-            return replace(found, inclusion=finding.inclusion, inclusion_finding=finding)
-        same = _relation(_deciding(record, View.EXACT)[1]) is Relation.INDISTINGUISHABLE
-        return replace(found, inclusion=Inclusion.EQUAL if same else Inclusion.NEITHER)
-
-    def _plain(self, record: Record, view: View) -> Verdict:
-        names = (f"A{record['left']}", f"A{record['right']}")
-        where, step = _deciding(record, view)
-        if not step:
-            return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_NOTES.get(view, ()))
-        certainty, evidence = Certainty(step["certainty"]), from_dict(step["evidence"])
-        return Verdict(*names, _relation(step), step["decided_by"], where, certainty, step["safety"], evidence, view.domain)
-
 
 def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) -> Catalog:
     """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder); no computation.
@@ -202,34 +181,13 @@ def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) 
     return Catalog.from_records(read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl"))
 
 
-_NOTES = {View.EXACT: ("the exact decision has no method for them",)}
 _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
 def _csv_row(left: int, right: int, v: Verdict) -> Row:
     inclusion = "" if v.inclusion is Inclusion.UNKNOWN else v.inclusion.value
-    return left, right, v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound, v.domain, inclusion
-
-
-def _deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:
-    """The first representation of the view that decides, and its step; ("", {}) if none does."""
-    if view.domain is not Domain.COMPLEX:
-        return (PARAMETERS, record[view.value]) if view.value in record else _distinguishing(record)
-    return next(((r, record[r]) for r in view.representations if r in record), ("", {}))
-
-
-def _distinguishing(record: Record) -> tuple[str, dict[str, Any]]:
-    """What distinguishes over complex parameters does so over all."""
-    where, step = _deciding(record, View.EXACT)
-    return (where, step) if _relation(step) is Relation.DISTINGUISHABLE else ("", {})
-
-
-def _relation(step: dict[str, Any]) -> Relation:
-    if not step:
-        return Relation.UNDECIDED
-    if "relation" in step:
-        return Relation(step["relation"])
-    return Relation.DISTINGUISHABLE if int(step["decided_by"]) <= len(NECESSARY) else Relation.INDISTINGUISHABLE
+    graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)
+    return left, right, *graded, v.domain, inclusion, share_text(v.left_positive), share_text(v.right_positive)
 
 
 def _software() -> dict[str, str]:

@@ -8,19 +8,33 @@ from collections.abc import Iterable
 from disting.conditions.inclusion import Inclusion
 from disting.domain import Domain
 from disting.engine import Decisions
+from disting.positivity import PositiveFinding
 from disting.verdict import RULE_NAMES, Relation, error_bound
 
-CSV_COLUMNS = ("left", "right", "relation", "decided_by", "representation", "certainty", "error_bound", "domain", "inclusion")
-Row = tuple[int, int, Relation, str, str, str, str, Domain, str]
-"""left, right, relation, decided_by, representation, certainty, error bound, domain, inclusion ("" if not known)"""
+CSV_COLUMNS = (
+    "left",
+    "right",
+    "relation",
+    "decided_by",
+    "representation",
+    "certainty",
+    "error_bound",
+    "domain",
+    "inclusion",
+    "left_positive",
+    "right_positive",
+)
+Row = tuple[int, int, Relation, str, str, str, str, Domain, str, str, str]
+"""left, right, relation, decided_by, representation, certainty, error bound, domain, inclusion ("" if not known), and which
+positive models of the left, and of the right, have a positive equivalent on the other side ("" where that is not asked)"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither")]), end="")
-    left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion
-    1,2,distinguishable,1,tf,proven,0,complex,neither
+    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither", "", "")]), end="")
+    left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion,left_positive,right_positive
+    1,2,distinguishable,1,tf,proven,0,complex,neither,,
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -33,8 +47,9 @@ def csv_text(rows: Iterable[Row]) -> str:
 def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1."""
 
-    def rest(i: int, j: int) -> tuple[Domain, str]:
-        return decided.query.view.domain, _told(decided.inclusion(i, j))
+    def rest(i: int, j: int) -> tuple[Domain, str, str, str]:
+        here, there = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
+        return decided.query.view.domain, _told(decided.inclusion(i, j)), here, there
 
     graded = (
         (
@@ -50,6 +65,11 @@ def decisions_csv(decided: Decisions) -> str:
         for i, j, number, where, certainty, safety in decided.grades()
     )
     return csv_text(graded)
+
+
+def share_text(found: PositiveFinding | None) -> str:
+    """Text of a column: always, sometimes, never, unknown, or "" where it is not asked."""
+    return "" if found is None else found.share.value
 
 
 def _told(inclusion: Inclusion) -> str:

@@ -1,7 +1,8 @@
 """Where catalogue files are and what is in them: one JSON record a line, so that a change shows as changed lines.
 
 First line: header. Then a line a model, in order; then a line a pair (left < right), with the deciding step in each
-representation, absent where nothing decides.
+representation, absent where nothing decides, the inclusion of models of unequal rank, and which positive models of either side
+have a positive equivalent on the other (`left_positive`, `right_positive`), where generic ones have equivalents.
 """
 
 import hashlib
@@ -11,9 +12,10 @@ from typing import Any
 
 from disting.errors import CatalogError
 
-SCHEMA = 2
+SCHEMA = 3
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
 PROVENANCE = "provenance.json"
+LEFT_POSITIVE, RIGHT_POSITIVE = "left_positive", "right_positive"  # of a pair's record
 Record = dict[str, Any]
 
 

@@ -12,6 +12,8 @@ from disting.conditions.inclusion import confirms
 from disting.conditions.subject import Subject
 from disting.conditions.verify import Witness
 from disting.engine import Engine, Progress, silent
+from disting.model.symmetry import canonical
+from disting.positivity import proves
 from disting.verdict import View
 
 
@@ -48,7 +50,17 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
         evidence = None if included is None else included.evidence
         if evidence is not None and not confirms(evidence, subjects[left], subjects[right]):
             yield f"{stored.name}, {left}:{right}: the evidence of the inclusion does not hold"
+        yield from _false_shares(stored, left, right)
         progress("evidence", done, total)
+
+
+def _false_shares(stored: Catalog, left: int, right: int) -> Iterator[str]:
+    """Of what is known of positive equivalents."""
+    v = stored.verdict(left, right)
+    for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
+        chains = (canonical(stored.family[number]).chain for number in (given, other))
+        if found is not None and found.evidence is not None and not proves(found, *chains):
+            yield f"{stored.name}, {given}:{other}: the evidence on positive equivalents does not hold"
 
 
 def _differences(stored: Catalog, rebuilt: Catalog, path: Path) -> Iterator[str]:

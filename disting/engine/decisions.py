@@ -13,16 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.admissible import ADMISSIBLE, ADMISSIBLY
+from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, rational_map, resting_on
 from disting.conditions.exact import EXACT
 from disting.conditions.inclusion import INCLUDED, Inclusion, InclusionFinding, by_rank, inclusion_finding, quick_inclusion
-from disting.conditions.question import Chains, Question
 from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
+from disting.identifiability import IDENTIFIABILITY
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
+from disting.positivity import PositiveFinding
+from disting.question import Chains, Question
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
 
 REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE, PARAMETERS)
@@ -37,7 +39,9 @@ class Decisions:
     """For subjects i < j: `decided_by[i, j]` is the condition's number or 0, `representation[i, j]` indexes REPRESENTATIONS.
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs whose bounded finding by a
-    necessary condition was proven afterwards, `inclusions` the findings on pairs of unequal rank.
+    necessary condition was proven afterwards, `inclusions` the findings on pairs of unequal rank. `shares[i, j]` tells, for i
+    before or after j, which positive models i have a positive equivalent j: of indistinguishable pairs both ways, of included
+    models in the ones that they lie in.
     """
 
     subjects: tuple[Subject, ...]
@@ -47,6 +51,7 @@ class Decisions:
     steps: dict[tuple[int, int], Step] = field(default_factory=dict)
     proven: frozenset[tuple[int, int]] = frozenset()
     inclusions: dict[tuple[int, int], InclusionFinding] = field(default_factory=dict)
+    shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
 
     def relation(self, i: int, j: int) -> Relation:
         """Relation of subjects i and j (counted from 0, in any order)."""
@@ -75,7 +80,9 @@ class Decisions:
 
     def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
         inclusion = self.inclusion(i, j)
-        return replace(verdict, inclusion=inclusion, inclusion_finding=self.inclusions.get((i, j)))
+        here, there = self.shares.get((i, j)), self.shares.get((j, i))
+        finding = self.inclusions.get((i, j))
+        return replace(verdict, inclusion=inclusion, inclusion_finding=finding, left_positive=here, right_positive=there)
 
     def inclusion(self, i: int, j: int) -> Inclusion:
         """Whose generic models have equivalents on the other side; not told by the paper's views."""
@@ -83,6 +90,8 @@ class Decisions:
             return Inclusion.UNKNOWN
         if (i, j) in self.inclusions:
             return self.inclusions[i, j].inclusion
+        if {(i, j), (j, i)} <= self.shares.keys():
+            return Inclusion.EQUAL
         number, steps = self.decided_by[i, j], self.steps
         if number >= ADMISSIBLE or (number and (i, j) in steps and steps[i, j].relation is Relation.INDISTINGUISHABLE):
             return Inclusion.EQUAL
@@ -135,6 +144,7 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask
         _sufficient(result, open_pairs, r)
     if FIBRE in query.view.representations:
         _inclusions(result, ask)
+        _positive(result, ask)
     if query.view.domain is not Domain.COMPLEX:
         _admissible(result, ask)
     return result
@@ -159,17 +169,35 @@ def _inclusions(result: Decisions, ask: Ask) -> None:
         result.inclusions[i, j] = inclusion_finding(subjects[i], subjects[j]) if found is None else found
 
 
+def _positive(result: Decisions, ask: Ask) -> None:
+    """Which positive models have positive equivalents, wherever generic ones have equivalents; all at once."""
+    n, subjects = len(result.subjects), result.subjects
+    ways = [(i, j) for i in range(n) for j in range(n) if i != j and _is_asked(result, i, j)]
+    ask(POSITIVELY, [(subjects[i].canonical.chain, subjects[j].canonical.chain) for i, j in ways])
+    for i, j in ways:
+        result.shares[i, j] = subjects[i].positive(subjects[j])
+
+
+def _is_asked(result: Decisions, i: int, j: int) -> bool:
+    """Whether generic models i have equivalents j."""
+    inside = Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT
+    return result.inclusion(min(i, j), max(i, j)) in (Inclusion.EQUAL, inside)
+
+
 def _admissible(result: Decisions, ask: Ask) -> None:
     """Ask again about the pairs that are indistinguishable over complex parameters."""
     domain, n = result.query.view.domain, len(result.subjects)
     same = np.zeros((n, n), bool)
     for i, j in combinations(range(n), 2):
         same[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
-    ask(ADMISSIBLY[domain], [a.in_order(b) for a, b in _pairs(result, same)])
+    if domain is Domain.REAL:
+        pairs = [pair for pair in _pairs(result, same) if not rational_map(*(s.chain for s in pair))]
+        ask(IDENTIFIABILITY, [(s.canonical.chain,) for pair in pairs for s in pair])
     for i, j in zip(*np.nonzero(same), strict=True):
-        step = Step(PARAMETERS, result.subjects[i].admissible(result.subjects[j], domain))
+        equal = result.steps.pop((int(i), int(j))).finding
+        found = result.subjects[i].admissible(result.subjects[j], domain)
+        step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety)))
         known = step.relation is not Relation.UNDECIDED
-        result.steps.pop((int(i), int(j)))
         if known:
             result.steps[int(i), int(j)] = step
         result.decided_by[i, j] = step.finding.number if known else 0

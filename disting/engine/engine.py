@@ -13,7 +13,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from disting.conditions.question import Chains, Question
 from disting.conditions.subject import Subject
 from disting.engine.decisions import Decisions, decisions
 from disting.engine.store import Store
@@ -24,6 +23,7 @@ from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
+from disting.question import Chains, Question
 from disting.settings import Settings
 from disting.verdict import Query, Verdict, audit, decide
 
@@ -31,8 +31,8 @@ T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-FILES = ("settings.py", "certainty.py", "domain.py", "verdict.py")
-CODE = (*FILES, "algebra", "model", "invariants", "synthesis", "ideals", "conditions", "identifiability")
+FILES = ("settings.py", "certainty.py", "domain.py", "question.py", "verdict.py")
+CODE = (*FILES, "algebra", "model", "invariants", "synthesis", "ideals", "identifiability", "positivity", "conditions")
 
 
 def silent(what: str, done: int, total: int) -> None:

@@ -14,6 +14,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.structure import Structure
 from disting.simulation import matrices, port_vectors
 
+STILL = 1e-6  # of the fastest root: rounding spreads the double pole of a free chain at zero this far
 REMOTE = 1e6  # zeros this much faster than the fastest pole are at infinity
 STEP = 1e-4  # of a logarithm, for derivatives of the results
 
@@ -100,5 +101,6 @@ def _units(measured: FrequencyResponse) -> tuple[str, str]:
 
 
 def oscillating(roots: Complex) -> list[complex]:
-    """One of each pair of conjugate roots, by rising frequency |s|."""
-    return sorted((complex(r) for r in roots if r.imag > 1e-9 * abs(r)), key=abs)
+    """One of each pair of conjugate roots, by rising frequency |s|; the motion as one rigid body is none."""
+    fastest = max((abs(r) for r in roots), default=0.0)
+    return sorted((complex(r) for r in roots if r.imag > 1e-9 * abs(r) and abs(r) > STILL * fastest), key=abs)

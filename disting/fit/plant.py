@@ -103,7 +103,7 @@ class Plant:
 
     @cached_property
     def _s(self) -> Complex:
-        return 1j * np.asarray(self.omega, dtype=np.float64)
+        return np.asarray(1j * self.omega, dtype=np.complex128)
 
     @cached_property
     def _s2(self) -> Complex:

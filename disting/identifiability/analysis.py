@@ -5,7 +5,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.question import Question
 from disting.errors import ContradictionError
 from disting.identifiability.basis import Basis, basis
 from disting.identifiability.naming import renamed
@@ -18,6 +17,7 @@ from disting.identifiability.uniqueness import combination
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
+from disting.question import Question
 from disting.settings import Settings
 from disting.synthesis.result import Status
 

@@ -20,13 +20,12 @@ from typing import Any
 from flint import acb, fmpq
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.exact import safety_of_point
 from disting.errors import ContradictionError
 from disting.identifiability.parts import Alternative, Origin, Renaming
 from disting.model.chain import Chain
 from disting.model.symmetry import forms
 from disting.synthesis.construction import is_untested
-from disting.synthesis.decide import DRAWS, rational_point
+from disting.synthesis.decide import DRAWS, rational_point, safety_of_point
 from disting.synthesis.duality import are_dual, dual
 from disting.synthesis.fibre import fibre, segments
 from disting.synthesis.result import Answer, Confirmation, Fibre, Solution, Status

@@ -10,3 +10,4 @@ from disting.positivity.result import Empirical as Empirical
 from disting.positivity.result import PositiveFinding as PositiveFinding
 from disting.positivity.result import Share as Share
 from disting.positivity.verify import confirms as confirms
+from disting.positivity.verify import proves as proves

@@ -18,6 +18,7 @@ _OBSTACLES = {
     "decay": "the transfer functions of {0} and {1} fall off at different rates for high frequencies",
     "residues": "{0} has negative residues in the part where force and sensor are apart, {1} has positive ones alone",
     "own poles": "the grounded and the free part of {1} would have to be those of {0}, which are of another kind",
+    "signs": "in the order of the poles the residues of a part of {0} change their signs more often than those of {1} can",
     "swapped parts": "the parts of {1} would be those of {0}, equal or exchanged, which decay or positive masses rule out",
 }
 
@@ -115,7 +116,8 @@ class Interlacing:
     @property
     def formula(self) -> str:
         """Numbers of lacking words."""
-        return ", ".join(f"{p.part}: {len(p.lacking)} arrangements lacking" for p in self.parts)
+        counted = ((p.part, len(p.lacking)) for p in self.parts)
+        return ", ".join(f"{part}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for part, n in counted)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,9 +1,9 @@
 """Whether all, some or no positive models of one chain have a positive equivalent in another one.
 
 Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality, Foster (ALWAYS); decay,
-residues, own poles, swapped parts (NEVER, see `parts`); the arrangement of poles and zeros of each part (ALWAYS or SOMETIMES,
-see `words`). Then a rational point without any equivalent (NEVER, but for a probability that is bounded). Then random points:
-one proven to have a positive equivalent and one proven to have none (SOMETIMES).
+residues, own poles, signs, swapped parts (NEVER, see `parts`); the arrangement of poles and zeros of each part (ALWAYS or
+SOMETIMES, see `words`). Then a rational point without any equivalent (NEVER, but for a probability that is bounded). Then
+random points: one proven to have a positive equivalent and one proven to have none (SOMETIMES).
 
 ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic subset.
 
@@ -20,7 +20,6 @@ C(N-1, g) C(g-1, a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 from collections.abc import Iterator
 
 from disting.certainty import Certainty
-from disting.conditions.exact import safety_of_point
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
@@ -30,7 +29,7 @@ from disting.positivity.points import equivalent, random_point, spelled
 from disting.positivity.result import Empirical, PositiveFinding, Share
 from disting.positivity.words import Words, words
 from disting.settings import Settings
-from disting.synthesis.decide import Membership, member, rational_point
+from disting.synthesis.decide import Membership, member, rational_point, safety_of_point
 from disting.synthesis.duality import are_dual
 from disting.synthesis.result import Answer
 from disting.synthesis.segment import Segment

@@ -17,6 +17,12 @@ so the sum over the subset is zero for each part by itself. Poles and zeros of a
 sums to zero for all parameters: it is a whole part of `given`, with d > 0. The free part is the one with the pole 0. Hence R
 and F are the same functions in both chains, with the same gap and decay; otherwise there is no equivalent.
 
+Signs (undamped, the other chain has no gap). In a row of n masses with ports a < b, d = b - a, the residue of mode j has the
+sign of (-1)^h_j, where h_0 = 0, h_(n-1) = d and h changes by 1 - z from one mode to the next, z zeros lying between both poles
+(see `words`). So in the order of the poles the residues change their signs as often as z is 0 or 2, that is d + 2 t times with
+t twos, and t <= min(a - 1, n - b). In a sum of two parts the residues of each part keep their order: they change their signs
+max(d_R, d_F) times at least. If that is more than d + 2 min(a - 1, n - b) of the other chain, it never equals the sum.
+
 Swapped parts (damped). Let the only subsets of non-zero poles whose residues sum to zero be the poles of R, and those of F. (At
 one rational point balls tell the sums of all other subsets from zero; the product over all of them is a rational function of
 the parameters, so generically none vanishes.) Then the other chain has R' = R and F' = F, or R' = F - 1/(M s^2) and
@@ -51,6 +57,7 @@ class Obstacle(StrEnum):
     DECAY = "decay"
     RESIDUES = "residues"
     OWN_POLES = "own poles"
+    SIGNS = "signs"
     SWAPPED = "swapped parts"
 
 
@@ -74,7 +81,14 @@ def obstacle(given: Chain, other: Chain) -> Obstacle | None:
         return None
     if _is_collocated(other):
         return None if _is_collocated(given) else Obstacle.RESIDUES
-    return Obstacle.OWN_POLES if other.gap and (given.gap, here) != (other.gap, there) else None
+    if other.gap:
+        return Obstacle.OWN_POLES if (given.gap, here) != (other.gap, there) else None
+    return Obstacle.SIGNS if given.gap and max(here) > _most_sign_changes(parts(other)[1]) else None
+
+
+def _most_sign_changes(row: Segment) -> int:
+    """Of the residues, in the order of the poles."""
+    return row.distance + 2 * min(row.a - 1, row.nodes - row.b)
 
 
 def receptances(given: Chain, point: Point) -> list[Target]:

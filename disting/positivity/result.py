@@ -1,9 +1,10 @@
 """Findings on positive equivalents: how many of the positive models of one chain have a positive equivalent in another."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from enum import StrEnum
 from math import sqrt
+from typing import Any
 
 from disting.certainty import Certainty
 from disting.positivity.evidence import Evidence, from_dict, to_dict
@@ -41,6 +42,12 @@ class Empirical:
         """
         return _wilson(self.hits, self.tries)[0], _wilson(self.hits + self.open, self.tries)[1]
 
+    @property
+    def sentence(self) -> str:
+        """The share in words."""
+        low, high = self.interval
+        return f"{self.hits} of {self.tries} random points have one: empirically {low:.0%} to {high:.0%}"
+
 
 @dataclass(frozen=True, slots=True)
 class PositiveFinding:
@@ -65,25 +72,40 @@ class PositiveFinding:
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")
 
+    def sentence(self, given: str, other: str) -> str:
+        """What is known and why; a sampled share is called empirical."""
+        if self.evidence is None:
+            return f"Which positive {given} have a positive equivalent in {other} is not known: {self.reason}."
+        seen = f" {self.empirical.sentence}." if self.empirical and self.share is Share.SOMETIMES else ""
+        return self.evidence.sentence(given, other) + seen
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON; what is empty is left out."""
+        plain: dict[str, object] = {"share": self.share.value}
+        if self.evidence and self.certainty:
+            plain |= {"certainty": self.certainty.value, "safety": self.safety, "evidence": to_dict(self.evidence)}
+        if self.empirical:
+            plain["empirical"] = asdict(self.empirical)
+        return plain | ({"reason": self.reason} if self.reason else {})
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "PositiveFinding":
+        """Inverse of `to_dict`; raises ValueError, KeyError or TypeError for what is none."""
+        certainty = Certainty(data["certainty"]) if "certainty" in data else None
+        evidence = from_dict(data["evidence"]) if "evidence" in data else None
+        empirical = Empirical(**data["empirical"]) if "empirical" in data else None
+        return PositiveFinding(
+            Share(data["share"]), certainty, data.get("safety", 0), evidence, empirical, data.get("reason", "")
+        )
+
     def to_json(self) -> str:
         """Compact JSON text."""
-        evidence = to_dict(self.evidence) if self.evidence else None
-        empirical = [self.empirical.hits, self.empirical.tries, self.empirical.open] if self.empirical else None
-        data = [self.share, self.certainty, self.safety, evidence, empirical, self.reason]
-        return json.dumps(data, separators=(",", ":"), ensure_ascii=False)
+        return json.dumps(self.to_dict(), separators=(",", ":"), ensure_ascii=False)
 
     @staticmethod
     def from_json(text: str) -> "PositiveFinding":
         """Inverse of `to_json`; raises ValueError, KeyError or TypeError for what is none."""
-        share, certainty, safety, evidence, empirical, reason = json.loads(text)
-        return PositiveFinding(
-            Share(share),
-            Certainty(certainty) if certainty else None,
-            safety,
-            from_dict(evidence) if evidence else None,
-            Empirical(*empirical) if empirical else None,
-            reason,
-        )
+        return PositiveFinding.from_dict(json.loads(text))
 
 
 def _wilson(hits: int, tries: int) -> tuple[float, float]:

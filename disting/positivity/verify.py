@@ -1,10 +1,13 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
+from disting.certainty import Certainty
 from disting.model.chain import Chain
 from disting.positivity.evidence import BoxMap, Evidence, Excluded, Interlacing, NoEquivalent, Points, SameByTheorem, Values
 from disting.positivity.finding import part_words, refuse, theorem
 from disting.positivity.parts import Obstacle, obstacle, only_parts_sum_to_zero, swap_fails
 from disting.positivity.points import equivalent, read
+from disting.positivity.result import PositiveFinding, Share
+from disting.synthesis.decide import safety_of_point
 from disting.synthesis.fibre import fibre
 from disting.synthesis.result import Answer, Status
 from disting.synthesis.target import target
@@ -26,6 +29,30 @@ def confirms(evidence: Evidence, given: Chain, other: Chain) -> bool:
             return _answers(evidence.with_one, given, other, Answer.YES) and _answers(evidence.without, given, other, Answer.NO)
         case BoxMap():
             return False
+
+
+def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
+    """Whether the finding's evidence is true of the two chains and shows its share, as surely as it says."""
+    evidence = finding.evidence
+    if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
+        return False
+    bounded = finding.safety <= max(0, safety_of_point(given.n_masses, len(other.parameters)))
+    return bounded and confirms(evidence, given, other)
+
+
+def _shown(evidence: Evidence) -> tuple[Share, Certainty]:
+    """Share that evidence of this kind shows, and how surely."""
+    match evidence:
+        case SameByTheorem() | BoxMap():
+            return Share.ALWAYS, Certainty.THEOREM
+        case Excluded():
+            return Share.NEVER, Certainty.PROVEN if evidence.point else Certainty.THEOREM
+        case NoEquivalent():
+            return Share.NEVER, Certainty.BOUNDED
+        case Interlacing():
+            return Share.SOMETIMES if any(p.lacking for p in evidence.parts) else Share.ALWAYS, Certainty.THEOREM
+        case Points():
+            return Share.SOMETIMES, Certainty.PROVEN
 
 
 def _excluded(evidence: Excluded, given: Chain, other: Chain) -> bool:

@@ -159,7 +159,8 @@ def counts(catalog: Catalog) -> list[Count]:
     found = [catalog.counts(view) for view in VIEW_TITLES]
     rows = [(str(c.number), c.title, c.text, _decides(c.number)) for c in CONDITIONS]
     rows += [(RULE_NAMES[EXACT], "exact decision", "one fibre, by inverse network synthesis", Relation.DISTINGUISHABLE)]
-    rows += [(RULE_NAMES[ADMISSIBLE], "positive equivalents", "theorems and certified points", Relation.INDISTINGUISHABLE)]
+    grounds = "theorems, order of poles and zeros, certified points"
+    rows += [(RULE_NAMES[ADMISSIBLE], "positive equivalents", grounds, Relation.INDISTINGUISHABLE)]
     rows += [("", "undecided", "nothing decides", Relation.UNDECIDED)]
     return [
         Count(SIGNS.get(name, name), title, text, relation, tuple(f.get(name, 0) for f in found))

@@ -5,15 +5,17 @@ names the models {L} and {R}, so that pairs decided alike share it.
 """
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
+from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.inclusion import Inclusion
+from disting.positivity import Share
 from disting.report.words import VIEW_TITLES, probability
-from disting.verdict import Verdict, View
+from disting.verdict import RULE_NAMES, Verdict, View
 
 CERTAINTIES = {
     "proven": "Proven by exact computation.",
@@ -26,6 +28,12 @@ CERTAINTIES = {
 SAID = {
     Inclusion.LEFT_IN_RIGHT: "Every generic {L} is a limit of models {R}, not the reverse.",
     Inclusion.RIGHT_IN_LEFT: "Every generic {R} is a limit of models {L}, not the reverse.",
+}
+SHARES = {
+    Share.ALWAYS: "Every generic {0} with positive parameters has a positive equivalent {1}",
+    Share.SOMETIMES: "Some {0} with positive parameters have a positive equivalent {1}, others have none",
+    Share.NEVER: "No generic {0} with positive parameters has a positive equivalent {1}",
+    Share.UNKNOWN: "Whether {0} with positive parameters have a positive equivalent {1} is not known",
 }
 Entry = tuple[str, str, str, str, str, str, str]
 """relation, decided_by, representation, certainty in words, domain, why, formula"""
@@ -75,7 +83,18 @@ def _entry(verdict: Verdict) -> Entry:
     formula = evidence.formula if evidence else ""
     if verdict.inclusion_finding is not None and verdict.inclusion in SAID:
         why = f"{why} {SAID[verdict.inclusion]}"
+    why = " ".join([why, *_shares(verdict)])
     return verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain, why, formula
+
+
+def _shares(verdict: Verdict) -> Iterator[str]:
+    """Which positive models of each side have positive equivalents, where the evidence does not say so already."""
+    if verdict.decided_by == RULE_NAMES[ADMISSIBLE]:
+        return
+    for found, given, other in ((verdict.left_positive, "{L}", "{R}"), (verdict.right_positive, "{R}", "{L}")):
+        if found is not None:
+            seen = f" ({found.empirical.sentence})" if found.share is Share.SOMETIMES and found.empirical else ""
+            yield SHARES[found.share].format(given, other) + seen + "."
 
 
 def _undecided(verdict: Verdict) -> str:

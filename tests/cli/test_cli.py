@@ -243,7 +243,9 @@ def test_the_exact_decision_settles_what_conditions_leave_open():
 def test_ranges_and_positive_parameters_are_told_both_ways():
     done = disting("compare", "4:2", "4:6", "--domain", "positive").stdout.splitlines()
     assert done[0] == "SOMETIMES"
-    assert done[-2].startswith("positive: A2 in A6 always.") and done[-1].startswith("positive: A6 in A2 sometimes")
+    assert any("77 of 100 random points have one: empirically 68% to 84%" in line for line in done)
+    apart = disting("compare", "3:6", "3:7", "--damped").stdout.splitlines()
+    assert apart[-1].startswith("positive: A7 in A6 never. No generic positive parameters of A7")
     inside = disting("compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout.splitlines()
     for line, start in zip(inside[-2:], ("A1 in A4", "A4 in A1"), strict=True):
         assert line.startswith(f"within the ranges: {start} sometimes")

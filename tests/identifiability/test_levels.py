@@ -148,11 +148,13 @@ def test_single_parameters():
 
 def test_what_the_synthesis_does_not_cover_is_unknown_but_the_ranks_are_told():
     chain = Chain(3, damped=True, ground_dampers=(1,))
-    for unknown in (chain, Chain(3, damped=True, lag=True), Family(4, True)[3]):
+    neighbours = Chain(3, meas_plus=2, damped=True, ground_dampers=(1, 2))
+    for unknown in (neighbours, Family(4, True)[3]):
         found = identifiability(unknown)
         assert (found.level, found.rank, found.most) == (Level.UNKNOWN, len(unknown.parameters), None)
         assert found.reason in found.sentence and found.reason
         assert len(found.singles) == found.rank
+    assert identifiability(chain).level is Level.GLOBAL
     assert identifiability(Chain(3, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1, 3))).level is Level.LOCAL
     short = identifiability(replace(chain, meas_plus=3, ground_dampers=(1, 2, 3)))
     assert (short.level, short.rank) == (Level.NOT, 8)

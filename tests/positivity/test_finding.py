@@ -2,19 +2,21 @@
 
 from collections import Counter
 from dataclasses import replace
+from itertools import combinations, pairwise
 
+import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, catalog
 from disting.model.symmetry import canonical
 from disting.positivity import Empirical, PositiveFinding, Share, confirms, positive_finding
 from disting.positivity.evidence import Excluded, Interlacing, NoEquivalent, Points, SameByTheorem
-from disting.positivity.parts import only_parts_sum_to_zero
+from disting.positivity.parts import obstacle, only_parts_sum_to_zero
 from disting.positivity.points import equivalent, random_point, read
 from disting.settings import Settings
 from disting.synthesis import Answer, Status, fibre, target
-from disting.synthesis.admit import positive_equivalent
 from disting.synthesis.decide import rational_point
+from tests.oracles.positive_synthesis import positive_equivalent
 
 SHARES = {
     (3, False): {"Foster": 20, "symmetry": 4},
@@ -129,10 +131,44 @@ def test_each_obstacle():
         (Chain(3), Chain(3, meas_plus=2), "decay"),
         (Chain(3, 1, 1, 2, 1, 3), Chain(3), "residues"),
         (Chain(4, 1, 1, 2, 1, 2), Chain(4, 1, 1, 2, 1, 3), "own poles"),
+        (Chain(5, 2, 1, 3, 2, 5), Chain(5, meas_plus=2), "signs"),
     ]
     for given, other, name in undamped:
         found = positive_finding(given, other)
         assert (found.share, found.certainty, found.evidence) == (Share.NEVER, Certainty.THEOREM, Excluded(name))
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
+    """In floating point: every sum of two parts that the obstacle excludes against every row without a gap."""
+    rows = [Chain(n, act_plus=a, meas_plus=b) for a, b in combinations(range(1, n + 1), 2)]
+    sums = [c for c in chains(n, False) if c.gap]
+    least = {c: min(sign_changes(c, k) for k in range(40)) for c in sums}
+    most = {c: max(sign_changes(c, k) for k in range(40)) for c in rows}
+    excluded = [(s, r) for s in sums for r in rows if obstacle(s, r) == "signs"]
+    assert all(least[s] > most[r] for s, r in excluded) and len(excluded) == {4: 0, 5: 4}[n]
+
+
+def sign_changes(chain, k):
+    """Of the residues in the order of the poles, from the modes of both parts."""
+    point = {name: float(v.p) / float(v.q) for name, v in random_point(chain, f"signs:{k}").items()}
+    grounded = modes(point, 1, chain.gap, chain.act_minus, chain.meas_minus) if chain.gap else []
+    free = modes(point, chain.gap + 1, chain.n_masses, chain.act_plus, chain.meas_plus)
+    signs = [residue > 0 for _, residue in sorted(grounded + free)]
+    return sum(x != y for x, y in pairwise(signs))
+
+
+def modes(point, first, last, force, sensor):
+    """(pole, residue) of each mode of the row of these masses; slow modes first when sorted."""
+    size, names = last - first + 1, range(first, last + 1)
+    k = np.zeros((size + 1, size + 1))
+    for at, mass in enumerate(names):
+        spring = point.get(f"k{mass - 1}{mass}", 0.0) if at or first == 1 else 0.0
+        k[at : at + 2, at : at + 2] += spring * np.array([[1, -1], [-1, 1]])
+    root = np.sqrt([point[f"m{mass}"] for mass in names])
+    poles, shapes = np.linalg.eigh(k[1:, 1:] / np.outer(root, root))
+    shapes = shapes / root[:, None]
+    return list(zip(poles, shapes[force - first] * shapes[sensor - first], strict=True))
 
 
 def test_empty_fibre_is_bounded():

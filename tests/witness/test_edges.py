@@ -7,8 +7,7 @@ from flint import fmpq, nmod_mat
 
 from disting import Chain, Engine, Family, Query, Relation, Settings, View
 from disting.algebra.matroid import matroid
-from disting.conditions.exact import safety_of_point
-from disting.synthesis.decide import rational_point
+from disting.synthesis.decide import rational_point, safety_of_point
 from disting.synthesis.fibre import fibre
 from disting.synthesis.result import Exclusions, Status
 from disting.synthesis.target import target

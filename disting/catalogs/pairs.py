@@ -1,0 +1,93 @@
+"""The record of a pair in a catalogue: which step decides in which view, and the verdict that it holds.
+
+Over positive parameters nothing is stored but the shares of both sides, from which the verdict follows.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+from disting.catalogs.files import LEFT_POSITIVE, RIGHT_POSITIVE, Record
+from disting.certainty import Certainty
+from disting.conditions.admissible import NOT_REAL, positive_ways
+from disting.conditions.evidence import from_dict, to_dict
+from disting.conditions.inclusion import Inclusion, inclusion_from_dict
+from disting.conditions.table import NECESSARY
+from disting.domain import Domain
+from disting.positivity import PositiveFinding
+from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Relation, Step, Verdict, View, open_note
+
+
+def stored_verdict(record: Record, view: View) -> Verdict:
+    """The verdict of a view with all that the record says of the pair."""
+    found, settled = _plain(record, view), relation_of(deciding(record, View.EXACT)[1])
+    if FIBRE not in view.representations or settled is Relation.UNDECIDED:
+        return found
+    here, there = _shares(record)
+    found = replace(found, left_positive=here, right_positive=there)
+    if "inclusion" in record:
+        finding = inclusion_from_dict(record["inclusion"])
+        return replace(found, inclusion=finding.inclusion, inclusion_finding=finding)
+    same = settled is Relation.INDISTINGUISHABLE
+    return replace(found, inclusion=Inclusion.EQUAL if same else Inclusion.NEITHER)
+
+
+def deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:
+    """The first representation of the view that decides, and its step; ("", {}) if none does."""
+    if view is View.POSITIVE:
+        return _positively(record)
+    if view is View.REAL:
+        return (PARAMETERS, record[view.value]) if view.value in record else _distinguishing(record)
+    return next(((r, record[r]) for r in view.representations if r in record), ("", {}))
+
+
+def relation_of(step: dict[str, Any]) -> Relation:
+    """Relation that a step decides."""
+    if not step:
+        return Relation.UNDECIDED
+    if "relation" in step:
+        return Relation(step["relation"])
+    return Relation.DISTINGUISHABLE if int(step["decided_by"]) <= len(NECESSARY) else Relation.INDISTINGUISHABLE
+
+
+def _plain(record: Record, view: View) -> Verdict:
+    names = (f"A{record['left']}", f"A{record['right']}")
+    where, step = deciding(record, view)
+    if not step:
+        return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_notes(record, view))
+    certainty, evidence = Certainty(step["certainty"]), from_dict(step["evidence"])
+    return Verdict(*names, relation_of(step), step["decided_by"], where, certainty, step["safety"], evidence, view.domain)
+
+
+def _positively(record: Record) -> tuple[str, dict[str, Any]]:
+    """What the shares of both sides give, if they are indistinguishable over complex parameters."""
+    here, there = _shares(record)
+    if here is None or there is None:
+        return _distinguishing(record)
+    f = positive_ways(here, there)
+    if f.evidence is None:
+        return "", {}
+    rule, relation = RULE_NAMES[f.number], Step(PARAMETERS, f).relation.value
+    plain = {"relation": relation, "decided_by": rule, "certainty": f.certainty.value, "safety": f.safety}
+    return PARAMETERS, plain | {"evidence": to_dict(f.evidence)}
+
+
+def _distinguishing(record: Record) -> tuple[str, dict[str, Any]]:
+    """What distinguishes over complex parameters does so over all."""
+    where, step = deciding(record, View.EXACT)
+    return (where, step) if relation_of(step) is Relation.DISTINGUISHABLE else ("", {})
+
+
+def _notes(record: Record, view: View) -> tuple[str, ...]:
+    """Why a pair is undecided."""
+    if view.domain is Domain.COMPLEX:
+        return ("the exact decision has no method for them",) if view is View.EXACT else ()
+    here, there = _shares(record)
+    if view is View.POSITIVE and here is not None and there is not None:
+        return (open_note(positive_ways(here, there).note),)
+    return (open_note(NOT_REAL),) if deciding(record, View.EXACT)[1] else ()
+
+
+def _shares(record: Record) -> tuple[PositiveFinding | None, PositiveFinding | None]:
+    """Positive equivalents of the left and of the right model, where they are asked for."""
+    here, there = (record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
+    return PositiveFinding.from_dict(here) if here else None, PositiveFinding.from_dict(there) if there else None
