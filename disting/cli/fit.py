@@ -4,7 +4,6 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator
-from math import isfinite, log
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +19,8 @@ from disting.fit.swarm import by_swarm
 from disting.measurement import FrequencyResponse, read
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
+from disting.report.fit.words import name as name_of
+from disting.report.fit.words import percent, result_unit, with_error
 
 WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
@@ -107,10 +108,10 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield ""
     yield from _table(sorted(kept, key=lambda c: (c is not found.selected, c.j_test))[:SHOWN])
     yield ""
-    yield f"selected: {found.selected.chain}   {text_drawing(found.selected.chain)}"
+    yield f"selected: {name_of(found.selected.chain)}   {text_drawing(found.selected.chain)}"
     yield from (f"  {line}" for line in _parameters(found.selected))
     yield ""
-    yield from (f"  {line}" for line in _results(physical(found.selected, found.task)))
+    yield from (f"  {line}" for line in _results(physical(found.selected, found.task), train))
     yield ""
     yield from _alternatives(found)
 
@@ -129,37 +130,19 @@ def _table(candidates: Any) -> Iterator[str]:
     for c in candidates:
         p = c.practical
         indices = f"{p.condition_index:6.3g} {p.importance_ratio:7.3g} {p.collinearity:6.3g}"
-        yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {_short(c.chain)}"
-
-
-def _short(chain: Chain) -> str:
-    """Only what differs, where force and sensor are at mass 1."""
-    if chain.indices[1:] != (0, 0, 1, 0, 1):
-        return str(chain)
-    extras = [f"ground dampers {'+'.join(map(str, chain.ground_dampers))}"] * bool(chain.ground_dampers)
-    extras += ["lag"] * chain.lag + ["dead time"] * chain.dead_time
-    return ", ".join([f"{chain.n_masses} mass{'es' * (chain.n_masses > 1)}", *extras])
+        yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
 
 
 def _parameters(c: Candidate) -> Iterator[str]:
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
-        said = "given" if error is None else f"± {100 * error:.2g} %" if isfinite(error) else "not determined"
-        yield f"{name:4} = {value:<11.6g} {said}"
+        yield f"{name:4} = {value:<11.6g} {'given' if error is None else f'± {percent(error)}'}"
 
 
-def _results(results: tuple[Result, ...]) -> Iterator[str]:
+def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterator[str]:
     width = max(len(r.name) for r in results)
     for r in results:
-        yield f"{r.name:{width}}  {_rounded(r.value, r.standard_error)} {r.unit}".rstrip()
-
-
-def _rounded(value: float, error: float) -> str:
-    """Both with two digits of the error."""
-    if not (isfinite(error) and error > 0):
-        return f"{value:.6g}"
-    digits = max(0, 1 - int(log(error, 10) // 1))
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
+        yield f"{r.name:{width}}  {with_error(r.value, r.standard_error)} {result_unit(r, measured)}".rstrip()
 
 
 def _alternatives(found: Selection) -> Iterator[str]:
@@ -167,11 +150,11 @@ def _alternatives(found: Selection) -> Iterator[str]:
     unknown = [a.chain for a in found.alternatives if a.relation != "indistinguishable"]
     if same:
         yield "this data can never tell it apart from:"
-        yield from (f"  {chain}" for chain in same)
-    else:
+        yield from (f"  {name_of(chain)}" for chain in same)
+    elif not unknown:
         yield "no other candidate behaves the same for all its parameters: better data could tell each of them apart"
     if unknown:
-        yield "not decided: " + "; ".join(map(str, unknown))
+        yield "not decided: " + "; ".join(map(name_of, unknown))
 
 
 def _write(found: Selection, folder: Path, train: FrequencyResponse, test: FrequencyResponse | None, *, profiles: bool) -> None:

@@ -10,7 +10,6 @@ from disting.fit.estimate import Task
 from disting.fit.plant import Complex, Real
 from disting.fit.practical import covariance
 from disting.fit.select import Candidate
-from disting.measurement import FrequencyResponse
 from disting.model.structure import Structure
 from disting.simulation import matrices, port_vectors
 
@@ -42,7 +41,7 @@ def zeros(structure: Structure, p: Real) -> Complex:
 
 @dataclass(frozen=True)
 class Result:
-    """A physical result with its standard error; `unit` is empty where the data do not say theirs."""
+    """A physical result with its standard error; `unit` is empty where it follows from the units of the data, or is 1."""
 
     name: str
     value: float
@@ -59,26 +58,24 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
     p = np.array([candidate.estimate.parameters[n] for n in names])
     free = task.box(names).free
     spread = covariance(task.cost.of(task.plant(chain), p)[1][:, free], candidate.j_train)
-    units = _units(task.cost.measured)
-    centre = _values(chain.structure, p, units)
+    centre = _values(chain.structure, p)
     slopes = np.zeros((len(centre), int(free.sum())))
     for column, i in enumerate(np.flatnonzero(free)):
-        both = [_values(chain.structure, p * np.exp(sign * STEP * (np.arange(len(p)) == i)), units) for sign in (1, -1)]
+        both = [_values(chain.structure, p * np.exp(sign * STEP * (np.arange(len(p)) == i))) for sign in (1, -1)]
         slopes[:, column] = [(a.value - b.value) / (2 * STEP) for a, b in zip(*both, strict=True)]
     errors = np.sqrt(np.einsum("ri,ij,rj->r", slopes, spread, slopes)) if np.isfinite(spread).all() else [inf] * len(centre)
     return tuple(Result(r.name, r.value, float(e), r.unit) for r, e in zip(centre, errors, strict=True))
 
 
-def _values(structure: Structure, p: Real, units: tuple[str, str]) -> list[Result]:
+def _values(structure: Structure, p: Real) -> list[Result]:
     """The results without errors; equally many for all parameters near by."""
-    inertia, stiffness = units
     known = _named(structure, p)
     masses = {n: v for n, v in known.items() if n[0] == "m"}
     motor = masses[f"m{structure.ports.act_plus}"]
-    rows = [("total inertia", sum(masses.values()), inertia)]
+    rows = [("total inertia", sum(masses.values()), "")]
     if len(masses) > 1:
-        rows += [("motor inertia", motor, inertia), ("load inertia", sum(masses.values()) - motor, inertia)]
-    rows += [(f"stiffness {n}", v, stiffness) for n, v in known.items() if n[0] == "k"]
+        rows += [("motor inertia", motor, ""), ("load inertia", sum(masses.values()) - motor, "")]
+    rows += [(f"stiffness {n}", v, "") for n, v in known.items() if n[0] == "k"]
     rows += [("dead time" if n == "Td" else "time constant of the lag", v, "s") for n, v in known.items() if n[0] == "T"]
     for what, roots in (("antiresonance", zeros(structure, p)), ("resonance", poles(structure, p))):
         for i, root in enumerate(oscillating(roots), 1):
@@ -89,15 +86,6 @@ def _values(structure: Structure, p: Real, units: tuple[str, str]) -> list[Resul
 
 def _named(structure: Structure, p: Real) -> dict[str, float]:
     return dict(zip(structure.parameters, map(float, p), strict=True))
-
-
-def _units(measured: FrequencyResponse) -> tuple[str, str]:
-    """Units of inertia and stiffness, such as A/(rad/s^2) and A/(rad/s^2)/s^2."""
-    given, shown = measured.input.unit, measured.output.unit
-    if not given or not shown:
-        return "", ""
-    times, over = ((" s^2", " s", "")[measured.sensor.order], ("", "/s", "/s^2")[measured.sensor.order])
-    return f"{given}/({shown}){times}", f"{given}/({shown}){over}"
 
 
 def oscillating(roots: Complex) -> list[complex]:

@@ -27,9 +27,8 @@ TRIED = [
     Chain(1, damped=True, ground_dampers=(1,), dead_time=True),
     Chain(2, damped=True, ground_dampers=(2,), dead_time=True),
     Chain(3, damped=True, dead_time=True),
-    Chain(3, damped=True, ground_dampers=(2,), dead_time=True),
-    Chain(4, damped=True, ground_dampers=(1,), dead_time=True),
 ]
+LARGER = Chain(4, damped=True, ground_dampers=(1,), dead_time=True)  # against evolution and CMA-ES only: a swarm takes too long
 
 
 def measured() -> tuple[FrequencyResponse, FrequencyResponse]:
@@ -79,6 +78,10 @@ def test_against_swarm_evolution_and_cma(benchmark) -> None:
         costs = [f"{ours:.4f}", *(f"{others[name]:.4f}" for name in ("swarm", "evolution", "CMA-ES"))]
         name = f"{chain.n_masses} masses, {len(chain.parameters)} parameters"
         rows.append((name, f"{ours_time:.2f} s", f"{swarm_time:.0f} s", f"{ratios[-1]:.0f}", *costs))
+    ours = estimates([LARGER], task)[LARGER].j
+    others = [evolved(LARGER, task), adapted(LARGER, task)]
+    assert ours <= min(others)
+    rows.append(("4 masses, 12 parameters", "", "", "", f"{ours:.4f}", "", *(f"{j:.4f}" for j in others)))
     heads = ["candidate", "starts", "swarm", "ratio", "J starts", "J swarm", "J evolution", "J CMA-ES"]
     table("One candidate and what leads to it, one core", heads, rows)
     assert min(ratios) > 100

@@ -53,7 +53,7 @@ def test_what_is_simulated_is_selected(files, tmp_path):
 def test_the_printed_result_says_what_matters(files):
     said = disting("fit", files[0], "--test", files[1], "--masses", "2").stdout
     assert said.startswith("16 candidates fitted to 241 frequency lines, validated on test data\n")
-    assert "selected: 2 masses, gap 0, force 1-0, sensor 1-0, damped, ground dampers 2, dead time" in said
+    assert "selected: 2 masses, damper b2, dead time " in said
     assert "  b2   = " in said and "antiresonance 1" in said and " Hz\n" in said
     assert "no other candidate behaves the same" in said
 
@@ -83,8 +83,8 @@ def test_options_reach_the_fit(files):
 
 def test_the_demonstration_drive_is_recognised():
     done = disting("fit", "--demo", "--masses", "2")
-    assert "ground dampers 1, dead time" in done.stdout.split("selected:")[1].splitlines()[0]
-    assert "A/(rad/s^2)" in done.stdout
+    assert "damper b1, dead time" in done.stdout.split("selected:")[1].splitlines()[0]
+    assert "A/(rad/s²)" in done.stdout
 
 
 def test_time_series_are_fitted_like_their_response():
