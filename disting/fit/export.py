@@ -68,7 +68,7 @@ def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "contro
 def to_control_transfer_function(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.TransferFunction":
     """A python-control TransferFunction, without the dead time, from poles, zeros and gain; needs disting[control]."""
     p = np.array([values[name] for name in chain.parameters])
-    bottom, top = np.poly(poles(chain.structure, p)).real, np.poly(zeros(chain.structure, p)).real
+    bottom, top = (np.atleast_1d(np.poly(roots(chain.structure, p))).real for roots in (poles, zeros))
     at = 2.0 * np.abs(poles(chain.structure, p)).max() + 1.0  # a real point away from all of them
     plain = Chain(*chain.indices, damped=chain.damped, ground_dampers=chain.ground_dampers, sensor=Sensor.POSITION)
     whole = _real_response(plain, {name: values[name] for name in plain.parameters}, at)

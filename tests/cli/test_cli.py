@@ -166,10 +166,10 @@ def test_a_run_killed_at_any_moment_resumes(tmp_path):
     environment = os.environ | {"DISTING_CACHE": str(cache)}
     command = [sys.executable, "-m", "disting", "verdicts", "5", "--damped", "--conditions", "1-9", "--csv", "-"]
     stored, delay = [], 0.5
-    for _ in range(8):
+    while len(stored) < 8 or (stored[-1] == 0 and delay < 60):  # a busy machine needs longer to store anything
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
         time.sleep(delay)
-        delay += 0.15
+        delay = delay + 0.15 if len(stored) < 8 else 2 * delay
         process.send_signal(signal.SIGKILL)
         process.wait()
         stored.append(entries(cache))
@@ -201,24 +201,17 @@ def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
 def test_interrupt_leaves_no_traceback(tmp_path):
     environment = os.environ | {"DISTING_CACHE": str(tmp_path / "c.sqlite3")}
     process = subprocess.Popen(
-        [sys.executable, "-m", "disting", "verdicts", "7", "--damped"], stderr=subprocess.PIPE, text=True, env=environment
+        [sys.executable, "-m", "disting", "verdicts", "7", "--damped"],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background jobs inherit SIG_IGN
     )
     time.sleep(2.0)
-    error = _interrupted(process, tries=3)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
     assert process.returncode == 130
     assert error.strip() == "disting: interrupted; what was finished is kept in the cache"
-
-
-def _interrupted(process, tries):
-    """Standard error after Ctrl-C, pressed again where Python lost it: an exception inside a finalizer is ignored."""
-    process.send_signal(signal.SIGINT)
-    try:
-        return process.communicate(timeout=30)[1]
-    except subprocess.TimeoutExpired:
-        if tries == 1:
-            process.kill()
-            raise
-        return _interrupted(process, tries - 1)
 
 
 def test_a_closed_pipe_is_no_error():
