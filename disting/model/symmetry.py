@@ -9,10 +9,13 @@ transfer function after a renaming of the parameters, over complex, real and pos
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from itertools import product
 
 from disting.model.chain import Chain
 from disting.model.structure import Element
+
+REMEMBERED = 4096  # canonical forms; everything about a pair asks for them again
 
 
 class Symmetry(StrEnum):
@@ -42,6 +45,7 @@ def forms(chain: Chain) -> Iterator[Form]:
         yield Form(_moved(chain, chosen), chosen, _renaming(chain, chosen))
 
 
+@lru_cache(maxsize=REMEMBERED)
 def canonical(chain: Chain) -> Form:
     """The equivalent form with the smallest indices and ground dampers: equal for chains that are renamings by symmetry."""
     moved = {chosen: _moved(chain, chosen) for chosen in _choices()}
