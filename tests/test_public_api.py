@@ -33,7 +33,7 @@ NAMES = [
         "transfer_function",
     ),
 ]
-HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich"}
+HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich", "scipy", "matplotlib"}
 
 
 def test_public_names():
