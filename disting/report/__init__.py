@@ -1,4 +1,4 @@
-"""Catalogues as pages and figures. This layer renders what is known and never computes it."""
+"""Catalogues as pages and figures. This layer renders verdicts and never decides; it writes formulas out for people."""
 
 from disting.report.drawing import chain_png as chain_png
 from disting.report.drawing import chain_svg as chain_svg
@@ -6,5 +6,6 @@ from disting.report.drawing import describe as describe
 from disting.report.index import index as index
 from disting.report.matrix import matrix_png as matrix_png
 from disting.report.matrix import matrix_svg as matrix_svg
+from disting.report.model import model_page as model_page
 from disting.report.page import page as page
 from disting.report.write import write_report as write_report

@@ -10,6 +10,13 @@ def render(template: str, **values: object) -> str:
     return environment().get_template(template).render(**values)
 
 
+def source(template: str) -> str:
+    """Text of a file among the templates, as it is."""
+    loader = environment().loader
+    assert loader is not None
+    return loader.get_source(environment(), template)[0]
+
+
 @cache
 def environment() -> Environment:
     """Templates of this package: a missing value is an error, a text is never taken for markup."""

@@ -58,13 +58,17 @@ class Grid:
 
 
 def matrix_svg(catalog: Catalog) -> str:
-    """The three triangles as a stand-alone SVG."""
+    """The triangles as a stand-alone SVG."""
     return svg(figure(catalog))
 
 
 def matrix_png(catalog: Catalog) -> bytes:
-    """The three triangles as a PNG of at most 5200 pixels width."""
-    scene = figure(catalog)
+    """The triangles as a PNG of at most 5200 pixels width."""
+    return figure_png(figure(catalog))
+
+
+def figure_png(scene: Scene) -> bytes:
+    """A figure as a PNG of at most 5200 pixels width."""
     return png(scene, scale=min(2.0, WIDEST_PNG / scene.width), oversample=2)
 
 

@@ -1,12 +1,13 @@
 """The data behind the fields: each view's verdicts in a compact form for the page's script, each text once.
 
 Pair (low, high) is entry (high - 1)(high - 2)/2 + low - 1 of a view, that is row after row of the triangle. A sentence
-names the models {L} and {R}, so that pairs decided alike share it.
+names the models {L} and {R}, so that pairs decided alike share it. Equal neighbours are counted (`packed`).
 """
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 
 from markupsafe import Markup
 
@@ -53,10 +54,32 @@ class Pool:
 def payload(catalog: Catalog) -> Markup:
     """JSON text that is safe inside a script element."""
     texts, entries = Pool(), Pool()
-    views = {view.value: [entries.number(_entry(v)) for v in _triangle(catalog, view)] for view in VIEW_TITLES}
+    views = {view.value: packed([entries.number(_entry(v)) for v in _triangle(catalog, view)]) for view in VIEW_TITLES}
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
-    data = {"models": len(catalog.family), "texts": list(texts.numbers), "entries": rows, "views": views}
+    data = {
+        "masses": catalog.n_masses,
+        "damped": catalog.damped,
+        "models": len(catalog.family),
+        "groups": catalog.classes(View.EXACT),
+        "titles": VIEW_TITLES,
+        "texts": list(texts.numbers),
+        "entries": rows,
+        "views": views,
+    }
     return script_json(data)
+
+
+def packed(numbers: Sequence[int]) -> list[int]:
+    """Numbers >= 0 with their repetitions as one negative count, so that a matrix of millions of fields stays small.
+
+    >>> packed([7, 7, 7, 0, 7])
+    [7, -2, 0, 7]
+    """
+    found: list[int] = []
+    for number, run in groupby(numbers):
+        again = sum(1 for _ in run) - 1
+        found += [number, -again] if again else [number]
+    return found
 
 
 def script_json(data: object) -> Markup:

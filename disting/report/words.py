@@ -64,6 +64,16 @@ def coefficients(chain: Chain) -> tuple[str, ...]:
     return (*(f"{label} = ({table[label]}) / {lead}" for label in others), f"{lead} = {table[lead]}")
 
 
+def rule_in_words(decided_by: str) -> str:
+    """What decided, in words.
+
+    >>> rule_in_words("4"), rule_in_words(RULE_NAMES[EXACT])
+    ('condition 4', 'the exact decision')
+    """
+    named = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "positive equivalents"}
+    return named.get(decided_by, f"condition {decided_by}")
+
+
 def _readable(expression: str) -> str:
     """Products without signs, powers as superscripts."""
     return re.sub(r"\^(\d)", lambda m: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(m[1])], expression).replace("*", " ")

@@ -1,204 +1,190 @@
-"use strict";
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const section = document.getElementById("verdicts");
   const panel = document.getElementById("detail");
-  const grids = [...section.querySelectorAll(".matrix")];
   const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula"];
+  const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
   const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure", fibre: "one fibre", parameters: "equivalents" };
   const RULES = { exact: "the exact decision", admissible: "positive equivalents" };
+  const SIGNS = { exact: "E", admissible: "+" };
+  const kind = data.damped ? "damped" : "undamped";
+  const folder = `models/${data.masses}-${kind}`;
   const rule = (by) => RULES[by] || `condition ${by}`;
-  const PANELS = { domains: ["exact", "positive"], all: Object.keys(data.views) };
-  const first = (show) => (PANELS[show] || [show])[0];
+  const byId = (id) => document.getElementById(id);
   const slot = (name) => panel.querySelector(`[data-slot="${name}"]`);
-  const viewOf = (grid) => grid.closest(".view").dataset.view;
-  let selected = null; // [low, high, view]
+  const said = { above: byId("above"), below: byId("below") };
+  const views = () => [said.below.value, said.above.value];
+  let selected = null; // models, one or two, and the view: [[2, 5], "exact"]
 
-  // ---- data: entry (high-1)(high-2)/2 + low-1 of a view
-  const verdict = (low, high, view) => {
-    const entry = data.entries[data.views[view][((high - 1) * (high - 2)) / 2 + low - 1]];
-    const found = Object.fromEntries(NAMES.map((name, i) => [name, data.texts[entry[i]]]));
+  // ---- data: entry (high-1)(high-2)/2 + low-1 of a view; negative numbers repeat what is before them
+  const size = (data.models * (data.models - 1)) / 2;
+  const unpack = (runs) => {
+    const found = new Uint32Array(size);
+    let at = 0;
+    for (const number of runs)
+      if (number >= 0) found[at++] = number;
+      else found.fill(found[at - 1], at, (at -= number));
+    return found;
+  };
+  const entries = {};
+  const entriesOf = (view) => (entries[view] ??= unpack(data.views[view]));
+  const relations = data.entries.map((entry) => RELATIONS.indexOf(data.texts[entry[0]]));
+  const entry = (i, j, view) => {
+    const [low, high] = i < j ? [i, j] : [j, i];
+    return entriesOf(view)[((high - 1) * (high - 2)) / 2 + low - 1];
+  };
+  const verdict = (i, j, view) => {
+    const [low, high] = i < j ? [i, j] : [j, i];
+    const found = Object.fromEntries(NAMES.map((name, at) => [name, data.texts[data.entries[entry(i, j, view)][at]]]));
     found.why = found.why.replaceAll("{L}", `A${low}`).replaceAll("{R}", `A${high}`);
     return found;
   };
   const short = (v) => (v.by ? `${v.relation}, ${rule(v.by)}` : v.relation);
+  const titled = (view) => data.titles[view].toLowerCase();
+  const label = (i, j, view) => {
+    if (i === j) return `A${i}, the model itself`;
+    return `A${Math.min(i, j)} and A${Math.max(i, j)}: ${short(verdict(i, j, view))} (${titled(view)})`;
+  };
 
-  // ---- fields: row and column give the pair
-  const pairOf = (td) => [td.cellIndex, td.parentElement.rowIndex + 1];
-  const fieldOf = (grid, low, high) => grid.tBodies[0].rows[high - 2]?.cells[low];
-  const name = (td) => {
-    const [low, high] = pairOf(td);
-    td.setAttribute("aria-label", `A${low} and A${high}: ${short(verdict(low, high, viewOf(td.closest("table"))))}`);
-    td.title = td.getAttribute("aria-label");
-  };
-  const rove = (grid, td) => {
-    grid.querySelector('td[tabindex="0"]')?.setAttribute("tabindex", "-1");
-    td.setAttribute("tabindex", "0");
-    name(td);
-  };
-  const light = (grid, low, high) => {
-    grid.querySelectorAll("th.lit").forEach((th) => th.classList.remove("lit"));
-    if (low) [grid.tHead.rows[0].cells[low], grid.tBodies[0].rows[high - 2].cells[0]].forEach((th) => th.classList.add("lit"));
-  };
-  const relight = (grid) => light(grid, ...(selected || []));
-
-  // ---- the panel
+  // ---- the panel of a pair or of a model
   const draw = (side, number) => {
-    const source = document.querySelector(`#A${number} .chain`);
+    const source = document.querySelector(`#row-${number} .chain`);
     const svg = slot(side);
-    svg.setAttribute("viewBox", source.getAttribute("viewBox"));
-    svg.setAttribute("aria-label", source.getAttribute("aria-label"));
+    svg.hidden = !source; // a page of thousands of models has no drawings
+    for (const name of ["viewBox", "aria-label", "width"]) if (source) svg.setAttribute(name, source.getAttribute(name));
     svg.firstElementChild.setAttribute("href", `#chain-${number}`);
-    svg.setAttribute("width", source.getAttribute("width"));
-    slot(`${side}-name`).textContent = `A${number}`;
+    const link = slot(`${side}-name`);
+    link.textContent = `A${number}`;
+    link.href = `${folder}/${number}.html`;
   };
-  const fill = (low, high, view) => {
+  const put = (texts) => Object.entries(texts).forEach(([name, text]) => (slot(name).textContent = text));
+  const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    slot("title").textContent = `A${low} and A${high}`;
-    slot("badge").textContent = v.relation;
+    put({ title: `A${low} and A${high}`, badge: v.relation, why: v.why, formula: v.formula, link: "" });
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = v.by ? `by ${rule(v.by)}, ${WHERE[v.representation] || v.representation}` : "";
-    slot("why").textContent = v.why;
-    slot("formula").textContent = v.formula;
     slot("certainty").textContent = v.by ? `${v.certainty} Over ${v.domain} parameter values.` : "";
     draw("left", low);
     draw("right", high);
+    slot("right-figure").hidden = slot("views").hidden = false;
     for (const other of Object.keys(data.views)) slot(`in-${other}`).textContent = short(verdict(low, high, other));
-    document.getElementById("status").textContent = `A${low} and A${high}: ${short(v)}. ${v.why}`;
+    byId("status").textContent = `A${low} and A${high}: ${short(v)}. ${v.why}`;
   };
-  const clear = () => {
-    section.querySelectorAll('[aria-selected="true"]').forEach((td) => td.removeAttribute("aria-selected"));
+  const fillModel = (model, view) => {
+    const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
+    const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
+    const words = counted.map(([r, of]) => `${r} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map((i) => `A${i}`).join(", ")})`}`);
+    put({ title: `A${model}`, badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "" });
+    slot("badge").className = "badge";
+    draw("left", model);
+    slot("right-figure").hidden = slot("views").hidden = true;
+    const link = document.createElement("a");
+    link.href = `${folder}/${model}.html`;
+    link.textContent = `Formulas and identifiability of A${model}`;
+    slot("link").replaceChildren(link);
+    byId("status").textContent = `A${model}. ${slot("why").textContent}`;
   };
-  const select = (low, high, view) => {
-    clear();
-    selected = [low, high, view];
-    for (const grid of grids) {
-      const td = fieldOf(grid, low, high);
-      td.setAttribute("aria-selected", "true");
-      rove(grid, td);
-      relight(grid);
-    }
-    fill(low, high, view);
+  const fill = ([models, view]) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
+  const hashOf = (models) => (models.length === 2 ? `#${models[0]}-${models[1]}` : `#A${models[0]}`);
+  const select = (models, view) => {
+    selected = [models, view];
+    matrix.pick(models.length === 2 ? models : [models[0], models[0]]);
+    fill(selected);
     panel.hidden = false;
-    if (location.hash !== `#${low}:${high}`) history.replaceState(null, "", `#${low}:${high}`);
-    panel.scrollIntoView({ block: "nearest" });
+    if (location.hash !== hashOf(models)) history.replaceState(null, "", hashOf(models));
+    panel.scrollTop = panel.parentElement.scrollTop = 0;
+    bring();
+  };
+  // the field stays in sight: above the sheet on a phone, below the upper edge elsewhere
+  const bring = () => {
+    const field = matrix.cursor();
+    const sheet = getComputedStyle(panel).position === "fixed";
+    const [top, bottom] = [60, sheet ? innerHeight - panel.offsetHeight - 20 : innerHeight - 30];
+    const by = field.bottom > bottom ? Math.min(field.bottom - bottom + (sheet ? 60 : 0), field.top - top) : field.top < top ? field.top - top : 0;
+    scrollBy({ top: by, behavior: "instant" });
   };
   const close = () => {
     if (!selected) return;
-    const [low, high, view] = selected;
-    const grid = grids.find((g) => viewOf(g) === view && g.offsetParent) || grids.find((g) => g.offsetParent);
+    const back = selected[0];
     selected = null;
-    clear();
-    grids.forEach(relight);
+    matrix.pick(null);
     panel.hidden = true;
     history.replaceState(null, "", location.pathname + location.search);
-    fieldOf(grid, low, high).focus({ preventScroll: true });
+    matrix.go(back[back.length - 1], back[0], { focus: true });
   };
 
-  // ---- keyboard: arrows move in the triangle, Enter or space opens
-  const target = (grid, low, high, event) => {
-    const last = data.models;
-    const far = event.ctrlKey || event.metaKey;
-    switch (event.key) {
-      case "ArrowLeft": return [Math.max(1, low - 1), high];
-      case "ArrowRight": return [Math.min(high - 1, low + 1), high];
-      case "ArrowUp": return [low, Math.max(low + 1, high - 1)];
-      case "ArrowDown": return [low, Math.min(last, high + 1)];
-      case "PageUp": return [low, Math.max(low + 1, high - 10)];
-      case "PageDown": return [low, Math.min(last, high + 10)];
-      case "Home": return far ? [1, 2] : [1, high];
-      case "End": return far ? [last - 1, last] : [high - 1, high];
-      default: return null;
-    }
-  };
-  const onKey = (grid, event) => {
-    const td = event.target.closest("tbody td");
-    if (!td) return;
-    const [low, high] = pairOf(td);
-    const next = target(grid, low, high, event);
-    if (event.key === "Enter" || event.key === " ") select(low, high, viewOf(grid));
-    else if (next) {
-      const to = fieldOf(grid, ...next);
-      rove(grid, to);
-      to.focus();
-    } else return;
-    event.preventDefault();
-  };
-  for (const grid of grids) {
-    const first = fieldOf(grid, 1, 2);
-    rove(grid, first);
-    grid.addEventListener("keydown", (event) => onKey(grid, event));
-    grid.addEventListener("click", (event) => {
-      const td = event.target.closest("tbody td");
-      if (!td) return;
-      select(...pairOf(td), viewOf(grid));
-      td.focus({ preventScroll: true });
-    });
-    for (const kind of ["pointerover", "focusin"])
-      grid.addEventListener(kind, (event) => {
-        const td = event.target.closest("tbody td");
-        if (!td) return;
-        name(td);
-        light(grid, ...pairOf(td));
-      });
-    for (const kind of ["pointerleave", "focusout"]) grid.addEventListener(kind, () => relight(grid));
-  }
-  panel.querySelector(".close").addEventListener("click", close);
-  document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") close();
+  const natural = Array.from({ length: data.models }, (_, i) => i + 1);
+  const matrix = createMatrix(byId("matrix"), {
+    count: data.models,
+    order: natural,
+    views: views(),
+    codes: (view) => Uint8Array.from(entriesOf(view), (number) => relations[number]),
+    sign: (i, j, view) => {
+      const by = data.texts[data.entries[entry(i, j, view)][1]];
+      return SIGNS[by] || by;
+    },
+    label,
+    onMove: (i, j, view) => (byId("readout").textContent = label(i, j, view)),
+    onOpen: (i, j, view) => select(i === j ? [i] : [Math.min(i, j), Math.max(i, j)], view),
   });
 
-  // ---- views and size of the fields
-  const SIZES = [8, 10, 12, 14, 16, 18, 20, 23, 26, 30, 36, 44];
-  let cell = data.models <= 12 ? 26 : 20;
-  const resize = (size) => {
-    cell = size;
-    section.style.setProperty("--cell", `${size}px`);
-    section.classList.toggle("tiny", size < 14);
-    section.classList.toggle("micro", size < 10);
+  // ---- order: groups first, the largest before the others, so that indistinguishable blocks stand on the diagonal
+  const grouped = () => {
+    const groups = [...data.groups].sort((a, b) => b.length - a.length || a[0] - b[0]);
+    const inside = new Set(groups.flat());
+    const blocks = [];
+    groups.reduce((from, members) => (blocks.push([from, members.length]), from + members.length), 0);
+    return [[...groups.flat(), ...natural.filter((i) => !inside.has(i))], blocks];
   };
-  const fit = () => {
-    const shown = grids.find((grid) => grid.offsetParent);
-    if (!shown) return;
-    const beside = section.dataset.show === "domains" && innerWidth > 700 ? 2 : 1;
-    const room = (shown.closest(".scroll").parentElement.parentElement.clientWidth - 26) / beside - Math.max(3.2 * cell, 46);
-    const size = Math.floor(room / (data.models - 1));
-    resize(Math.max(5, Math.min(30, size < 14 ? size : size - 1))); // small fields have no space between them
-  };
-  const ZOOM = {
-    out: () => resize(SIZES.filter((s) => s < cell).pop() || cell),
-    in: () => resize(SIZES.find((s) => s > cell) || cell),
-    fit,
-  };
-  section.querySelectorAll("[data-zoom]").forEach((b) => b.addEventListener("click", () => ZOOM[b.dataset.zoom]()));
-  const show = (view) => {
-    section.dataset.show = view;
-    if (!selected) return;
-    if (!(PANELS[view] || [view]).includes(selected[2])) selected[2] = first(view);
-    fill(...selected);
-  };
-  const radios = [...section.querySelectorAll('input[name="show"]')];
-  radios.forEach((radio) => radio.addEventListener("change", () => show(radio.value)));
-  const choose = (view) => {
-    radios.forEach((radio) => (radio.checked = radio.value === view));
-    show(view);
-  };
+  for (const radio of section.querySelectorAll('[name="order"]'))
+    radio.addEventListener("change", () => matrix.arrange(...(radio.value === "group" ? grouped() : [natural, []])));
 
-  // ---- deep link #low:high
-  const follow = () => {
-    const found = /^#(\d+)(?::|%3A)(\d+)$/i.exec(location.hash);
-    if (!found) return;
-    const [low, high] = [+found[1], +found[2]].sort((a, b) => a - b);
-    if (low < 1 || low === high || high > data.models) return;
-    select(low, high, first(section.dataset.show));
-    section.scrollIntoView({ behavior: "instant" });
-    const grid = grids.find((g) => g.offsetParent);
-    fieldOf(grid, low, high).scrollIntoView({ block: "center", inline: "center", behavior: "instant" });
-    panel.scrollIntoView({ block: "nearest", behavior: "instant" });
+  // ---- filter, views, size
+  const filter = () => {
+    const shown = RELATIONS.map((name) => byId("filter").elements[name].checked);
+    const members = byId("group").value ? new Set(data.groups[byId("group").value - 1]) : null;
+    matrix.filter((i, j, code) => shown[code] && (!members || (members.has(i) && members.has(j))));
   };
-  resize(cell);
-  choose(innerWidth > 700 ? section.dataset.show : "exact");
-  if (data.models > 12) fit();
+  byId("filter").addEventListener("change", filter);
+  byId("filter").addEventListener("submit", (event) => event.preventDefault());
+  for (const choice of Object.values(said))
+    choice.addEventListener("change", () => {
+      matrix.show(views());
+      if (selected) fill((selected[1] = choice.value, selected));
+    });
+  const ZOOM = { out: () => matrix.zoom(1 / 1.5), in: () => matrix.zoom(1.5), fit: matrix.fit };
+  section.querySelectorAll("[data-zoom]").forEach((b) => b.addEventListener("click", () => ZOOM[b.dataset.zoom]()));
+
+  // ---- search
+  const trouble = (text) => (byId("trouble").textContent = text);
+  byId("search").addEventListener("submit", (event) => {
+    event.preventDefault();
+    trouble("");
+    const models = parseModels(byId("find").value);
+    if (!models) return trouble(`Type a model such as ${data.masses}:2, or two numbers for a pair.`);
+    const masses = models.map((m) => m.masses || models[0].masses || data.masses);
+    if (masses.length === 2 && masses[0] !== masses[1]) return trouble("A catalogue compares models of one size.");
+    const numbers = [...new Set(models.map((m) => m.number))].sort((a, b) => a - b);
+    if (masses[0] !== data.masses) return (location.href = `chains-${masses[0]}-${kind}.html${numbers.length === 2 ? pairHash(numbers) : `#A${numbers[0]}`}`);
+    if (!show(numbers)) trouble(`There are the models 1 to ${data.models}.`);
+  });
+
+  // ---- deep links #2-5 (or #2:5) to a pair and #A5 to a model
+  const show = (numbers) => {
+    if (numbers.some((i) => i < 1 || i > data.models) || numbers[0] === numbers[1]) return false;
+    matrix.go(numbers[numbers.length - 1], numbers[0]);
+    select(numbers, views()[0]);
+    return true;
+  };
+  const follow = () => {
+    const found = /^#(?:A(\d+)|(\d+)(?:-|:|%3A)(\d+))$/i.exec(location.hash);
+    if (!found) return;
+    const numbers = found[1] ? [+found[1]] : [+found[2], +found[3]].sort((a, b) => a - b);
+    section.scrollIntoView({ behavior: "instant" });
+    show(numbers);
+  };
+  panel.querySelector(".close").addEventListener("click", close);
+  document.addEventListener("keydown", (event) => event.key === "Escape" && close());
   addEventListener("hashchange", follow);
   follow();
 })();

@@ -1,0 +1,129 @@
+"""A chain's formulas, typeset and as LaTeX: its transfer function, what it determines, and its maps to other chains.
+
+The transfer function of a damped chain is that of the undamped one with every k_ij replaced by κ_ij = k_ij + d_ij s, since a
+spring and the damper beside it act as one dynamic stiffness. Written out in k, d and s, coefficients of 4 masses have a
+hundred terms and more; in κ they stay readable, and nothing is lost.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from markupsafe import Markup
+
+from disting.algebra.symbols import coefficients
+from disting.equivalence import explicit_map
+from disting.equivalence.expression import Expression, Polynomial, factors, terms
+from disting.equivalence.images import images
+from disting.equivalence.writing import latex, latex_symbol
+from disting.identifiability.parts import Combination
+from disting.invariants.expanded import transfer_function
+from disting.model.chain import Chain
+from disting.report.mathml import equation, expression, factorised, formula, fraction, math, primed, summands, symbol
+from disting.report.words import LARGEST_SPELLED_OUT
+
+CAUER_UP_TO = 3  # masses of maps by continued fractions; those of 4 masses have thousands of letters
+LONGEST_BRACKET = 9  # letters of a sum in parentheses; a browser cannot break it
+G_OF_S = '<mi>G</mi><mo stretchy="false">(</mo><mi>s</mi><mo stretchy="false">)</mo>'
+Coefficient = tuple[int, Polynomial]
+"""Power of s and its coefficient."""
+
+
+@dataclass(frozen=True, slots=True)
+class TransferFunction:
+    """`head`: the quotient of polynomials in s; `lines`: (name, terms) of its coefficients; `stiffness`: written in κ."""
+
+    head: Markup
+    lines: tuple[tuple[Markup, tuple[Markup, ...]], ...]
+    latex: str
+    stiffness: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Correspondence:
+    """The explicit map to another chain: an equation a parameter."""
+
+    equations: tuple[Markup, ...]
+    latex: str
+    steps: str
+
+
+def written(chain: Chain) -> TransferFunction:
+    r"""The transfer function of a chain, in k and d up to 3 masses, in κ above.
+
+    >>> print(written(Chain(1)).latex)
+    \begin{align}
+      G(s) &= \frac{b_{0}}{a_{0}} \\
+      b_{0} &= 1 \\
+      a_{0} &= m_{1}
+    \end{align}
+    """
+    stiffness = chain.damped and chain.n_masses > LARGEST_SPELLED_OUT
+    found = transfer_function(replace(chain, damped=False) if stiffness else chain)
+    names = ("B", "A") if stiffness else ("b", "a")
+    sides = [(letter, _coefficients(p)) for letter, p in zip(names, (found.num, found.den), strict=True)]
+    head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
+    flat = [(f"{letter}{power}", p) for letter, coefficients in sides for power, p in coefficients]
+    lines = tuple((math(f"{symbol(label)}<mo>=</mo>"), _typeset(p, stiffness)) for label, p in flat)
+    text = _latex(sides, flat)
+    return TransferFunction(head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness)
+
+
+def correspondence(given: Chain, other: Chain) -> Correspondence | None:
+    """The explicit map from one chain to another where a short one is known."""
+    ones = dict.fromkeys(given.parameters, 1.0)
+    if given.n_masses > CAUER_UP_TO and all(image.chain != other for image in images(given, ones)):
+        return None
+    found = explicit_map(given, other)
+    if found is None:
+        return None
+    lines = (equation(primed(name), expression(value)) for name, value in found.formulas.items())
+    return Correspondence(tuple(lines), found.latex, ", then ".join(found.steps))
+
+
+def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:
+    """Determinable combinations of parameters, those too long to read by the name of their coefficient."""
+    parts = ([symbol(c.name)] if c.is_named else formula(c.formula) for c in basis)
+    return tuple(Markup(" ").join(map(math, found)) for found in parts)
+
+
+def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
+    return [(power, p) for power, p in enumerate(coefficients(polynomial, "s")) if not p.is_zero()]
+
+
+def _typeset(polynomial: Polynomial, stiffness: bool) -> tuple[Markup, ...]:
+    """Factorised where no factor is long, else term by term."""
+    parts = factorised(polynomial) if _is_short(polynomial) else summands(terms(polynomial))
+    return tuple(math(part.replace("<mi>k</mi>", "<mi>κ</mi>") if stiffness else part) for part in parts)
+
+
+def _is_short(polynomial: Polynomial) -> bool:
+    letters = (sum(sum(powers.values()) for _, powers in terms(p)) for p, _ in factors(polynomial)[1] if len(terms(p)) > 1)
+    return all(count <= LONGEST_BRACKET for count in letters)
+
+
+def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
+    return "<mo>+</mo>".join(symbol(f"{letter}{n}") + (symbol("s", n) if n else "") for n, _ in reversed(found))
+
+
+def _latex(sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tuple[str, Polynomial]]) -> str:
+    top, bottom = (_latex_in_s(*side) for side in sides)
+    rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [f"{latex_symbol(label)} &= {_latex_of(p)}" for label, p in flat]
+    return "\\begin{align}\n  " + " \\\\\n  ".join(rows) + "\n\\end{align}"
+
+
+def _latex_in_s(letter: str, found: Sequence[Coefficient]) -> str:
+    return " + ".join(
+        latex_symbol(f"{letter}{n}") + ("" if not n else " s" if n == 1 else f" s^{{{n}}}") for n, _ in reversed(found)
+    )
+
+
+def _latex_of(polynomial: Polynomial) -> str:
+    if _is_short(polynomial):
+        return latex(Expression(polynomial, polynomial**0))
+    return " + ".join(_latex_term(c, powers) for c, powers in terms(polynomial)).replace("+ -", "- ")
+
+
+def _latex_term(coefficient: int, powers: Mapping[str, int]) -> str:
+    size = [str(abs(coefficient))] * (abs(coefficient) != 1 or not powers)
+    symbols = [latex_symbol(name) + (f"^{{{e}}}" if e > 1 else "") for name, e in powers.items()]
+    return ("-" if coefficient < 0 else "") + " ".join(size + symbols)

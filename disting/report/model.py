@@ -1,0 +1,182 @@
+"""A page about one model: its drawing, what no experiment can tell it from, its transfer function, what can be determined."""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from disting.catalogs import Catalog, ModelRow
+from disting.conditions.inclusion import Inclusion
+from disting.identifiability import Level
+from disting.model.drawing import text_drawing
+from disting.positivity import PositiveFinding, Share
+from disting.report.drawing import draw
+from disting.report.environment import render
+from disting.report.formulas import Correspondence, combinations, correspondence, written
+from disting.report.scene import PAGE_PALETTE, Scene
+from disting.report.svg import body, number
+from disting.report.words import plural, rule_in_words, short_title
+from disting.verdict import Relation, Verdict, View
+
+DRAWN = 4  # indistinguishable models up to this number are drawn, more are sketched in letters
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A chain's drawing, held once by a page and shown wherever it is referred to."""
+
+    number: int
+    scene: Scene
+
+    @property
+    def label(self) -> str:
+        """What is seen, in words."""
+        return f"A{self.number}: {self.scene.title}"
+
+    @property
+    def definition(self) -> Markup:
+        """The drawing itself."""
+        return Markup(f'<g id="chain-{self.number}">{body(self.scene, PAGE_PALETTE)}</g>')
+
+    @property
+    def width(self) -> str:
+        """Natural width [px]."""
+        return number(self.scene.width)
+
+    @property
+    def box(self) -> str:
+        """viewBox."""
+        return f"0 0 {number(self.scene.width)} {number(self.scene.height)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """What pages say of a model."""
+
+    row: ModelRow
+    drawing: Drawing
+
+    @property
+    def sets(self) -> str:
+        """How many parameter vectors have one behaviour."""
+        found = self.row.identifiability
+        if found.level is Level.NOT:
+            return "infinitely many"
+        if found.most is None:
+            return "not known"
+        return str(found.most) if found.least == found.most else f"{found.least} to {found.most}"
+
+    @property
+    def ports(self) -> tuple[str, str]:
+        """Force and sensor in words."""
+        c = self.row.chain
+        return _port(c.act_plus, c.act_minus), _port(c.meas_plus, c.meas_minus)
+
+    @property
+    def letters(self) -> str:
+        """The chain in one line of letters."""
+        return text_drawing(self.row.chain)
+
+
+@dataclass(frozen=True, slots=True)
+class Twin:
+    """An indistinguishable model: the pair's deep link, what positive parameters say, and the explicit map to it."""
+
+    model: Model
+    pair: str
+    positive: str
+    map: Correspondence | None
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The models whose closure holds this one, and those that this one's closure holds."""
+
+    inside: tuple[int, ...]
+    holds: tuple[int, ...]
+
+
+def model_of(catalog: Catalog, number: int) -> Model:
+    """A model of a catalogue, with its drawing."""
+    row = catalog.rows[number - 1]
+    return Model(row, Drawing(number, draw(row.chain)))
+
+
+def folder_of(catalog: Catalog) -> str:
+    """Where the pages of a catalogue's models are, as seen from the catalogue's page.
+
+    >>> from disting.catalogs import catalog
+    >>> folder_of(catalog(3, damped=True))
+    'models/3-damped'
+    """
+    return f"models/{catalog.name.removeprefix('chains-')}"
+
+
+def model_page(catalog: Catalog, number: int) -> str:
+    """HTML of one model; beside it the style sheet of `write_report` is expected."""
+    model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
+    twins = [_twin(catalog, model, other, v) for other, v in verdicts.items() if v.relation is Relation.INDISTINGUISHABLE]
+    return render(
+        "model.html",
+        catalog=catalog,
+        family=short_title(catalog),
+        model=model,
+        row=model.row,
+        twins=twins,
+        drawn=len(twins) <= DRAWN,
+        transfer=written(model.row.chain),
+        free=catalog.records[number]["free"],
+        basis=combinations(model.row.identifiability.basis),
+        told_apart=told_apart(verdicts),
+        limits=limits(number, verdicts),
+        last=len(catalog.family),
+        plural=plural,
+    )
+
+
+def told_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
+    """What tells the model from how many others, the most frequent first."""
+    found = Counter(v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE)
+    return tuple((rule_in_words(rule), count) for rule, count in found.most_common())
+
+
+def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
+    """Which models become this one in a limit of their parameters, and the reverse."""
+
+    def others(larger: bool) -> Iterator[int]:
+        for other, v in verdicts.items():
+            inside = Inclusion.LEFT_IN_RIGHT if (number < other) == larger else Inclusion.RIGHT_IN_LEFT
+            if v.inclusion is inside:
+                yield other
+
+    return Limits(tuple(others(True)), tuple(others(False)))
+
+
+def _verdicts(catalog: Catalog, number: int) -> Iterator[tuple[int, Verdict]]:
+    for other in range(1, len(catalog.family) + 1):
+        if other != number:
+            yield other, catalog.verdict(number, other, View.EXACT)
+
+
+def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
+    here = model.row.number
+    low, high = sorted((here, other))
+    given = verdict.left_positive if here == low else verdict.right_positive
+    twin = model_of(catalog, other)
+    return Twin(twin, f"{low}-{high}", _positive(given, other), correspondence(model.row.chain, twin.row.chain))
+
+
+def _positive(found: PositiveFinding | None, other: int) -> str:
+    """Which positive parameters of this model have positive ones of the other."""
+    said = {
+        Share.ALWAYS: f"for all positive parameters here, A{other} has positive ones that do the same",
+        Share.SOMETIMES: f"only for some positive parameters here, A{other} has positive ones that do the same",
+        Share.NEVER: f"A{other} needs parameters that are not positive",
+        Share.UNKNOWN: "not known for positive parameters",
+    }
+    return said[Share.UNKNOWN if found is None else found.share]
+
+
+def _port(plus: int, minus: int) -> str:
+    return f"{plus} against {minus or 'ground'}"

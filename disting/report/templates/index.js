@@ -1,0 +1,26 @@
+"use strict";
+(() => {
+  const sizes = JSON.parse(document.getElementById("sizes").textContent);
+  const form = document.getElementById("search");
+  const said = document.getElementById("said");
+  const address = (text, kind) => {
+    const models = parseModels(text);
+    if (!models) return ["", "Type a model as masses:number, such as 5:17, or two of them."];
+    const masses = models.map((m) => m.masses).filter(Boolean);
+    if (!masses.length) return ["", "Say the number of masses too, such as 5:17."];
+    if (masses[0] !== masses[masses.length - 1]) return ["", `A catalogue holds one size; two sizes: disting compare ${text}`];
+    const family = sizes[`chains-${masses[0]}-${kind}`];
+    if (!family) return ["", `There is no catalogue of ${masses[0]} masses, ${kind}, here.`];
+    const numbers = models.map((m) => m.number);
+    const wrong = numbers.find((n) => n < 1 || n > family.models);
+    if (wrong !== undefined) return ["", `That catalogue has the models 1 to ${family.models}.`];
+    if (numbers.length === 1 || numbers[0] === numbers[1]) return [`${family.folder}/${numbers[0]}.html`, ""];
+    return [`chains-${masses[0]}-${kind}.html${pairHash(numbers)}`, ""];
+  };
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const [to, trouble] = address(form.elements.models.value, form.elements.kind.value);
+    said.textContent = trouble;
+    if (to) location.href = to;
+  });
+})();
