@@ -1,0 +1,36 @@
+"""A figure of the page: its files, and the element that stands in the page."""
+
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from disting.report.fit.style import Drawn, inlined
+from disting.report.paper.pdf import pdf
+from disting.report.png import png
+from disting.report.scene import PAGE_PALETTE, Scene
+from disting.report.svg import body, number, svg
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """`name` of the files, `printed` = the paper's figures that it stands for, `caption`, the files, and its inline form."""
+
+    name: str
+    printed: str
+    caption: str
+    files: tuple[tuple[str, bytes], ...]
+    inline: Markup
+
+
+def of_scene(name: str, printed: str, caption: str, scene: Scene) -> Picture:
+    """A picture of a scene; in the page its colours are those of the style sheet."""
+    box = f"0 0 {number(scene.width)} {number(scene.height)}"
+    opening = Markup('<svg class="plot triangles" viewBox="{}" style="max-width:{}px" role="img" aria-label="{}">')
+    inline = opening.format(box, number(scene.width), scene.title) + Markup(body(scene, PAGE_PALETTE) + "</svg>")
+    return Picture(name, printed, caption, ((".svg", svg(scene).encode()), (".png", png(scene)), (".pdf", pdf(scene))), inline)
+
+
+def of_plot(name: str, printed: str, caption: str, plot: Drawn) -> Picture:
+    """A picture of a plot, whatever name the plot has by itself."""
+    inline = inlined(plot.svg.decode(), name, plot.title)
+    return Picture(name, printed, caption, ((".svg", plot.svg), (".png", plot.png), (".pdf", plot.pdf)), inline)

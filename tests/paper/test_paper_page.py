@@ -1,0 +1,126 @@
+"""The page of the paper: all claims, all figures, closed in itself, byte-reproducible."""
+
+import html
+import re
+import struct
+from pathlib import Path
+
+import pytest
+
+from disting.cli.run import main
+from disting.paper import CLAIMS, Findings, Outcome
+from disting.report.paper import paper_figures, paper_page, write_paper
+from disting.report.paper.page import raised
+from disting.report.paper.picture import of_scene
+from disting.report.paper.refit import refit_figure
+from disting.report.paper.triangles import of_decisions, triangles
+from disting.report.svg import svg
+from disting.verdict import Relation, View
+from tests.report.fit.test_page import Outline
+
+NAMES = ["figures-3-4", "figures-5-6", "figures-7-8", "figure-10", "figure-11", "figure-12", "figure-13", "figure-14"]
+
+
+@pytest.fixture(scope="module")
+def findings():
+    return Findings(sizes=(1, 2))
+
+
+@pytest.fixture(scope="module")
+def folder(findings, tmp_path_factory) -> Path:
+    out = tmp_path_factory.mktemp("paper") / "new"
+    write_paper(findings, out)
+    return out
+
+
+@pytest.fixture(scope="module")
+def page(folder) -> str:
+    return (folder / "index.html").read_text(encoding="utf-8")
+
+
+def test_page_and_three_files_a_figure(folder):
+    assert {p.name for p in folder.iterdir()} == {"index.html", *(n + e for n in NAMES for e in (".svg", ".png", ".pdf"))}
+    for name in NAMES:
+        assert (folder / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+        assert b"<svg" in (folder / f"{name}.svg").read_bytes()
+        width, height = struct.unpack(">II", (folder / f"{name}.png").read_bytes()[16:24])
+        assert min(width, height) > 500
+
+
+def test_every_claim_stands_on_the_page_with_its_outcome(page):
+    outline = Outline(page)
+    said = re.sub(r"\s+", " ", outline.text)
+    classes = [a["class"] for tag, a in outline.elements if tag == "span" and (a.get("class") or "").startswith("mark ")]
+    assert classes[len(Outcome) :] == [f"mark {c.outcome.name.lower()}" for c in CLAIMS]
+    ids = [a["id"] for _, a in outline.elements if "id" in a]
+    assert len(ids) == len(set(ids))
+    for claim in CLAIMS:
+        assert f"claim-{claim.key}" in ids
+        for text in (claim.place, claim.text, claim.printed, claim.reason):
+            assert re.sub(r"\s+", " ", html.unescape(re.sub("<[^>]*>", "", raised(text)))) in said
+
+
+def test_nothing_comes_from_elsewhere(page):
+    outline = Outline(page)
+    links = [a.get("href") or a.get("src") or "" for _, a in outline.elements if a.get("href") or a.get("src")]
+    ids = {"#" + (a.get("id") or "") for _, a in outline.elements}
+    beside = {n + e for n in NAMES for e in (".svg", ".png", ".pdf")} | {"../index.html"}
+    assert set(links) <= ids | beside
+    assert not re.search(r"https?://(?!www\.w3\.org)|@import|<script", page)
+    assert len(page) < 1_000_000
+
+
+def test_table_2_and_table_3(page):
+    assert re.findall(r'<th scope="row" class="n">(\d+)</th><td class="n">(\d*)</td><td class="n">(\d+)</td>', page)[3:6] == [
+        ("4", "29", "29"),
+        ("5", "73", "73"),
+        ("6", "", "157"),
+    ]
+    rows = re.findall(r'<th scope="row">A(\d+)( \*)?</th>', page)
+    assert [int(number) for number, _ in rows] == list(range(1, 12))
+    assert [int(number) for number, star in rows if star] == [1, 4, 6, 8, 11]
+
+
+def test_fields_of_figure_10(findings):
+    panel = of_decisions("left", findings.picture(3, False, View.TF))
+    assert panel.names[:2] == ("A1", "A2")
+    assert panel.fields[0, 3] == (Relation.INDISTINGUISHABLE, "7")
+    assert panel.fields[1, 4] == (Relation.INDISTINGUISHABLE, "6")
+    assert panel.fields[0, 1] == (Relation.DISTINGUISHABLE, "1")
+    drawn = svg(triangles("title", (panel,), 1, 24.0))
+    assert drawn.count(">7</text>") == 10
+    assert ">undecided</text>" not in drawn
+
+
+@pytest.mark.slow
+def test_the_same_findings_give_the_same_bytes(findings, folder):
+    again = {p.name: p for p in paper_figures(findings)}
+    assert list(again) == NAMES
+    for picture in again.values():
+        for ending, content in picture.files:
+            assert content == (folder / (picture.name + ending)).read_bytes(), picture.name + ending
+    assert paper_page(findings, list(again.values())) == (folder / "index.html").read_text(encoding="utf-8")
+
+
+def test_another_computation_gives_the_same_bytes(folder):
+    fresh = Findings()
+    plot = refit_figure(fresh.refit)
+    panels = [of_decisions("Transfer function", fresh.picture(3, False, View.TF))]
+    panels.append(of_decisions("8 Markov parameters", fresh.picture(3, False, View.MARKOV, 8)))
+    title = re.search("<title>(.*?)</title>", (folder / "figure-10.svg").read_text(encoding="utf-8"))
+    assert title is not None
+    scene = of_scene("figure-10", "", "", triangles(title[1], panels, 2, 24.0))
+    files = {"figure-12.svg": plot.svg, "figure-12.png": plot.png, "figure-12.pdf": plot.pdf}
+    files |= {scene.name + ending: content for ending, content in scene.files}
+    assert len(files) == 6
+    for name, content in files.items():
+        assert content == (folder / name).read_bytes(), name
+
+
+def test_subscripts_of_hostile_text():
+    assert raised("<b>_x^2") == "&lt;b&gt;<sub>x</sub><sup>2</sup>"
+
+
+def test_report_needs_something_to_report(capsys):
+    assert main(["report"]) == 2
+    assert "--paper" in capsys.readouterr().err
