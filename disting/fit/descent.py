@@ -18,6 +18,7 @@ FIRST_DAMPING, HOPELESS = 1e-2, 1e8  # of Levenberg and Marquardt
 LARGEST_STEP = 1.5  # of a logarithm in one iteration
 WORTHLESS = 1e-4  # relative gain below which a start counts as settled
 FARTHEST = 60.0  # of a logarithm from its start: what runs there has no effect on the response any more
+SMALLEST = 1e-200  # of a parameter: repeated runs towards zero end here, before numbers do
 TINY = 1e-9  # of the largest curvature, added to each: an element without effect must not take an unlimited step
 
 
@@ -108,4 +109,4 @@ def fine(plant: Plant, cost: Cost, box: Box, start: Real) -> tuple[Real, float]:
     inside = np.clip(np.zeros(int(free.sum())), bounds[0] + 1e-12, bounds[1] - 1e-12)
     found = least_squares(residual, inside, sensitivity, bounds=bounds, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=300)
     best, before = 2.0 * float(found.cost), float(cost.total(plant.response(origin)))
-    return (at(found.x), best) if best < before else (origin, before)
+    return (np.maximum(at(found.x), SMALLEST), best) if best < before else (origin, before)

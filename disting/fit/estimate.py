@@ -23,7 +23,7 @@ from disting.errors import InputError
 from disting.fit.cost import Cost
 from disting.fit.descent import Box, fine, rough
 from disting.fit.plant import Plant, Real
-from disting.fit.starts import Values, extended, from_extrema, merged, random, scale, shortened, split, stacked
+from disting.fit.starts import UNFELT, Values, extended, from_extrema, merged, random, scale, shortened, split, stacked
 from disting.model.chain import Chain
 
 ITERATIONS = 15  # of the rough search
@@ -96,8 +96,9 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
     finished = [fine(plant, task.cost, box, points[i]) for i in _different(costs)]
     contained = min((known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None)
     if contained is not None and contained.j * (1 + NESTED) < min(j for _, j in finished):
-        slight = next(extended(chain, contained.parameters, scale(task.cost.measured)))
-        finished.append(fine(plant, task.cost, box, stacked([slight], names)[0]))
+        slight = stacked(list(extended(chain, contained.parameters, scale(task.cost.measured), UNFELT)), names)
+        unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
+        finished.append(fine(plant, task.cost, box, unfelt))
     p, j = min(finished, key=lambda found: found[1])
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs))))
 

@@ -5,7 +5,7 @@ the free end). (b) The growth ladder: the best fit with one mass fewer, one mass
 frequency of a grid. (c) The best fits of candidates with one element fewer. (d) A few random points.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from itertools import combinations
@@ -24,6 +24,7 @@ DAMPING_RATIO = 0.02  # of a spring's damper in a start
 SHARES = (0.5, 0.15, 0.85)  # of the mass that is split off
 GRID = 12  # frequencies of the ladder and of resonances that the data do not show
 EXTRA = (1e-6, 0.1, 1.0)  # of its natural size, for an element that is added
+UNFELT = [10.0**-k for k in range(6, 97, 10)]  # likewise: what is small depends on parameters that may have run far away
 SPREAD = 1.0  # standard deviation of the logarithms of random starts
 PROMINENCE = 0.05  # of an extremum, in decades of the amplitude
 
@@ -161,11 +162,11 @@ def _left(name: str) -> int:
     return int(digits) if name[0] in "mb" or "_" in name else int(digits[0])
 
 
-def extended(chain: Chain, fewer: Values, size: Scale) -> Iterator[Values]:
-    """Starts (c): the fit of a candidate with elements fewer, the missing ones at several sizes, hardly felt first."""
+def extended(chain: Chain, fewer: Values, size: Scale, factors: Iterable[float] = EXTRA) -> Iterator[Values]:
+    """Starts (c): the fit of a candidate with elements fewer, the missing ones at several shares of their natural sizes."""
     missing = [n for n in chain.parameters if n not in fewer]
     natural = _completed(chain.parameters, fewer, size)
-    for factor in EXTRA:
+    for factor in factors:
         yield natural | {name: factor * natural[name] for name in missing}
 
 
@@ -201,7 +202,7 @@ def _completed(names: Sequence[str], known: Values, size: Scale) -> dict[str, fl
     """All parameters; dampers beside springs follow the springs."""
     values = dict(known)
     for name in names:
-        if name not in values or values[name] <= 0:
+        if name not in values:
             values[name] = size.of(name, values["k" + name[1:]] if name[0] == "d" else size.mass)
     return {name: values[name] for name in names}
 
