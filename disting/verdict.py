@@ -75,17 +75,27 @@ class View(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """What may be used to decide: the view, the conditions' numbers, the number of Markov parameters (0 = all)."""
+    """What may be used to decide: the view, the conditions' numbers, the number of Markov parameters (0 = all).
+
+    `inclusion`: after the exact decision, say also whose models lie in the other's closure and which positive models have
+    positive equivalents; this is most of the work.
+    """
 
     view: View = View.EXACT
     conditions: tuple[int, ...] = ALL_CONDITIONS
     markov: int = 0
+    inclusion: bool = True
 
     def __post_init__(self) -> None:
         if not set(self.conditions) <= set(ALL_CONDITIONS):
             raise InputError(f"conditions are numbered 1 to 9, not {sorted(set(self.conditions) - set(ALL_CONDITIONS))}")
         if self.markov < 0:
             raise InputError(f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}")
+
+    @property
+    def tells_inclusion(self) -> bool:
+        """Whether verdicts say whose models have equivalents on the other side: not in the paper's views."""
+        return self.inclusion and FIBRE in self.view.representations
 
     def count(self, left: Subject, right: Subject) -> int:
         """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are exhaustive."""
@@ -237,7 +247,7 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
 def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
     found, domain = _decided(left, right, query), query.view.domain
-    if FIBRE in query.view.representations:
+    if query.tells_inclusion:
         found = with_inclusion(found, left.rank == right.rank, lambda: inclusion_finding(left, right))
         found = _with_shares(found, left, right)
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
@@ -255,7 +265,9 @@ def open_note(reason: str) -> str:
 
 
 def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
-    """With the positive equivalents of each side whose generic models have equivalents on the other side."""
+    """With the positive equivalents of each side whose generic models have equivalents on the other side, not only limits."""
+    if left.chain.n_masses != right.chain.n_masses:
+        return verdict
     here = verdict.inclusion in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
     there = verdict.inclusion in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
     return replace(

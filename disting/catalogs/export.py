@@ -3,7 +3,7 @@
 import csv
 import io
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from disting.conditions.inclusion import Inclusion
 from disting.domain import Domain
@@ -24,9 +24,10 @@ CSV_COLUMNS = (
     "left_positive",
     "right_positive",
 )
-Row = tuple[int, int, Relation, str, str, str, str, Domain, str, str, str]
-"""left, right, relation, decided_by, representation, certainty, error bound, domain, inclusion ("" if not known), and which
-positive models of the left, and of the right, have a positive equivalent on the other side ("" where that is not asked)"""
+Row = tuple[int | str, int | str, Relation, str, str, str, str, Domain, str, str, str]
+"""left, right (numbers, or names where models of several sizes are compared), relation, decided_by, representation, certainty,
+error bound, domain, inclusion ("" if not known), and which positive models of the left, and of the right, have a positive
+equivalent on the other side ("" where that is not asked)"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
@@ -45,7 +46,8 @@ def csv_text(rows: Iterable[Row]) -> str:
 
 
 def decisions_csv(decided: Decisions) -> str:
-    """CSV text of all pairs, models numbered from 1."""
+    """CSV text of all pairs, models numbered from 1, or named N:I where they are of several sizes."""
+    names = _names(decided)
 
     def rest(i: int, j: int) -> tuple[Domain, str, str, str]:
         here, there = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
@@ -53,8 +55,8 @@ def decisions_csv(decided: Decisions) -> str:
 
     graded = (
         (
-            i + 1,
-            j + 1,
+            names[i],
+            names[j],
             decided.relation(i, j),
             RULE_NAMES[number],
             where,
@@ -72,6 +74,12 @@ def share_text(found: PositiveFinding | None) -> str:
     return "" if found is None else found.share.value
 
 
+def _names(decided: Decisions) -> Sequence[int | str]:
+    """Numbers from 1 for models of one size, else the subjects' names."""
+    of_one_size = len({s.chain.n_masses for s in decided.subjects}) == 1
+    return range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
+
+
 def _told(inclusion: Inclusion) -> str:
     return "" if inclusion is Inclusion.UNKNOWN else inclusion.value
 
@@ -80,5 +88,6 @@ def decisions_json(decided: Decisions) -> str:
     """JSON text of all pairs with evidence and sentences."""
     size = len(decided.subjects)
     pairs = ((i, j) for i in range(size) for j in range(i + 1, size))
-    verdicts = [decided.verdict(i, j).to_dict() | {"left": i + 1, "right": j + 1} for i, j in pairs]
+    names = _names(decided)
+    verdicts = [decided.verdict(i, j).to_dict() | {"left": names[i], "right": names[j]} for i, j in pairs]
     return json.dumps({"verdicts": verdicts}, ensure_ascii=False) + "\n"

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from disting import __version__
 from disting.catalogs import Catalog, catalog
+from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
 from disting.catalogs.files import SHIPPED_SIZES, shipped_folder
 from disting.cli.work import engine_for
@@ -17,6 +18,7 @@ from disting.comparison import compare as compare_chains
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.conditions.inclusion import Inclusion
+from disting.conditions.inclusion_finding import Limit
 from disting.conditions.ways import BothWays
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, Store
@@ -81,7 +83,7 @@ def _sets(found: Identifiability) -> str:
 def compare(options: argparse.Namespace) -> int:
     """Explain the verdict on one pair."""
     sensor = Sensor(options.sensor)
-    references = [_reference(text) for text in (options.left, options.right)]
+    references = [reference(text) for text in (options.left, options.right)]
     chains = [Family(n, options.damped, sensor)[number] for n, number in references]
     query = _query(options.conditions, View.EXACT, options.domain)
     verdict = _shipped(references, options.damped, query) if sensor is Sensor.ACCELERATION else None
@@ -127,18 +129,20 @@ def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[st
 
 
 def verdicts(options: argparse.Namespace) -> int:
-    """Decide all pairs of one size."""
-    family = Family(options.masses, options.damped, Sensor(options.sensor))
+    """Decide all pairs of one size, or of several."""
     query = _query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
+    named = combined_family(options.masses, damped=options.damped, sensor=Sensor(options.sensor))
+    if len(options.masses) == 1:
+        named = tuple((f"A{number}", chain) for number, (_, chain) in enumerate(named, 1))
     with engine_for(options) as (engine, pool, progress):
-        subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
+        subjects = [engine.subject(name, chain) for name, chain in named]
         decided = engine.decisions(subjects, query, executor=pool, progress=progress)
         if options.prove:
             decided = prove_all(decided, progress=progress)
     if options.csv:
-        _emit(options.csv, decisions_csv(decided))
+        emitted(options.csv, decisions_csv(decided))
     if options.json:
-        _emit(options.json, decisions_json(decided))
+        emitted(options.json, decisions_json(decided))
     if "-" not in (options.csv, options.json):
         print(_summary(decided))
     return 0
@@ -155,6 +159,12 @@ def report(options: argparse.Namespace) -> int:
     """Write pages, figures and tables."""
     from disting.report.write import write_report
 
+    if not (options.masses or options.paper):
+        raise InputError("name at least one number of masses, or --paper")
+    if options.paper:
+        _paper(options)
+    if not options.masses:
+        return 0
     choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
     with engine_for(options) as (engine, pool, progress):
         catalogs = [_catalog(n, damped, engine, pool, progress) for n in options.masses for damped in choices]
@@ -163,6 +173,21 @@ def report(options: argparse.Namespace) -> int:
         print(f"{c.name}: {_counted(c.counts(View.EXACT))}, {len(c.classes(View.EXACT))} indistinguishable groups")
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
     return 0
+
+
+def _paper(options: argparse.Namespace) -> None:
+    """Write the paper's figures, tables and claims."""
+    from collections import Counter
+
+    from disting.paper import CLAIMS, Findings, Outcome
+    from disting.report.paper import write_paper
+
+    with engine_for(options) as (engine, pool, progress):
+        paths = write_paper(Findings(engine, pool, progress), options.out / "paper")
+    counts = Counter(claim.outcome for claim in CLAIMS)
+    agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
+    print(f"{len(CLAIMS)} claims of the paper: {agree} agree, {differ} differ, {unchecked} cannot be checked")
+    print(f"{len(paths)} files in {options.out / 'paper'}; open {paths[0]}")
 
 
 def build(options: argparse.Namespace) -> int:
@@ -176,6 +201,18 @@ def build(options: argparse.Namespace) -> int:
             pair = [build(n, damped=d, engine=engine, settled=settled, executor=pool, progress=progress) for d in (False, True)]
             for path in write(pair, options.out)[:-1]:
                 print(path)
+    return 0
+
+
+def candidates(options: argparse.Namespace) -> int:
+    """Compute the verdicts on the candidates of a fit."""
+    from disting.catalogs.candidates import matrix, write
+    from disting.fit.candidates import figure_1
+
+    with engine_for(options) as (engine, pool, progress):
+        found = matrix(figure_1(), engine=engine, executor=pool, progress=progress)
+    counts = ", ".join(f"{n} {relation}" for relation, n in found.counts().items())
+    print(f"{write(found, options.out)}: {len(found.chains)} models, {counts}")
     return 0
 
 
@@ -300,7 +337,14 @@ def _inclusion(verdict: Verdict) -> list[str]:
 
 def _summary(decided: Decisions) -> str:
     total = len(decided.subjects) * (len(decided.subjects) - 1) // 2
-    return f"{len(decided.subjects)} models, {total} pairs: {_counted(decided.counts())}"
+    counted = f"{len(decided.subjects)} models, {total} pairs: {_counted(decided.counts())}"
+    inside = sum(_is_limit(decided, i, j) for i, j in decided.inclusions)
+    return counted + (f"; {inside} smaller models lie in larger ones, as limits" if inside else "")
+
+
+def _is_limit(decided: Decisions, i: int, j: int) -> bool:
+    """Whether the smaller model lies in the one with more masses."""
+    return isinstance(decided.inclusions[i, j].evidence, Limit)
 
 
 def _counted(counts: dict[str, int]) -> str:
@@ -309,14 +353,16 @@ def _counted(counts: dict[str, int]) -> str:
     return ", ".join([*parts, f"{counts.get('', 0)} undecided"])
 
 
-def _emit(where: str, text: str) -> None:
+def emitted(where: str, text: str) -> None:
+    """Write text to a file, or to standard output for -."""
     if where == "-":
         sys.stdout.write(text)
     else:
         Path(where).write_text(text, encoding="utf-8")
 
 
-def _reference(text: str) -> tuple[int, int]:
+def reference(text: str) -> tuple[int, int]:
+    """Size and number of a model written masses:number; raises InputError."""
     match = re.fullmatch(r"(\d{1,3}):(\d{1,6})", text)
     if not match:
         raise InputError(f"a model is written masses:number, for instance 3:4, not {text!r}")

@@ -8,7 +8,7 @@ from typing import Any
 
 from disting import __version__
 from disting.catalogs.files import shipped_folder
-from disting.cli import commands, equivalents, fit_arguments, simulate
+from disting.cli import commands, dampers, equivalents, fit_arguments, simulate
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
 from disting.model.chain import Sensor
@@ -30,6 +30,14 @@ def _whole(low: int) -> Callable[[str], int]:
         return int(text)
 
     return number
+
+
+def _sizes(text: str) -> range:
+    """One size such as 4, or several such as 1-4."""
+    match = re.fullmatch(r"([1-9]\d{0,2})(?:-([1-9]\d{0,2}))?", text)
+    if not match or int(match[2] or match[1]) < int(match[1]):
+        raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {text!r}")
+    return range(int(match[1]), int(match[2] or match[1]) + 1)
 
 
 def _bounds(text: str) -> tuple[str, tuple[str, str]]:
@@ -58,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
     groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     for add in (_add_models, _add_compare, _add_verdicts, _add_equivalents, _add_fit, _add_report, _add_catalog):
         add(groups)
-    for add in (_add_simulate, _add_cache, _add_doctor):
+    for add in (_add_simulate, _add_dampers, _add_cache, _add_doctor):
         add(groups)
     return top
 
@@ -84,8 +92,8 @@ def _add_compare(groups: Groups) -> None:
 
 
 def _add_verdicts(groups: Groups) -> None:
-    p = _command(groups, "verdicts", commands.verdicts, "all pairs of one size")
-    p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
+    p = _command(groups, "verdicts", commands.verdicts, "all pairs of one size, or of several sizes together")
+    p.add_argument("masses", type=_sizes, metavar="N|N-M", help="number of masses, or several sizes such as 1-4 in one matrix")
     _shared(p, damped=True, sensor=True, work=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
     _deciding(p)
@@ -103,6 +111,12 @@ def _add_equivalents(groups: Groups) -> None:
     _shared(p, damped=True)
 
 
+def _add_dampers(groups: Groups) -> None:
+    p = _command(groups, "dampers", dampers.run, "which sets of dampers to the ground of one model can be told apart")
+    dampers.add_arguments(p)
+    _shared(p, damped=True, work=True)
+
+
 def _add_fit(groups: Groups) -> None:
     p = _command(groups, "fit", commands.fit, "the structures that explain a measured frequency response")
     fit_arguments.add_arguments(p)
@@ -117,7 +131,9 @@ def _add_simulate(groups: Groups) -> None:
 
 def _add_report(groups: Groups) -> None:
     p = _command(groups, "report", commands.report, "HTML pages, figures and tables of whole catalogues")
-    p.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
+    p.add_argument("masses", type=_whole(1), nargs="*", metavar="N", help="numbers of masses")
+    text = "the paper's figures and tables from our own data, and its claims one by one, into the folder paper below DIR"
+    p.add_argument("--paper", action="store_true", help=text)
     choice = p.add_mutually_exclusive_group()
     for name in ("damped", "undamped", "both"):
         choice.add_argument(f"--{name}", dest="damping", action="store_const", const=name, help=f"{name} models")
@@ -132,6 +148,9 @@ def _add_catalog(groups: Groups) -> None:
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     q = _command(actions, "build", commands.build, "compute catalogues, undamped and damped")
     q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
+    _shared(q, work=True)
+    q = _command(actions, "candidates", commands.candidates, "compute the verdicts on all pairs of a fit's 120 candidates")
     q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
     _shared(q, work=True)
     q = _command(actions, "settle", commands.settle, "decide with more time what catalogues leave open, to be built in")

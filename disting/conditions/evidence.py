@@ -12,6 +12,7 @@ from disting.conditions.witnesses import Witnesses
 from disting.ideals import Refuted, Solved
 
 Labels = tuple[str, ...]
+TRANSCENDENTAL = "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,8 @@ class Forms:
         """Which invariants vary on one side only."""
         sides = ((self.only_left, left, right), (self.only_right, right, left))
         parts = [_varies(labels, here, there) for labels, here, there in sides if labels]
-        return _capital("; ".join(parts)) + "."
+        why = f": {TRANSCENDENTAL}" if "Td" in (*self.only_left, *self.only_right) else ""
+        return _capital("; ".join(parts)) + why + "."
 
     @property
     def formula(self) -> str:
@@ -178,6 +180,24 @@ class Theorem:
 
 
 @dataclass(frozen=True, slots=True)
+class DeadTime:
+    """Exact decision: one of the two has a dead time, so a factor that is no rational function (see `exact`)."""
+
+    kind: ClassVar[str] = "dead time"
+    left_given: bool
+
+    def sentence(self, left: str, right: str) -> str:
+        """Whose it is and what that means."""
+        with_it, without = (left, right) if self.left_given else (right, left)
+        return f"{with_it} has a dead time, {without} has none: {TRANSCENDENTAL}."
+
+    @property
+    def formula(self) -> str:
+        """The factor."""
+        return "exp(−Td s), Td ≠ 0, is not rational"
+
+
+@dataclass(frozen=True, slots=True)
 class FibreAt:
     """Exact decision: the fibre of one model over the transfer function of the other at a rational parameter point.
 
@@ -241,7 +261,7 @@ class ByProgram:
 ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
 
 
-Evidence = ByConditions | Theorem | FibreAt | Solved | Refuted | ByProgram | BothWays | OddFibres | Witnesses
+Evidence = ByConditions | Theorem | DeadTime | FibreAt | Solved | Refuted | ByProgram | BothWays | OddFibres | Witnesses
 _THEOREMS = {
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
     "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",

@@ -6,23 +6,28 @@ same transfer function are listed (see `disting.synthesis`).
 
 What one point proves. Let n be the number of parameters of the searched model and D = max(3 N_B + 2, n + 1). The pairs (p, q)
 of equal transfer functions with all elements of q non-zero (one more unknown and one more equation say so) are given by
-equations of degree D at most, so a component that dominates the points p has a degree of at most D^(n+1) (Bezout). If V1 = V2 there is one,
-and the points p without an equivalent lie where its projection is not proper: on a hypersurface of no larger degree
-(Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). If V1 is not V2, the points with an
-equivalent lie on the pull-back of an equation of V2, of degree D^(n+1) at most too. Coordinates are fractions whose numerators
-have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a probability of at most D^(n+1) / 2^POINT_BITS;
-up to DRAWS points are drawn.
+equations of degree D at most, so a component that dominates the points p has a degree of at most D^(n+1) (Bezout). If V1 = V2
+there is one, and the points p without an equivalent lie where its projection is not proper: on a hypersurface of no larger
+degree (Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). If V1 is not V2, the points with
+an equivalent lie on the pull-back of an equation of V2, of degree D^(n+1) at most too. Coordinates are fractions whose
+numerators have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a probability of at most D^(n+1) /
+2^POINT_BITS; up to DRAWS points are drawn.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
 some neighbouring ports) or finds only numbers, the fibre's ideal decides, modulo random primes and with bounds of its own (see
 `disting.ideals`).
+
+Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero, exp(-Td s) is one as well. It has neither
+zeros nor poles, and a rational function without any is a constant: Td = 0. So models with and without dead time are
+distinguishable for every Td other than 0, whatever the rest; and two models with dead times have equal transfer functions only
+where both the dead times and the rational parts are equal.
 """
 
 from dataclasses import replace
 
 from disting import ideals
 from disting.certainty import Certainty
-from disting.conditions.evidence import ByProgram, FibreAt, Theorem
+from disting.conditions.evidence import ByProgram, DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised, programs
 from disting.ideals.fibre_ideal import fibre_ideal
@@ -42,14 +47,15 @@ EXACT = 10  # number of the exact decision, after the nine conditions
 
 
 def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Exact decision for two chains of equal rank, size, sensor and dead time."""
+    """Exact decision for two chains of equal rank, size and sensor; of unequal dead time they differ, by a theorem."""
     named = theorem(a, b)
     if named:
         return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    if (a.n_masses, a.sensor, a.dead_time) != (b.n_masses, b.sensor, b.dead_time):
-        note = "the exact decision compares chains of equal size, sensor and dead time"
-        return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
-    found = _by_synthesis(a, b, settings) if _covered(a, b) else None
+    if a.dead_time != b.dead_time:
+        return Finding(EXACT, Outcome.FAILS, Certainty.THEOREM, evidence=DeadTime(a.dead_time))
+    if (a.n_masses, a.sensor) != (b.n_masses, b.sensor):
+        return Finding(EXACT, Outcome.INAPPLICABLE, note="the exact decision compares chains of equal size and sensor")
+    found = by_synthesis(a, b, settings)
     if found is None:
         found = by_ideals(a, b, settings, LIMITS)
     if found.outcome is Outcome.ABANDONED:
@@ -57,8 +63,11 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     return found
 
 
-def _by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
-    """What the synthesis proves, but for a bound."""
+def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the synthesis proves, but for a bound; a dead time that both have is a factor of its own."""
+    a, b = (replace(c, dead_time=False) for c in (a, b))
+    if a.damped != b.damped:
+        return None
     found = decide(a, b, settings.seed)
     safety = safety_of_point(a.n_masses, len(found.point))
     if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION) or safety <= 0:
@@ -107,7 +116,7 @@ def rational_part(chain: Chain) -> Structure:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram | DeadTime):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 
@@ -125,11 +134,6 @@ def theorem(a: Chain, b: Chain) -> str:
     if are_same_by_parts(a, b):
         return "parts"
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
-
-
-def _covered(a: Chain, b: Chain) -> bool:
-    plain = not any(c.lag or c.dead_time for c in (a, b))
-    return plain and (a.n_masses, a.damped, a.sensor) == (b.n_masses, b.damped, b.sensor)
 
 
 def _evidence(found: Exact) -> FibreAt:

@@ -92,8 +92,33 @@ class RelativeDegrees:
         return f"deg D₂ − deg N₂ = {here} < {there} ≤ deg D₁ − deg N₁"
 
 
-InclusionEvidence = Counts | LargerProjection | FullImage | RelativeDegrees | ByParts | FibreAt | Solved | Refuted
-_OWN = {c.kind: c for c in (LargerProjection, FullImage, RelativeDegrees)}
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The smaller chain is a limit of the larger one: `steps` (spring, what it tends to), masses numbered anew after each.
+
+    Both chains are in their canonical forms (see `specialisation`).
+    """
+
+    kind: ClassVar[str] = "limit"
+    left_is_larger: bool
+    steps: tuple[tuple[str, str], ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which springs become rigid or are cut."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        words = {"∞": "without bound", "0": "cut"}
+        path = ", then ".join(f"{spring} {words[limit]}" for spring, limit in self.steps)
+        anew = " (masses numbered anew after each step)" if len(self.steps) > 1 else ""
+        return f"With {path}{anew} {larger} becomes {smaller}, for all parameters of {smaller}."
+
+    @property
+    def formula(self) -> str:
+        """The limits."""
+        return ", ".join(f"{spring} → {limit}" for spring, limit in self.steps)
+
+
+InclusionEvidence = Limit | Counts | LargerProjection | FullImage | RelativeDegrees | ByParts | FibreAt | Solved | Refuted
+_OWN = {c.kind: c for c in (LargerProjection, FullImage, RelativeDegrees, Limit)}
 _SHOWN = {c.kind: c for c in (Vanishing, Solved, Refuted)}
 
 
@@ -151,7 +176,7 @@ def _evidence_to_dict(evidence: InclusionEvidence | None) -> dict[str, object]:
         case ByParts():
             steps = [{"split": s.split, "part": s.part, "kind": s.shown.kind, **asdict(s.shown)} for s in evidence.steps]
             return {"kind": evidence.kind, "left_given": evidence.left_given, "steps": steps}
-        case LargerProjection() | FullImage() | RelativeDegrees():
+        case LargerProjection() | FullImage() | RelativeDegrees() | Limit():
             return {"kind": evidence.kind, **asdict(evidence)}
         case _:
             return to_dict(evidence)

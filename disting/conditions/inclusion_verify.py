@@ -4,8 +4,9 @@ from dataclasses import replace
 
 from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels
 from disting.conditions.exact import rational_part
-from disting.conditions.inclusion_finding import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.conditions.inclusion_finding import FullImage, InclusionEvidence, LargerProjection, Limit, RelativeDegrees
 from disting.conditions.inclusion_profiles import degrees_refute, ordered
+from disting.conditions.specialisation import follows
 from disting.conditions.subject import Subject
 from disting.conditions.verify import POINTS, Witness
 from disting.ideals import ByParts, Refuted, Solved, coefficient_map, confirms_by_parts
@@ -38,6 +39,9 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
             here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
             return evidence.left_is_larger != left_is_smaller and _fall_apart(smaller, larger, here, there)
+        case Limit():
+            whole, part = (a, b) if evidence.left_is_larger else (b, a)
+            return part.n_masses < whole.n_masses and follows(whole, part, evidence.steps)
         case ByParts():
             parts = (rational_part(a), rational_part(b))
             return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)

@@ -7,7 +7,7 @@ into buckets. That a condition holds proves nothing.
 from collections.abc import Hashable
 
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
-from disting.certainty import Grade, graded
+from disting.certainty import Certainty, Grade, graded
 from disting.conditions.evidence import Counts, Evidence, Forms, Ranks
 from disting.conditions.finding import Finding, Outcome
 from disting.invariants.profile import Profile, Unsearched
@@ -91,7 +91,9 @@ def degree_grade(left: Profile, right: Profile) -> Grade:
 
 
 def form_grade(left: Profile, right: Profile) -> Grade:
-    """Proven where some invariant varies in one model and provably vanishes in the other."""
+    """Proven where some invariant varies in one model and provably vanishes in the other; a dead time is a theorem's."""
+    if ("Td" in left.labels) != ("Td" in right.labels):
+        return Certainty.THEOREM, 0
     proven = any(_surely_constant(b, x) for a, b in ((left, right), (right, left)) for x in a.form - b.form)
     return graded(proven, _safety(left, right))
 

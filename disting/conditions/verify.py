@@ -1,11 +1,12 @@
 """Checks a stored verdict again from its evidence alone: at fresh random points, without profiles, matroids or searches."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import comb
 
 from disting.conditions.evidence import (
     ByProgram,
     Counts,
+    DeadTime,
     Embedding,
     Evidence,
     FibreAt,
@@ -80,6 +81,8 @@ class Witness:
                 return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
             case Theorem():
                 return theorem(left, right) == evidence.name
+            case DeadTime():
+                return (left.dead_time, right.dead_time) == (evidence.left_given, not evidence.left_given)
             case FibreAt():
                 return self._fibre(evidence, left, right)
             case Supermodel():
@@ -92,7 +95,7 @@ class Witness:
 
     def _fibre(self, evidence: FibreAt, a: Chain, b: Chain) -> bool:
         """The fibre over the stored point once more."""
-        a, b = canonical(a).chain, canonical(b).chain
+        a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
         given, searched = (a, b) if evidence.left_given else (b, a)
         found = fibre(searched, target(given.structure, {name: fraction(value) for name, value in evidence.point}))
         refuted = evidence.grounds == Grounds.REFUTED

@@ -85,8 +85,8 @@ class Decisions:
         return replace(verdict, inclusion=inclusion, inclusion_finding=finding, left_positive=here, right_positive=there)
 
     def inclusion(self, i: int, j: int) -> Inclusion:
-        """Whose generic models have equivalents on the other side; not told by the paper's views."""
-        if FIBRE not in self.query.view.representations:
+        """Whose generic models have equivalents on the other side; not told by the paper's views, nor where it is not asked."""
+        if not self.query.tells_inclusion:
             return Inclusion.UNKNOWN
         if (i, j) in self.inclusions:
             return self.inclusions[i, j].inclusion
@@ -125,7 +125,7 @@ class Decisions:
 
 
 def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask: Ask) -> Decisions:
-    """Decide all pairs of models with equally many states; the two callbacks compute what will be asked for."""
+    """Decide all pairs of models, of any sizes; the two callbacks compute what will be asked for."""
     n = len(subjects)
     result = Decisions(tuple(subjects), query, np.zeros((n, n), np.uint8), np.zeros((n, n), np.uint8))
     open_pairs = np.triu(np.ones((n, n), bool), 1)
@@ -142,7 +142,7 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask
         prefetch([subjects[int(i)] for i in active], r, _count(r, query, subjects))
         _necessary(result, open_pairs, r, active)
         _sufficient(result, open_pairs, r)
-    if FIBRE in query.view.representations:
+    if query.tells_inclusion:
         _inclusions(result, ask)
         _positive(result, ask)
     if query.view.domain is not Domain.COMPLEX:
@@ -179,7 +179,9 @@ def _positive(result: Decisions, ask: Ask) -> None:
 
 
 def _is_asked(result: Decisions, i: int, j: int) -> bool:
-    """Whether generic models i have equivalents j."""
+    """Whether generic models i have equivalents j, not only limits."""
+    if result.subjects[i].chain.n_masses != result.subjects[j].chain.n_masses:
+        return False
     inside = Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT
     return result.inclusion(min(i, j), max(i, j)) in (Inclusion.EQUAL, inside)
 
@@ -254,7 +256,8 @@ def _settle(result: Decisions, open_pairs: NDArray[np.bool_], pairs: Where, numb
 
 
 def _count(r: Representation, query: Query, subjects: Sequence[Subject]) -> int:
-    """Markov parameters after G_0: as asked, or twice the number of states."""
+    """Markov parameters after G_0: as asked, or twice the number of states of the largest model, enough for every pair."""
     if r is Representation.TF or not subjects:
         return 0
-    return query.count(subjects[0], subjects[0])
+    largest = max(subjects, key=lambda s: s.chain.structure.n_states)
+    return query.count(largest, largest)

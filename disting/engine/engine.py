@@ -91,7 +91,7 @@ class Engine:
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> Decisions:
-        """All pairs of models of one size; the executor's workers compute the profiles."""
+        """All pairs of models, of one size or several; the executor's workers compute what is asked for."""
 
         def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
             self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)

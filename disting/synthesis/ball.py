@@ -15,6 +15,8 @@ Poly = Any  # acb_poly
 TOLERANCE = 2.0**-40  # widest relative radius of a test ball that may pass as "consistent with zero"
 _ISOLATION = (2.0**-30, 2.0**-90)  # absolute widths tried where the first isolation is too coarse for Newton's method
 
+_ENCLOSED = 2.0**-40
+
 
 class Imprecise(Exception):
     """A ball too wide to say anything: work again with more bits."""
@@ -84,6 +86,14 @@ def roots(p: Poly, degree: int) -> list[Ball]:
             break
         found = finer
     return [z if better is None else better for z, better in zip(found, sharp, strict=True)]
+
+
+def enclosed(p: Poly, degree: int) -> list[Ball]:
+    """Like `roots`, in a fraction of the time, but wide balls: enough to refute."""
+    found = [] if is_boundary(p[degree]) else _isolated(p, _ENCLOSED)
+    if not found:
+        raise Imprecise("roots could not be isolated")
+    return found
 
 
 def _isolated(p: Poly, tolerance: float | None) -> list[Ball]:

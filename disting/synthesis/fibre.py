@@ -53,7 +53,7 @@ def segments(chain: Chain) -> tuple[Segment | None, Segment]:
     low, high = sorted((chain.act_plus, chain.meas_plus))
     below, above = sorted((chain.act_minus, chain.meas_minus))
     outer, inner = (tuple(i for i in chain.ground_dampers if (i <= g) == near) for near in (False, True))
-    free = Segment(chain.n_masses - g, low - g, high - g, False, q, tuple(i - g for i in outer), elastic)
+    free = Segment(chain.n_masses - g, low - g, high - g, False, q, tuple(i - g for i in outer), elastic, not g)
     return (Segment(g, below, above, True, q, inner, elastic) if g else None), free
 
 

@@ -10,26 +10,29 @@ for one of the subsets of the roots of G_d. The product E(d) of that over all su
 2(n-a)-1), is a polynomial in d: K subsets hold a given root. Its degree is K - 2, since four factors fall off like d^(-1/2) as
 d grows: those with B, one of the two roots near -rho and one of the two that go to infinity. With a free left end D has a
 double root at 0, so that d^L with L = K - C(2n-2, 2(n-a)-1) is a factor. E is found from its values on a circle; its roots are
-all candidates for d.
+all candidates for d. What depends on d and rho only is computed once for all ways of sharing out the other zeros.
 
 Dampers to the ground on the left side alone change nothing but that D has a simple root at 0, so that L = 0.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial, reduce
 from itertools import combinations
 from math import comb, inf, log2
+from operator import mul
 
-from flint import acb, fmpq
+from flint import acb, acb_mat, ctx, fmpq
 
 from disting.synthesis import friction
-from disting.synthesis.ball import Ball, Imprecise, Poly, cut, is_boundary, poly, product, roots, shifted, vanishes
+from disting.synthesis.ball import Ball, Imprecise, Poly, cut, enclosed, is_boundary, poly, product, roots, shifted, vanishes
 from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part, combined
 from disting.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.synthesis.segment import Data, Segment, splits
 
 DEGREE_LIMIT = 40  # of E(d): the time grows with its square
+ALONE_LIMIT = 60  # where it is done once: the poles need not be shared out between two parts
+QUICK_BITS = 128  # tried first where a candidate for d is to be refuted
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +63,8 @@ class Branch:
 
 def serves(segment: Segment) -> bool:
     """Whether b and what is right of it has no damper to the ground, and E(d) is not too long."""
-    return degree_of(segment) <= DEGREE_LIMIT and not any(i >= segment.b for i in segment.dampers)
+    limit = ALONE_LIMIT if segment.alone else DEGREE_LIMIT
+    return degree_of(segment) <= limit and not any(i >= segment.b for i in segment.dampers)
 
 
 def degree_of(segment: Segment) -> int:
@@ -72,27 +76,66 @@ def inner_neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
     """Yield every damped segment with b = a + 1 and this receptance."""
     zeros, gain = roots(data.numerator, segment.numerator_degree), data.gain(segment)
     for (z,), others in splits(zeros, 1):
-        for left, right in splits(others, 2 * (segment.a - 1)):
-            yield from ([BOUNDARY] if is_boundary(z) else _branch(Branch(segment, data, -z, left, right, gain)))
+        shared_out = splits(others, 2 * (segment.a - 1))
+        branches = [Branch(segment, data, -z, left, right, gain) for left, right in shared_out]
+        yield from [BOUNDARY] * len(branches) if is_boundary(z) else _branches(branches)
 
 
-def _branch(branch: Branch) -> Iterator[Leaf]:
-    degree = degree_of(branch.segment)
-    for d in roots(interpolated(lambda at: _product(branch, at), degree, _radius(branch)), degree):
-        yield from [BOUNDARY] if is_boundary(d) else _with_damper(branch, d)
+def _branches(branches: list[Branch]) -> Iterator[Leaf]:
+    """All branches with one rho."""
+    degree, radius = degree_of(branches[0].segment), _radius(branches[0])
+    seen = [_seen(branches[0], d) for d in circle(degree, radius)]
+    for branch in branches:
+        for d in roots(through([at.product(branch.sigma) for at in seen], radius), degree):
+            yield from [BOUNDARY] if is_boundary(d) else _quickly(branch, d)
 
 
-def _product(branch: Branch, d: Ball) -> Ball:
-    """E(d) G_d(0)^K d^-L."""
+def _quickly(branch: Branch, d: Ball) -> Iterable[Leaf]:
+    """With few bits where these refute everything: a ball without zero proves as much as a narrow one."""
+    with ctx.workprec(min(QUICK_BITS, ctx.prec)):
+        try:
+            leaves = list(_with_damper(branch, d, enclosed))
+        except Imprecise:
+            leaves = []
+    return leaves if leaves and all(leaf == NONZERO for leaf in leaves) else _with_damper(branch, d, roots)
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What E tells of one d and rho: G_d(0)^K d^-L, and the sum of 1/z for every subset of the roots of G_d."""
+
+    factor: Ball
+    sums: list[Ball]
+
+    def product(self, sigma: Ball) -> Ball:
+        """E(d) G_d(0)^K d^-L."""
+        return reduce(mul, (sigma + total for total in self.sums), self.factor)
+
+
+def _seen(branch: Branch, d: Ball) -> Seen:
     nodes, size = branch.segment.nodes, 2 * (branch.segment.nodes - branch.segment.a)
-    whole, sigma = branch.grounded(d), branch.sigma
-    inverse = [1 / z for z in roots(whole, 2 * nodes)]
-    value: Ball = whole[0] ** comb(2 * nodes - 1, size - 1)
-    for chosen in combinations(inverse, size):
-        value = value * sum(chosen, sigma)
+    whole = branch.grounded(d)
     loose = not branch.segment.wall and not branch.segment.dampers
     known = comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1) if loose else 0
-    return value / d**known
+    sums = subset_sums([1 / z for z in roots(whole, 2 * nodes)], size)
+    return Seen(whole[0] ** comb(2 * nodes - 1, size - 1) / d**known, sums)
+
+
+def subset_sums(items: list[Ball], size: int) -> list[Ball]:
+    """The sum of every subset of that size, in the order of itertools.combinations.
+
+    >>> subset_sums([acb(1), acb(2), acb(4)], 2) == [3, 5, 6]
+    True
+    """
+    sums = _incidence(len(items), size) * acb_mat(len(items), 1, items)
+    return list(sums.entries())
+
+
+@cache
+def _incidence(count: int, size: int) -> acb_mat:
+    """Rows: the subsets; 1 for each element."""
+    subsets = list(combinations(range(count), size))
+    return acb_mat(len(subsets), count, [int(i in chosen) for chosen in subsets for i in range(count)])
 
 
 def _radius(branch: Branch) -> float:
@@ -107,20 +150,38 @@ def _radius(branch: Branch) -> float:
 
 def interpolated(value: Callable[[Ball], Ball], degree: int, radius: float = 1.0) -> Poly:
     """The polynomial of this degree from its values on a circle (radius: a power of two)."""
-    count = degree + 1
-    unit = [acb.exp_pi_i(acb(fmpq(2 * j, count))) for j in range(count)]
-    values = [value(radius * u) for u in unit]
+    return through([value(d) for d in circle(degree, radius)], radius)
+
+
+def circle(degree: int, radius: float) -> list[Ball]:
+    """As many points on a circle as a polynomial of this degree has coefficients."""
+    return [radius * u for u in _unit(degree + 1)]
+
+
+def through(values: list[Ball], radius: float) -> Poly:
+    """The polynomial with these values on the `circle`."""
+    count, unit = len(values), _unit(len(values))
     sums = [sum((v * unit[-i * k % count] for k, v in enumerate(values)), acb(0)) / count for i in range(count)]
     return poly([c / acb(radius) ** i for i, c in enumerate(sums)])
 
 
-def _with_damper(branch: Branch, d: Ball) -> Iterator[Leaf]:
+def _unit(count: int) -> list[Ball]:
+    """The roots of unity."""
+    return [acb.exp_pi_i(acb(fmpq(2 * j, count))) for j in range(count)]
+
+
+def _with_damper(branch: Branch, d: Ball, found_by: Callable[[Poly, int], list[Ball]]) -> Iterator[Leaf]:
     """Every subset of the roots of G_d that may be Phi's."""
-    segment, sigma = branch.segment, branch.sigma
-    for right, left in splits(roots(branch.grounded(d), 2 * segment.nodes), 2 * (segment.nodes - segment.a)):
-        inverse = [1 / z for z in right]
-        fits = vanishes(sum(inverse, sigma), sum((abs(w) for w in inverse), abs(sigma)))
-        yield from _sides(branch, d, product(left), product(right)) if fits else [NONZERO]
+    nodes, size, sigma = branch.segment.nodes, 2 * (branch.segment.nodes - branch.segment.a), branch.sigma
+    found = found_by(branch.grounded(d), 2 * nodes)
+    inverse = [1 / z for z in found]
+    for chosen, total in zip(combinations(range(2 * nodes), size), subset_sums(inverse, size), strict=True):
+        value = sigma + total
+        if is_boundary(value) and vanishes(value, sum((abs(inverse[i]) for i in chosen), abs(sigma))):
+            left = [z for i, z in enumerate(found) if i not in chosen]
+            yield from _sides(branch, d, product(left), product([found[i] for i in chosen]))
+        else:
+            yield NONZERO
 
 
 def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:

@@ -14,7 +14,7 @@ class Segment:
     """n nodes in a row, left end at the wall or free, right end free; ports a <= b, numbered from 1.
 
     q = 2: in s; q = 1: in x = s^2, neither springs nor nodes are damped. `dampers`: the nodes with a damper to the ground;
-    `elastic`: no dampers beside the springs, though in s.
+    `elastic`: no dampers beside the springs, though in s; `alone`: the chain has no other part, so its poles are all known.
     """
 
     nodes: int
@@ -24,6 +24,7 @@ class Segment:
     q: int
     dampers: tuple[int, ...] = ()
     elastic: bool = False
+    alone: bool = False
 
     @property
     def distance(self) -> int:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import comb
 
 import pytest
-from flint import acb, fmpq
+from flint import acb, ctx, fmpq
 
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -105,6 +105,30 @@ def test_every_solution_reproduces_the_transfer_function() -> None:
 def test_degree_of_the_inner_equation(segment: tuple[int, int, int, bool], degree: int) -> None:
     """The numbers are those of Groebner bases modulo a prime for random data."""
     assert degree_of(Segment(*segment, q=2)) == degree
+
+
+def test_long_inner_equations_are_solved_only_where_the_poles_are_known() -> None:
+    segment = Segment(5, 2, 3, wall=False, q=2)
+    assert degree_of(segment) == 54
+    assert not is_covered(segment) and is_covered(replace(segment, alone=True))
+
+
+@pytest.mark.slow
+def test_long_inner_equations_find_the_planted_model_alone() -> None:
+    chain = Chain(5, act_plus=2, meas_plus=3, damped=True)
+    point = rational_point(chain, "test")
+    found = fibre(chain, target(chain.structure, point))
+    assert found.status is Status.COMPLETE and len(found.solutions) == 1
+    with ctx.workprec(400):
+        assert all(found.solutions[0].values[name].overlaps(acb(value)) for name, value in point.items())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ports", [(2, 1, 3, 2, 5), (3, 1, 4, 2, 5), (3, 1, 4, 3, 5), (3, 2, 4, 3, 5)])
+def test_long_inner_equations_refute_models_of_smaller_rank(ports: tuple[int, ...]) -> None:
+    given = Chain(5, *ports, damped=True)
+    found = fibre(Chain(5, act_plus=2, meas_plus=3, damped=True), target(given.structure, rational_point(given, "test")))
+    assert found.status is Status.EMPTY
 
 
 def test_uncovered_chains_say_so() -> None:

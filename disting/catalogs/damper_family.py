@@ -1,0 +1,93 @@
+"""A whole family with every set of ground dampers: 88, 464, 2336 models of 3, 4, 5 masses, all against all by classes."""
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from disting.catalogs.dampers import DamperSets, Masses
+from disting.conditions.quick import PATIENTLY
+from disting.engine import Engine, Progress, silent
+from disting.engine.classes import Classes
+from disting.engine.grouping import classes
+from disting.errors import InputError
+from disting.model.family import Family
+from disting.verdict import Relation
+
+PATIENT_UP_TO = 4  # masses: there the ideals of fibres are asked where the synthesis is silent; for 5 they take an hour
+Name = tuple[int, Masses]
+"""A model: its number in the family and the masses with a damper to the ground."""
+
+
+@dataclass(frozen=True)
+class DamperFamily:
+    """All pairs of a family's models with `sets` of ground dampers; no pair is stored."""
+
+    family: Family
+    sets: tuple[Masses, ...]
+    found: Classes
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def look_up(self, left: Name, right: Name) -> tuple[Relation, str]:
+        """Relation and deciding rule ("" if undecided) of two models, in microseconds; raises InputError."""
+        return self.found.look_up(self.place(left), self.place(right))
+
+    def place(self, name: Name) -> int:
+        """Place of a model, counted from 0; raises InputError for one that is not there."""
+        number, masses = name
+        if not 1 <= number <= len(self.family) or masses not in self._order:
+            raise InputError(
+                f"the family has models 1 to {len(self.family)} with sets of {self.family.n_masses} masses, not {name}"
+            )
+        return (number - 1) * len(self.sets) + self._order[masses]
+
+    def name(self, place: int) -> Name:
+        """The model at a place."""
+        return place // len(self.sets) + 1, self.sets[place % len(self.sets)]
+
+    def classes(self) -> tuple[tuple[Name, ...], ...]:
+        """Classes of two or more indistinguishable models."""
+        return tuple(tuple(map(self.name, members)) for members in self.found.classes())
+
+    def csv_lines(self) -> Iterator[str]:
+        """Yield left, right, relation, decided_by of all pairs, models written 3:4+b1+b3, a line at a time."""
+        yield "left,right,relation,decided_by\n"
+        names = [self.text(i) for i in range(len(self))]
+        for i, j, relation, rule in self.found.pairs():
+            yield f"{names[i]},{names[j]},{relation.value},{rule}\n"
+
+    def text(self, place: int) -> str:
+        """A model as `compare` names it."""
+        number, masses = self.name(place)
+        return "+".join([f"{self.family.n_masses}:{number}", *(f"b{m}" for m in masses)])
+
+    @cached_property
+    def _order(self) -> dict[Masses, int]:
+        return {masses: k for k, masses in enumerate(self.sets)}
+
+
+def damper_family(
+    n_masses: int,
+    *,
+    damped: bool = False,
+    which: DamperSets = DamperSets.ALL,
+    patient: bool = False,
+    engine: Engine | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> DamperFamily:
+    """The classes of a family with sets of ground dampers; what is finished is in the engine's store, so that a run resumes.
+
+    `patient`: ask the ideals of fibres for more than PATIENT_UP_TO masses too.
+
+    >>> found = damper_family(2, damped=True)
+    >>> len(found), found.look_up((2, (1,)), (2, (2,)))[0].value
+    (12, 'indistinguishable')
+    """
+    family, sets = Family(n_masses, damped), which.of(n_masses)
+    chains = [replace(chain, ground_dampers=masses) for chain in family for masses in sets]
+    more = [PATIENTLY] if n_masses <= PATIENT_UP_TO or patient else []
+    found = classes(chains, engine or Engine(), more=more, executor=executor, progress=progress)
+    return DamperFamily(family, sets, found)

@@ -1,0 +1,91 @@
+"""disting dampers: which sets of ground dampers of one model, or of all models of a size, can be told apart."""
+
+import argparse
+import sys
+from itertools import combinations
+from pathlib import Path
+
+from disting.catalogs.damper_family import damper_family
+from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
+from disting.cli.commands import emitted, reference
+from disting.cli.work import engine_for
+from disting.model.drawing import text_drawing
+from disting.model.family import Family
+from disting.verdict import Relation
+
+SIGNS = {Relation.DISTINGUISHABLE: ".", Relation.INDISTINGUISHABLE: "=", Relation.UNDECIDED: "?"}
+LEGEND = ". distinguishable, = indistinguishable, ? undecided; 0 no damper to the ground, 1+3 dampers at masses 1 and 3"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command but those that many share."""
+    text = "a model (masses:number, as 'disting models' lists it), or a number of masses: all its models, all against all"
+    parser.add_argument("model", metavar="N:I|N", help=text)
+    names = [s.value for s in DamperSets]
+    text = "one damper at a time (single, as in the paper's Fig. 14) or all 2^N sets (default: single)"
+    parser.add_argument("--sets", choices=names, default=DamperSets.SINGLE.value, help=text)
+    parser.add_argument("--csv", metavar="FILE", help="write all pairs as CSV; - is standard output")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the table, or write it as CSV."""
+    if options.model.isdigit():
+        return _whole_family(options)
+    n, number = reference(options.model)
+    chain = Family(n, options.damped)[number]
+    with engine_for(options) as (engine, pool, progress):
+        table = dampers(chain, DamperSets(options.sets), engine=engine, executor=pool, progress=progress)
+    if options.csv:
+        emitted(options.csv, table.to_csv())
+    if options.csv != "-":
+        sys.stdout.write(f"{options.model}  {text_drawing(chain)}\n\n{matrix(table)}\n{LEGEND}\n\n{summary(table)}\n")
+    return 0
+
+
+def _whole_family(options: argparse.Namespace) -> int:
+    """All models of a size with all sets: by classes, pairs only as they are written."""
+    with engine_for(options) as (engine, pool, progress):
+        found = damper_family(
+            int(options.model),
+            damped=options.damped,
+            which=DamperSets(options.sets),
+            engine=engine,
+            executor=pool,
+            progress=progress,
+        )
+    if options.csv == "-":
+        sys.stdout.writelines(found.csv_lines())
+        return 0
+    if options.csv:
+        with Path(options.csv).open("w", encoding="utf-8") as file:
+            file.writelines(found.csv_lines())
+    rules = ", ".join(f"{n} by {_rule(rule)}" for rule, n in found.found.counts_by_rule().items() if rule)
+    counts = ", ".join(f"{n} {relation}" for relation, n in found.found.counts().items())
+    groups = found.classes()
+    print(f"{len(found)} models, {sum(found.found.counts().values())} pairs: {counts}\n{rules}")
+    print(f"{len(groups)} classes of indistinguishable models, the largest of {max(map(len, groups), default=0)}")
+    return 0
+
+
+def _rule(rule: str) -> str:
+    return f"condition {rule}" if rule.isdigit() else "the exact decision"
+
+
+def matrix(table: DamperTable) -> str:
+    """A line a set, a column a set, a sign where they meet."""
+    names = [spelled(s) for s in table.sets]
+    width = max(map(len, names))
+    lines = [" " * (width + 1) + " ".join(names)]
+    for i, name in enumerate(names):
+        signs = ("\\" if i == j else SIGNS[table.decided.relation(i, j)] for j in range(len(names)))
+        lines.append(f"{name:>{width}} " + " ".join(f"{s:>{len(n)}}" for s, n in zip(signs, names, strict=True)))
+    return "\n".join(lines) + "\n"
+
+
+def summary(table: DamperTable) -> str:
+    """How many pairs are what, and the groups that cannot be told apart."""
+    relations = [table.decided.relation(i, j) for i, j in combinations(range(len(table.sets)), 2)]
+    counts = ", ".join(f"{relations.count(r)} {r}" for r in SIGNS)
+    groups = [" ".join(map(spelled, group)) for group in table.classes() if len(group) > 1]
+    same = "".join(f"\nindistinguishable: {group}" for group in groups)
+    return f"{len(table.sets)} sets, {len(relations)} pairs: {counts}{same}"

@@ -1,0 +1,78 @@
+"""The exact decision at little cost, for classes of thousands of models: theorems, then one fibre by the synthesis.
+
+What takes longer than SECONDS is given up, and the pair is left undecided. This is the one place where the speed of the machine
+matters: it may leave more or fewer pairs undecided, it never decides.
+"""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from disting.certainty import Certainty
+from disting.conditions.codec import finding_from_json, finding_to_json
+from disting.conditions.evidence import Theorem
+from disting.conditions.exact import EXACT, by_ideals, by_synthesis, theorem
+from disting.conditions.finding import Finding, Outcome
+from disting.ideals import Limits
+from disting.invariants.codec import profile_from_json, profile_to_json
+from disting.invariants.inverse import inverse_profile
+from disting.invariants.profile import Profile
+from disting.model.chain import Chain
+from disting.question import Question
+from disting.settings import Settings
+
+SECONDS = 2.0
+LIMITS = Limits(seconds=60.0, entries=500_000, safety=100)  # the work is limited long before the time
+
+
+class _OutOfTime(Exception):
+    pass
+
+
+def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """What is cheap of `exact_finding`, for chains of equal rank and size without dead time; ABANDONED where it is silent."""
+    named = theorem(a, b)
+    if named:
+        return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
+    try:
+        with _limited(SECONDS):
+            found = by_synthesis(a, b, settings)
+    except _OutOfTime:
+        return Finding(EXACT, Outcome.ABANDONED, note=f"the synthesis takes more than {SECONDS:g} s")
+    return Finding(EXACT, Outcome.ABANDONED, note="the synthesis proves nothing") if found is None else found
+
+
+def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """What the ideals of the fibre say within small limits (a few seconds): where the synthesis has no method."""
+    return by_ideals(a, b, settings, LIMITS)
+
+
+def quick_profile(chain: Chain, settings: Settings) -> Profile:
+    """Profile of the Markov parameters of 1/G, as many as are used of G."""
+    structure = chain.structure
+    return inverse_profile(structure, 2 * structure.n_states, settings)
+
+
+QUICKLY = Question("quick exact decisions", quick_finding, finding_to_json, finding_from_json)
+PATIENTLY = Question("patient exact decisions", patient_finding, finding_to_json, finding_from_json)
+INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile_from_json)
+
+
+@contextmanager
+def _limited(seconds: float) -> Iterator[None]:
+    """Raise _OutOfTime in the block after so many seconds; without effect outside a main thread and where there is no timer."""
+    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise _OutOfTime
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

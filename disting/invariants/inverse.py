@@ -1,0 +1,42 @@
+"""Markov parameters of 1/G: another summary of the same behaviour, whose dependences separate models that those of G do not.
+
+s^-k/G = H_0 + H_1/s + H_2/s^2 + .., k = deg den - deg num (25). The H_i are fixed rational functions of the transfer function's
+coefficients, so models with equal closures of their images have equal closures in these coordinates too: equal ranks of
+all sets of rows, as condition 5 has it for G. H_i is a polynomial over power i + 1 of the numerator's leading coefficient, as
+G_i is over that of the denominator's, so the bounds of `profile.minor_size` serve here as well.
+"""
+
+from flint import nmod_poly
+
+from disting.algebra.quotient import Quotient, series_rows
+from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, prime, residues
+from disting.invariants.profile import Profile, from_samples, minor_size
+from disting.invariants.sample import Representation, Sample, quotient
+from disting.model.structure import Structure
+from disting.settings import Settings
+
+
+def inverse_profile(structure: Structure, count: int, settings: Settings) -> Profile:
+    """Profile of H_0..H_count; a dead time is left out."""
+    seen = [_sample(structure, count, f"{settings.seed}:inverse:{k}", PROOF_BITS) for k in range(settings.points)]
+    search = _sample(structure, count, f"{settings.seed}:inverse:search", SEARCH_BITS)
+    size = minor_size(structure, Representation.MARKOV, count)
+    return from_samples(seen, search, frozenset(), (0, 0), count, structure.n_states, size, settings)
+
+
+def _sample(structure: Structure, count: int, label: str, bits: int) -> Sample:
+    modulus = prime(label, bits)
+    point = residues(f"{label}:{structure}", len(structure.parameters), modulus)
+    values, rows = series_rows(_turned(quotient(structure, point, modulus)), count)
+    labels = tuple(f"H{i}" for i in range(count + 1))
+    return Sample(labels, tuple(values), tuple(map(tuple, rows)), len(structure.parameters), modulus)
+
+
+def _turned(q: Quotient) -> Quotient:
+    """den / (s^k num)."""
+    k = q.den.degree() - q.num.degree()
+
+    def lifted(polynomial: nmod_poly) -> nmod_poly:
+        return polynomial.left_shift(k)
+
+    return Quotient(q.den, lifted(q.num), q.den_derivatives, tuple(map(lifted, q.num_derivatives)))

@@ -1,0 +1,85 @@
+"""Families of several sizes in one matrix."""
+
+import csv
+import io
+from collections import Counter
+
+import pytest
+
+from disting import Engine, Inclusion, InputError, Query, Relation, catalog
+from disting.catalogs.combined import combined, combined_family
+from disting.cli import main
+
+ENGINE = Engine()
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["undamped", "damped"])
+def three(request):
+    return request.param, combined((1, 2, 3), damped=request.param, engine=ENGINE)
+
+
+def test_forty_four_models_of_one_to_four_masses():
+    assert [name for name, _ in combined_family((1, 2, 3, 4))][::14] == ["1:1", "3:11", "4:14", "4:28"]
+    assert len(combined_family((4, 2, 1, 3, 3))) == 44
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_models_of_different_sizes_are_distinguishable_by_their_degrees(damped):
+    """All pairs of 1 to 4 masses: by condition 1, and by 2 where equally many coefficients are distributed differently."""
+    found = combined((1, 2, 3, 4), damped=damped, query=Query(inclusion=False), engine=ENGINE)
+    n = [s.chain.n_masses for s in found.subjects]
+    pairs = [(i, j) for i in range(len(n)) for j in range(i + 1, len(n)) if n[i] != n[j]]
+    assert {found.relation(i, j) for i, j in pairs} == {Relation.DISTINGUISHABLE}
+    counts = Counter(int(found.decided_by[i, j]) for i, j in pairs)
+    assert counts == ({1: 482} if damped else {1: 462, 2: 20})
+
+
+def test_pairs_of_one_size_are_those_of_the_catalogue(three):
+    damped, found = three
+    places = {s.name: i for i, s in enumerate(found.subjects)}
+    shipped = catalog(3, damped=damped)
+    for left, right, verdict in shipped.pairs():
+        i, j = places[f"3:{left}"], places[f"3:{right}"]
+        assert (found.relation(i, j), found.inclusion(i, j)) == (verdict.relation, verdict.inclusion)
+        assert found.verdict(i, j).decided_by == verdict.decided_by
+
+
+def test_one_sided_inclusion_is_shown(three):
+    _, found = three
+    places = {s.name: i for i, s in enumerate(found.subjects)}
+    between = Counter()
+    for (i, j), finding in found.inclusions.items():
+        sizes = tuple(found.subjects[k].chain.n_masses for k in (i, j))
+        if sizes[0] != sizes[1]:
+            between[sizes, finding.inclusion] += 1
+    assert between[(1, 2), Inclusion.LEFT_IN_RIGHT] == 3 and between[(1, 3), Inclusion.LEFT_IN_RIGHT] == 11
+    assert between[(2, 3), Inclusion.LEFT_IN_RIGHT] == 15
+    assert not any(inclusion is Inclusion.RIGHT_IN_LEFT for _, inclusion in between)
+    assert found.verdict(places["2:1"], places["3:1"]).inclusion is Inclusion.LEFT_IN_RIGHT
+
+
+def test_csv_with_names(capsys):
+    assert main(["verdicts", "1-2", "--damped", "--csv", "-", "--no-cache"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert [(r["left"], r["right"]) for r in rows][:3] == [("1:1", "2:1"), ("1:1", "2:2"), ("1:1", "2:3")]
+    assert [r["inclusion"] for r in rows][:3] == ["left-in-right"] * 3
+
+
+def test_summary_of_the_command(capsys):
+    assert main(["verdicts", "1-3", "--no-cache"]) == 0
+    assert "29 smaller models lie in larger ones, as limits" in capsys.readouterr().out
+    assert main(["verdicts", "3", "--no-cache"]) == 0
+    assert "lie in" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("sizes", ["0", "3-1", "1-", "a", "1-2-3"])
+def test_bad_sizes(sizes, capsys):
+    with pytest.raises(SystemExit) as left:
+        main(["verdicts", sizes])
+    assert left.value.code == 2
+    assert "sizes are written like 4 or 1-4" in capsys.readouterr().err
+
+
+def test_no_size():
+    with pytest.raises(InputError, match="at least one size"):
+        combined_family(())
