@@ -22,7 +22,7 @@ def theorem_pairs(n):
 
 @pytest.mark.parametrize("n", [2, 3, 4, pytest.param(5, marks=pytest.mark.slow)])
 def test_equivalents_of_the_theorems_are_found_positive(n):
-    """Of a family with ports two apart inside a part, which 5 masses have room for, the one member tried may not be positive."""
+    """With ports two apart inside a part, which 5 masses have room for, the one member tried may not be positive."""
     possible = {Answer.YES} if n < 5 else {Answer.YES, Answer.UNKNOWN}
     for k, (a, b) in enumerate(theorem_pairs(n)):
         for given, other in ((a, b), (b, a)):
