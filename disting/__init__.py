@@ -14,7 +14,6 @@ from disting.comparison import findings as findings
 from disting.conditions import CONDITIONS as CONDITIONS
 from disting.conditions import Finding as Finding
 from disting.conditions import Outcome as Outcome
-from disting.conditions.inclusion import Inclusion as Inclusion
 from disting.domain import Domain as Domain
 from disting.engine import CacheWarning as CacheWarning
 from disting.engine import Decisions as Decisions
@@ -28,6 +27,7 @@ from disting.errors import ContradictionError as ContradictionError
 from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
 from disting.identifiability import Identifiability as Identifiability
+from disting.inclusion import Inclusion as Inclusion
 from disting.invariants.expanded import transfer_function as transfer_function
 from disting.model.chain import Chain as Chain
 from disting.model.chain import Sensor as Sensor

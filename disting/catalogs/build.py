@@ -12,11 +12,11 @@ from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
 from disting.catalogs.settle import Settled, preload
 from disting.conditions.evidence import to_dict
-from disting.conditions.inclusion import inclusion_to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.identifiability import Identifiability
+from disting.inclusion import inclusion_to_dict
 from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View

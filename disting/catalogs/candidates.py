@@ -154,6 +154,7 @@ def _rows(decided: Decisions) -> tuple[list[Record], int]:
     n = len(decided.subjects)
 
     def signs(of: Callable[[int, int], str], i: int) -> str:
+        """A letter a later model: the first one of what is said of the pair, ? where nothing is."""
         return "".join((of(i, j) or "?")[0] for j in range(i + 1, n))
 
     rows: list[Record] = [

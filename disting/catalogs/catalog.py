@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from disting.catalogs.export import Row, csv_text, share_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
-from disting.conditions.inclusion import Inclusion
 from disting.errors import CatalogError, InputError
 from disting.identifiability import Identifiability
+from disting.inclusion import Inclusion
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.verdict import Relation, Verdict, View
@@ -78,16 +78,19 @@ class Catalog:
         return header | {f"software {k}": v for k, v in _software().items()}
 
     def verdict(self, left: int, right: int, view: View = View.EXACT) -> Verdict:
-        """The stored verdict on two different models, numbered from 1; `left` and `right` as asked, evidence in order."""
+        """The stored verdict on two different models, numbered from 1; `left` and `right` as asked, evidence in order.
+
+        Raises InputError for other numbers, CatalogError for a damaged record.
+        """
         low, high = sorted((left, right))
         if low == high or not 1 <= low <= high <= len(self.family):
             raise InputError(f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not {left}:{right}")
-        return stored_verdict(self._pair(low, high), view)
+        return self._verdict(self._pair(low, high), view)
 
     def pairs(self, view: View = View.EXACT) -> Iterator[tuple[int, int, Verdict]]:
         """Yield (left, right, verdict) for all pairs left < right."""
         for record in self.records[1 + len(self.family) :]:
-            yield record["left"], record["right"], stored_verdict(record, view)
+            yield record["left"], record["right"], self._verdict(record, view)
 
     def relation(self, left: int, right: int, view: View = View.EXACT) -> Relation:
         """Relation of two models, without building the verdict."""
@@ -163,6 +166,13 @@ class Catalog:
         known = Identifiability.from_dict(record["identifiability"])
         chain, count = self.family[number], len(record["parameters"])
         return ModelRow(number, chain, numerator, denominator, count, record["rank"], group, known)
+
+    def _verdict(self, record: Record, view: View) -> Verdict:
+        try:
+            return stored_verdict(record, view)
+        except (KeyError, TypeError, ValueError, AttributeError) as reason:
+            where = f"{self.name}, {record['left']}:{record['right']}"
+            raise CatalogError(f"{where} cannot be read ({reason!r}); rebuild it with 'disting catalog build'") from None
 
     def _pair(self, low: int, high: int) -> Record:
         n = len(self.family)

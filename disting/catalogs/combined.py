@@ -1,7 +1,7 @@
 """Families of several sizes in one matrix: models named N:I.
 
 Models of different sizes differ in their degrees (conditions 1 and 2); but the smaller model may lie inside the larger one, as
-a limit (see `conditions.specialisation`).
+a limit (see `conditions.across_sizes`).
 """
 
 from collections.abc import Sequence
@@ -39,6 +39,9 @@ def combined(
     progress: Progress = silent,
 ) -> Decisions:
     """The verdicts on all pairs, with the inclusion of smaller models in larger ones; the subjects are named N:I.
+
+    Of the 482 pairs of different size of 1 to 4 masses, the smaller model lies in the larger one in 417 without dampers and in
+    441 with dampers; in the others it does not.
 
     >>> found = combined((1, 2))
     >>> found.subjects[2].name, found.relation(0, 2).value, found.inclusion(0, 2).value

@@ -5,9 +5,9 @@ import io
 import json
 from collections.abc import Iterable, Sequence
 
-from disting.conditions.inclusion import Inclusion
 from disting.domain import Domain
 from disting.engine import Decisions
+from disting.inclusion import Inclusion
 from disting.positivity import PositiveFinding
 from disting.verdict import RULE_NAMES, Relation, error_bound
 
@@ -50,6 +50,7 @@ def decisions_csv(decided: Decisions) -> str:
     names = _names(decided)
 
     def rest(i: int, j: int) -> tuple[Domain, str, str, str]:
+        """Domain, inclusion and the positive equivalents of both sides."""
         here, there = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
         return decided.query.view.domain, _told(decided.inclusion(i, j)), here, there
 

@@ -7,6 +7,7 @@ have a positive equivalent on the other (`left_positive`, `right_positive`), whe
 
 import hashlib
 import json
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,7 @@ def read_records(path: Path) -> list[Record]:
     try:
         records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
         header = records[0]
-        complete = len(records) == 1 + header["models"] + header["models"] * (header["models"] - 1) // 2
+        complete = _numbers(records) == [*range(1, header["models"] + 1), *combinations(range(1, header["models"] + 1), 2)]
     except FileNotFoundError:
         raise CatalogError(f"there is no catalogue {path}; make it with 'disting catalog build'") from None
     except (OSError, ValueError, LookupError, TypeError) as reason:
@@ -49,6 +50,12 @@ def read_records(path: Path) -> list[Record]:
     if header.get("schema") != SCHEMA or not complete:
         raise CatalogError(f"the catalogue {path} is incomplete or of another schema; rebuild it with 'disting catalog build'")
     return records
+
+
+def _numbers(records: list[Record]) -> list[Any]:
+    """Of the models, then of the pairs."""
+    n = records[0]["models"]
+    return [*(r["model"] for r in records[1 : n + 1]), *((r["left"], r["right"]) for r in records[n + 1 :])]
 
 
 def digest(path: Path) -> str:

@@ -10,9 +10,9 @@ from disting.catalogs.files import LEFT_POSITIVE, RIGHT_POSITIVE, Record
 from disting.certainty import Certainty
 from disting.conditions.admissible import NOT_REAL, positive_ways
 from disting.conditions.evidence import from_dict, to_dict
-from disting.conditions.inclusion import Inclusion, inclusion_from_dict
 from disting.conditions.table import NECESSARY
 from disting.domain import Domain
+from disting.inclusion import Inclusion, inclusion_from_dict
 from disting.positivity import PositiveFinding
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Relation, Step, Verdict, View, open_note
 

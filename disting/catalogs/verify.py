@@ -8,10 +8,10 @@ from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
 from disting.catalogs.settle import read_settled
-from disting.conditions.inclusion import confirms
 from disting.conditions.subject import Subject
 from disting.conditions.verify import Witness
 from disting.engine import Engine, Progress, silent
+from disting.inclusion import confirms
 from disting.model.symmetry import canonical
 from disting.positivity import proves
 from disting.verdict import View

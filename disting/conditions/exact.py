@@ -31,6 +31,7 @@ from disting.conditions.evidence import ByProgram, DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised, programs
 from disting.ideals.fibre_ideal import fibre_ideal
+from disting.ideals.full_parts import same_by_full_parts
 from disting.ideals.rational import Emptiness
 from disting.ideals.system import matched
 from disting.model.chain import Chain
@@ -57,6 +58,8 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         return Finding(EXACT, Outcome.INAPPLICABLE, note="the exact decision compares chains of equal size and sensor")
     found = by_synthesis(a, b, settings)
     if found is None:
+        found = by_full_parts(a, b)
+    if found is None:
         found = by_ideals(a, b, settings, LIMITS)
     if found.outcome is Outcome.ABANDONED:
         found = _by_programs(a, b, settings, found)
@@ -74,6 +77,12 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
         return None
     outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
     return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
+
+
+def by_full_parts(a: Chain, b: Chain) -> Finding | None:
+    """What parts that can have any receptance prove; a dead time that both have is a factor of its own."""
+    evidence = same_by_full_parts(a.structure, b.structure)
+    return None if evidence is None else Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 
 def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:

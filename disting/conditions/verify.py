@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 from math import comb
 
 from disting.conditions.evidence import (
+    ByConditions,
     ByProgram,
     Counts,
     DeadTime,
@@ -20,7 +21,18 @@ from disting.conditions.evidence import (
 from disting.conditions.exact import program_refutes, rational_part, theorem
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
-from disting.ideals import Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, normalised
+from disting.ideals import (
+    FullParts,
+    Limits,
+    Membership,
+    Refuted,
+    Solved,
+    coefficient_map,
+    confirms,
+    decide,
+    normalised,
+    same_by_full_parts,
+)
 from disting.identifiability import identifiability
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import samples
@@ -48,56 +60,77 @@ class Witness:
 
     def confirms(self, evidence: Evidence, representation: str, left: Chain, right: Chain) -> bool:
         """Whether the evidence is true of the two chains and decides them."""
-        a, b = left.structure, right.structure
         match evidence:
-            case Counts():
-                return (
-                    self._degrees(a) == evidence.left and self._degrees(b) == evidence.right and evidence.left != evidence.right
-                )
-            case Forms():
-                return self._forms(evidence, representation, a, b)
-            case Ranks():
-                ranks = tuple(self._rank(s, representation, evidence.rows) for s in (a, b))
-                return ranks == (evidence.left, evidence.right) and evidence.left != evidence.right
-            case Renaming():
-                complete = sorted(p for p, _ in evidence.pairs) == sorted(a.parameters)
-                onto = sorted(q for _, q in evidence.pairs) == sorted(b.parameters)
-                return complete and onto and is_renaming(a, b, dict(evidence.pairs))
-            case FreeChoice():
-                return all(self._freely(evidence, representation, s) for s in (a, b))
-            case Embedding():
-                part, whole = (a, b) if evidence.left_is_submodel else (b, a)
-                fits = dict(evidence.numbering) in list(part.embeddings(whole))
-                return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
-            case Solved() | Refuted():
-                return _ideal(evidence, left, right)
-            case Witnesses():
-                return False  # it speaks of general models, see `parametric.confirms`
-            case BothWays():
-                return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
-            case OddFibres():
-                return _odd(evidence, left, right)
-            case ByProgram():
-                return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
+            case FibreAt():
+                return self._fibre(evidence, left, right)
             case Theorem():
                 return theorem(left, right) == evidence.name
             case DeadTime():
                 return (left.dead_time, right.dead_time) == (evidence.left_given, not evidence.left_given)
-            case FibreAt():
-                return self._fibre(evidence, left, right)
+            case FullParts():
+                return _full_parts(evidence, left, right)
+            case Solved() | Refuted():
+                return _ideal(evidence, left, right)
+            case ByProgram():
+                return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
+            case BothWays():
+                return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
+            case OddFibres():
+                return _odd(evidence, left, right)
+            case Witnesses():
+                return False  # it speaks of general models, see `parametric.confirms`
+        return self._by_condition(evidence, representation, left.structure, right.structure)
+
+    def _by_condition(self, evidence: ByConditions, representation: str, a: Structure, b: Structure) -> bool:
+        """Evidence of conditions 1 to 9."""
+        match evidence:
+            case Counts():
+                found = self._degrees(a), self._degrees(b)
+                return found == (evidence.left, evidence.right) and evidence.left != evidence.right
+            case Forms():
+                return self._forms(evidence, representation, a, b)
+            case Ranks():
+                return self._ranks(evidence, representation, a, b)
+            case Renaming():
+                return _renames(evidence, a, b)
+            case FreeChoice():
+                return all(self._freely(evidence, representation, s) for s in (a, b))
+            case Embedding():
+                return self._embeds(evidence, a, b)
             case Supermodel():
-                third = a.united(b)
-                same = (a.ports, a.sensor_order) == (
-                    b.ports,
-                    b.sensor_order,
-                ) and third.parameters == evidence.parameters
-                return same and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b, third))
+                return self._unites(evidence, a, b)
+
+    def _ranks(self, evidence: Ranks, representation: str, a: Structure, b: Structure) -> bool:
+        """Both ranks once more, of rows that there are."""
+        seen = [self._samples(s, representation, _count(evidence.rows))[0].labels for s in (a, b)]
+        ranks = tuple(self._rank(s, representation, evidence.rows) for s in (a, b))
+        known = set(evidence.rows) <= {label for labels in seen for label in labels}
+        return known and ranks == (evidence.left, evidence.right) and evidence.left != evidence.right
+
+    def _embeds(self, evidence: Embedding, a: Structure, b: Structure) -> bool:
+        """The numbering of the part's masses once more, and both ranks."""
+        part, whole = (a, b) if evidence.left_is_submodel else (b, a)
+        fits = dict(evidence.numbering) in list(part.embeddings(whole))
+        return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b))
+
+    def _unites(self, evidence: Supermodel, a: Structure, b: Structure) -> bool:
+        """The third model once more, and all three ranks."""
+        third = a.united(b)
+        same_ports = (a.ports, a.sensor_order) == (b.ports, b.sensor_order)
+        fits = same_ports and third.parameters == evidence.parameters
+        return fits and all(self._rank(s, "tf", ()) == evidence.rank for s in (a, b, third))
 
     def _fibre(self, evidence: FibreAt, a: Chain, b: Chain) -> bool:
         """The fibre over the stored point once more."""
         a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
         given, searched = (a, b) if evidence.left_given else (b, a)
-        found = fibre(searched, target(given.structure, {name: fraction(value) for name, value in evidence.point}))
+        if sorted(name for name, _ in evidence.point) != sorted(given.structure.parameters):
+            return False  # it speaks of another model
+        try:
+            point = {name: fraction(value) for name, value in evidence.point}
+        except (ValueError, ZeroDivisionError):
+            return False  # no numbers
+        found = fibre(searched, target(given.structure, point))
         refuted = evidence.grounds == Grounds.REFUTED
         return found.status is Status.EMPTY if refuted else len(found.solutions) == evidence.solutions > 0
 
@@ -131,10 +164,23 @@ class Witness:
         return free == set(evidence.free) and self._rank(structure, representation, evidence.free) == len(free)
 
 
+def _renames(evidence: Renaming, a: Structure, b: Structure) -> bool:
+    """The renaming put into both transfer functions, if it is one: every parameter once on either side."""
+    complete = sorted(p for p, _ in evidence.pairs) == sorted(a.parameters)
+    onto = sorted(q for _, q in evidence.pairs) == sorted(b.parameters)
+    return complete and onto and is_renaming(a, b, dict(evidence.pairs))
+
+
 def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
     """What is known of either way, once more; something is."""
     ways = [(x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty]
     return bool(ways) and all(proves(*way) for way in ways)
+
+
+def _full_parts(evidence: FullParts, left: Chain, right: Chain) -> bool:
+    """Both ranks once more, at fresh points."""
+    a, b = (canonical(chain).chain.structure for chain in (left, right))
+    return same_by_full_parts(a, b, "verify") == evidence
 
 
 def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
@@ -161,4 +207,4 @@ def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:
 
 def _count(labels: tuple[str, ...]) -> int:
     """Markov parameters needed to have all these labels."""
-    return max((int(x[1:]) for x in labels if x[0] == "G"), default=0)
+    return max((int(x[1:]) for x in labels if x[0] == "G" and x[1:].isdecimal()), default=0)

@@ -13,7 +13,7 @@ separated by ranks of 1/G (see `invariants.inverse`), is said to be decided by t
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
@@ -46,7 +46,6 @@ class Classes:
     free: Numbers
     rank: Numbers
     open_groups: frozenset[tuple[int, int]]
-    ranks_of_unions: dict[tuple[Chain, Masses], int] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
         return len(self.chains)
@@ -110,6 +109,10 @@ class Classes:
             found.setdefault(int(g), []).append(i)
         return {g: tuple(m) for g, m in found.items()}
 
+    @cached_property
+    def _ranks(self) -> dict[tuple[Chain, Masses], int]:
+        return {(without_dampers(c), frozenset(c.ground_dampers)): int(r) for c, r in zip(self.chains, self.rank, strict=True)}
+
     def _link(self, i: int, j: int) -> str:
         """The rule that connects two models of one class."""
         if self.renamed[i] == self.renamed[j]:
@@ -126,7 +129,7 @@ class Classes:
             if base == bases[0]:
                 if mine <= own or own <= mine:
                     return RULE_NAMES[8]
-                if own == yours and self.ranks_of_unions.get((base, mine | own)) == self.rank[i]:
+                if own == yours and self._ranks.get((base, mine | own)) == self.rank[i]:
                     return RULE_NAMES[9]
         return RULE_NAMES[EXACT]
 

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from disting.certainty import Certainty, Grade
 from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, rational_map, resting_on
 from disting.conditions.exact import EXACT
-from disting.conditions.inclusion import INCLUDED, Inclusion, InclusionFinding, by_rank, inclusion_finding, quick_inclusion
 from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
 from disting.identifiability import IDENTIFIABILITY
+from disting.inclusion import INCLUDED, Inclusion, InclusionFinding, by_rank, inclusion_finding, quick_inclusion
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
@@ -102,6 +102,7 @@ class Decisions:
         profiles: dict[tuple[int, int], Profile] = {}
 
         def profile(where: int, i: int) -> Profile:
+            """The profile of model i in the representation of this number, looked up once."""
             if (where, i) not in profiles:
                 r = Representation(REPRESENTATIONS[where])
                 profiles[where, i] = self.subjects[i].profile(r, _count(r, self.query, self.subjects))

@@ -31,8 +31,9 @@ T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-FILES = ("settings.py", "certainty.py", "domain.py", "question.py", "verdict.py")
-CODE = (*FILES, "algebra", "model", "invariants", "synthesis", "ideals", "identifiability", "positivity", "conditions")
+FILES = ("settings.py", "certainty.py", "domain.py", "question.py")
+JUDGING = ("conditions", "inclusion", "verdict")
+FOLDERS = ("algebra", "model", "invariants", "synthesis", "ideals", "identifiability", "positivity", *JUDGING)
 
 
 def silent(what: str, done: int, total: int) -> None:
@@ -94,9 +95,11 @@ class Engine:
         """All pairs of models, of one size or several; the executor's workers compute what is asked for."""
 
         def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
+            """Have the profiles of these models computed, many at a time."""
             self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)
 
         def ask(question: Question[Any], pairs: Sequence[Chains]) -> None:
+            """Have the question answered for these pairs, many at a time."""
             self.answer_all(question, pairs, executor=executor, progress=progress)
 
         return decisions(subjects, query, prefetch, ask)
@@ -173,7 +176,7 @@ def question_key(question: Question[Any], chains: Chains, settings: Settings) ->
 def code_version() -> str:
     """Digest of the source text that profiles and verdicts depend on."""
     root = Path(__file__).parents[1]
-    files = [p for name in CODE for p in sorted([root / name] if name.endswith(".py") else (root / name).glob("*.py"))]
+    files = [*(root / name for name in FILES), *(p for name in FOLDERS for p in sorted((root / name).rglob("*.py")))]
     return hashlib.sha256(b"\0".join(p.read_bytes() for p in files)).hexdigest()
 
 

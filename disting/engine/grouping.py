@@ -78,7 +78,6 @@ class _Work:
     engine: Engine
     subjects: list[Subject]
     place: list[int]
-    ranks_of_unions: dict[tuple[Chain, frozenset[int]], int]
     columns: list[list[int]]
     parent: list[int]
     renamed: list[int]
@@ -94,7 +93,7 @@ class _Work:
         subjects, n = [engine.subject(f"form {i}", c) for c, i in numbers.items()], len(numbers)
         unions = {(without_dampers(c), frozenset(c.ground_dampers)): i for c, i in zip(chains, place, strict=True)}
         empty = [[-1] * len(TESTS) for _ in range(n)]
-        return _Work(engine, subjects, place, {}, empty, list(range(n)), list(range(n)), [-1] * n, unions=unions)
+        return _Work(engine, subjects, place, empty, list(range(n)), list(range(n)), [-1] * n, unions=unions)
 
     def profiles(
         self, wanted: Iterable[int], r: Representation, count: int, executor: Executor | None, progress: Progress
@@ -133,7 +132,6 @@ class _Work:
                 for i in bucket:
                     self.free[i] = number
                     self.unite(bucket[0], i)
-        self.ranks_of_unions |= {key: profiles[i].rank for key, i in self.unions.items()}
         for (base, masses), i in self.unions.items():
             for more in range(1, base.n_masses + 1):
                 j = self.unions.get((base, masses | {more}), i)
@@ -188,7 +186,6 @@ class _Work:
             free=np.array([self.free[i] for i in at], np.int32),
             rank=np.array([self.subjects[i].rank for i in at], np.int32),
             open_groups=frozenset(self.open_pairs()),
-            ranks_of_unions=self.ranks_of_unions,
         )
 
 

@@ -224,6 +224,7 @@ def _guard_forks(store: Store) -> None:
     held: list[Store] = []
 
     def before() -> None:
+        """Wait for other threads, and give up the connection, which must not cross a fork."""
         store = reference()
         if store is not None:
             store._lock.acquire()
@@ -232,6 +233,7 @@ def _guard_forks(store: Store) -> None:
                 store._disconnect()
 
     def after() -> None:
+        """Let the threads go on, in the parent and in the child."""
         while held:
             held.pop()._lock.release()
 

@@ -21,6 +21,8 @@ from disting.ideals.evidence import Refuted as Refuted
 from disting.ideals.evidence import Solved as Solved
 from disting.ideals.evidence import confirms as confirms
 from disting.ideals.fibre_ideal import generic_rank as generic_rank
+from disting.ideals.full_parts import FullParts as FullParts
+from disting.ideals.full_parts import same_by_full_parts as same_by_full_parts
 from disting.ideals.system import CoefficientMap as CoefficientMap
 from disting.ideals.system import coefficient_map as coefficient_map
 from disting.ideals.system import normalised as normalised

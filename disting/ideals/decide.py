@@ -89,9 +89,11 @@ class _Question:
         return int(self.equal_rank)
 
     def sides(self, left_given: bool) -> tuple[CoefficientMap, CoefficientMap]:
+        """The model whose point is given, and the one that is searched."""
         return (self.left, self.right) if left_given else (self.right, self.left)
 
     def run(self, left_given: bool, label: str) -> _Run:
+        """The Gröbner basis of the fibre in this direction, at the point of this label, ready to be computed step by step."""
         ideal = fibre_ideal(*self.sides(left_given), label, self.equal_rank)
         return _Run(left_given, label, ideal, basis_steps(ideal.generators, len(ideal.unknowns), ideal.modulus))
 

@@ -99,6 +99,7 @@ def _agree(given: CoefficientMap, other: CoefficientMap, label: str, solution: S
 
 def _at(model: CoefficientMap, point: Sequence[int], modulus: int) -> tuple[nmod_poly, nmod_poly]:
     def value(polynomial: fmpz_mpoly) -> int:
+        """Its value at the point, modulo the prime."""
         return int(polynomial(*point)) % modulus
 
     num, den = ([value(p) for p in polynomials] for polynomials in (model.numerator, model.denominator))

@@ -75,6 +75,7 @@ class CoefficientMap:
         ring = symbols([*self.parameters, SCALE])
 
         def lifted(polynomials: Sequence[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
+            """In the larger ring, times the new parameter."""
             return tuple(renamed(p, ring, {}) * ring[SCALE] for p in polynomials)
 
         return CoefficientMap((*self.parameters, SCALE), lifted(self.numerator), lifted(self.denominator))

@@ -2,11 +2,12 @@
 
 import json
 from dataclasses import replace
+from itertools import combinations
 from random import Random
 
 import pytest
 
-from disting import CatalogError, Chain, Engine, Family, InputError, Relation, Sensor, compare
+from disting import CatalogError, Certainty, Chain, Engine, Family, InputError, Relation, Sensor, compare
 from disting.catalogs import candidates as stored
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
@@ -65,6 +66,11 @@ def test_as_compare_says():
 
 def test_the_error_bound_is_that_of_the_weakest_verdict():
     assert stored.shipped().records[0]["safety"] >= 100
+    chains, engine = [Family(3, damped=True)[i] for i in (1, 4, 6, 8)], Engine()
+    verdicts = [compare(a, b, engine=engine) for a, b in combinations(chains, 2)]
+    bits = {v.safety for v in verdicts if v.certainty is Certainty.BOUNDED}
+    assert len(bits) > 1
+    assert stored.matrix(chains, engine=engine).records[0]["safety"] == min(bits)
 
 
 def test_a_matrix_with_all_relations_survives_its_file(tmp_path):

@@ -8,8 +8,8 @@ from itertools import combinations
 import pytest
 import sympy as sp
 
-from disting import Chain, Engine, Family, InputError, Query, Relation, compare
-from disting.catalogs.dampers import DamperSets, dampers, spelled
+from disting import Chain, Engine, Family, InputError, Query, Relation, View, compare
+from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli import main
 
 SAME, APART = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
@@ -99,6 +99,15 @@ def test_against_sympy(sensor):
         one, other = (replace(found.chain, ground_dampers=s) for s in (left, right))
         both = has_equivalent(one, other) and has_equivalent(other, one)
         assert (found.relation(left, right) is SAME) == both
+
+
+def test_what_is_undecided_joins_no_class():
+    """Conditions 1 to 9 leave the two places of one damper open."""
+    chain, sets = Chain(2, damped=True), ((), (1,), (2,))
+    subjects = [ENGINE.subject(spelled(s), replace(chain, ground_dampers=s)) for s in sets]
+    paper = DamperTable(chain, sets, ENGINE.decisions(subjects, Query(View.COMBINED)))
+    assert paper.relation((1,), (2,)) is Relation.UNDECIDED
+    assert paper.classes() == (((),), ((1,),), ((2,),))
 
 
 def test_bad_sets_are_refused():

@@ -53,6 +53,33 @@ def test_damaged_files_are_refused_with_the_remedy(tmp_path, text):
         catalog(3, folder=tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("sound", "damaged"),
+    [
+        ('"kind":"ranks"', '"kind":"other"'),
+        ('"evidence":{', '"evidence":null,"was":{'),
+        ('"certainty":"bounded"', '"certainty":"sure"'),
+        ('"rows":[', '"lines":['),
+    ],
+)
+def test_damaged_pairs_are_named_with_the_remedy(tmp_path, sound, damaged):
+    """What no sum tells: the file is complete and JSON, a record is no record."""
+    header, *records = (shipped_folder() / "chains-3-damped.jsonl").read_text().splitlines()
+    pairs = [text.replace(sound, damaged) for text in records[11:]]
+    assert pairs != records[11:]
+    (tmp_path / "chains-3-damped.jsonl").write_text("\n".join([header, *records[:11], *pairs, ""]))
+    with pytest.raises(CatalogError, match=r"chains-3-damped, \d+:\d+ cannot be read .* 'disting catalog build'"):
+        list(catalog(3, damped=True, folder=tmp_path).pairs())
+
+
+@pytest.mark.parametrize("change", [lambda pairs: pairs[::-1], lambda pairs: [pairs[0], pairs[0], *pairs[2:]]])
+def test_pairs_in_disorder_are_refused(tmp_path, change):
+    text = (shipped_folder() / "chains-3-undamped.jsonl").read_text().splitlines()
+    (tmp_path / "chains-3-undamped.jsonl").write_text("\n".join([*text[:12], *change(text[12:]), ""]))
+    with pytest.raises(CatalogError, match="incomplete"):
+        catalog(3, folder=tmp_path)
+
+
 def test_missing_catalogues_are_named():
     with pytest.raises(CatalogError, match="1 to 5 masses"):
         catalog(6)

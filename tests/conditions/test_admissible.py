@@ -15,10 +15,10 @@ from disting.catalogs.export import decisions_csv
 from disting.catalogs.verify import false_evidence
 from disting.conditions.admissible import positive_share, positive_ways, resting_on
 from disting.conditions.evidence import from_dict, to_dict
-from disting.conditions.inclusion import Inclusion
 from disting.conditions.verify import Witness
 from disting.conditions.ways import BothWays, OddFibres, weakest
 from disting.domain import Domain
+from disting.inclusion import Inclusion
 from disting.model.symmetry import canonical
 from disting.positivity import PositiveFinding, Share, positive_finding, proves
 from disting.positivity.evidence import NoEquivalent

@@ -9,7 +9,6 @@ import random
 import resource
 import sqlite3
 import sys
-import time
 import warnings
 from pathlib import Path
 
@@ -89,12 +88,12 @@ def meet(path: str, number: str) -> None:
     say(f"kept {store.get_many([key(int(number))]) == {key(int(number)): value(int(number))}}")
 
 
-def hold(path: str, seconds: str) -> None:
-    """Hold the write lock for some time."""
+def hold(path: str) -> None:
+    """Hold the write lock until a line comes in."""
     connection = sqlite3.connect(path, isolation_level=None)
     connection.execute("BEGIN IMMEDIATE")
     say("held")
-    time.sleep(float(seconds))
+    sys.stdin.readline()
     connection.execute("COMMIT")
 
 

@@ -1,6 +1,5 @@
 """Classes of whole families with ground dampers, against the pair-by-pair decision and against the shipped catalogues."""
 
-import time
 from dataclasses import replace
 from itertools import combinations
 from random import Random
@@ -100,15 +99,6 @@ def test_four_masses_at_random_as_compare_says(four):
             assert compare(four.found.chains[i], four.found.chains[j], query=Query(inclusion=False)).relation is relation
 
 
-def test_a_look_up_takes_less_than_a_millisecond(four):
-    random = Random(1)
-    pairs = [random.sample(range(len(four)), 2) for _ in range(1000)]
-    start = time.perf_counter()
-    for pair in pairs:
-        four.found.look_up(*pair)
-    assert (time.perf_counter() - start) / len(pairs) < 1e-3
-
-
 def test_names_and_places(four):
     assert [four.place(four.name(i)) for i in range(len(four))] == list(range(len(four)))
     assert four.text(four.place((3, (2,)))) == "4:3+b2"
@@ -191,12 +181,12 @@ def test_quick_findings():
 
 @pytest.mark.slow
 def test_all_damped_models_of_five_masses():
-    """2336 models, 2,727,280 pairs: about three minutes with two processes; what is open depends on the machine's speed."""
+    """2336 models, 2,727,280 pairs: about three minutes with two processes."""
     with executor(2) as pool:
         found = damper_family(5, damped=True, executor=pool)
     assert len(found) == 2336
     assert sum(found.found.counts().values()) == 2_727_280
-    assert found.found.counts()[OPEN] < 20_000
+    assert found.found.counts()[OPEN] < 2_000
     shipped = catalog(5, damped=True)
     for left, right, verdict in shipped.pairs():
         assert found.look_up((left, ()), (right, ()))[0] in (verdict.relation, OPEN)

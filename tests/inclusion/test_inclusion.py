@@ -7,7 +7,8 @@ import pytest
 
 from disting import Engine, Family, Query, Relation, View, compare
 from disting.conditions.evidence import Counts
-from disting.conditions.inclusion import (
+from disting.ideals import Vanishing, coefficient_map
+from disting.inclusion import (
     Inclusion,
     Sense,
     confirms,
@@ -15,9 +16,8 @@ from disting.conditions.inclusion import (
     inclusion_from_dict,
     inclusion_to_dict,
 )
-from disting.conditions.inclusion_finding import FullImage, LargerProjection, RelativeDegrees
-from disting.conditions.inclusion_profiles import by_relative_degrees, part_falls
-from disting.ideals import Vanishing, coefficient_map
+from disting.inclusion.finding import FullImage, LargerProjection, RelativeDegrees
+from disting.inclusion.profiles import by_relative_degrees, part_falls
 from disting.model.chain import Chain, Sensor
 
 ENGINE = Engine()

@@ -5,10 +5,10 @@ the first has an equivalent in the second with finite, non-zero elements. CLOSUR
 the reverse. What proves a statement first is kept, CLOSURE before refutations of IMAGE where it is cheap to see; so a pair that
 is refuted in the sense of IMAGE may lie in the CLOSURE.
 
-Chains of different sizes: the smaller one may be a limit of the larger one (`specialisation`), which proves CLOSURE; the larger
-one, with more poles, never lies in the smaller one. For chains of one size:
+Chains of different sizes are compared in `across_sizes`: the smaller one may be a limit of the larger one, which proves
+CLOSURE. For chains of one size:
 
-1. `inclusion_profiles`: degrees and projections refute both; a full image proves CLOSURE.
+1. `profiles`: degrees and projections refute both; a full image proves CLOSURE.
 2. Chains with a gap taken apart (`disting.ideals.by_parts`): small ideals of both parts prove CLOSURE; relative degrees and
    Markov parameters of the parts refute IMAGE without any chance.
 3. One fibre by the synthesis: refuted, IMAGE; else CLOSURE. Its error bound is that of `exact`, whose argument does not use
@@ -21,15 +21,6 @@ from dataclasses import replace
 from disting.certainty import Certainty
 from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
-from disting.conditions.inclusion_finding import Inclusion as Inclusion
-from disting.conditions.inclusion_finding import InclusionFinding as InclusionFinding
-from disting.conditions.inclusion_finding import Limit, RelativeDegrees, inclusion_from_json, inclusion_to_json
-from disting.conditions.inclusion_finding import Sense as Sense
-from disting.conditions.inclusion_finding import inclusion_from_dict as inclusion_from_dict
-from disting.conditions.inclusion_finding import inclusion_to_dict as inclusion_to_dict
-from disting.conditions.inclusion_profiles import by_profiles, by_relative_degrees
-from disting.conditions.inclusion_verify import confirms as confirms
-from disting.conditions.specialisation import limit_path
 from disting.conditions.subject import Subject
 from disting.ideals import (
     ByParts,
@@ -44,6 +35,17 @@ from disting.ideals import (
 )
 from disting.ideals import Membership as Reached
 from disting.ideals import decide as decide_ideal
+from disting.inclusion.across_sizes import by_computing, by_sizes
+from disting.inclusion.across_sizes_evidence import LimitFibre, PoleSharing
+from disting.inclusion.finding import (
+    Inclusion,
+    InclusionFinding,
+    RelativeDegrees,
+    Sense,
+    inclusion_from_json,
+    inclusion_to_json,
+)
+from disting.inclusion.profiles import by_profiles, by_relative_degrees
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.question import Question
@@ -56,7 +58,7 @@ PART_LIMITS = Limits(seconds=20.0, entries=1_000_000, safety=100)  # of the idea
 
 
 def inclusion_finding(left: Subject, right: Subject) -> InclusionFinding:
-    """Inclusion of two chains of unequal rank: cheap refutations, then a full image, then one fibre."""
+    """Inclusion of two chains of unequal rank: what is cheap first, then what the answerer has to compute."""
     if left.rank == right.rank:
         raise ValueError("of equal rank: equal or neither, as the verdict says")
     found = quick_inclusion(left, right)
@@ -73,32 +75,21 @@ def by_rank(left: Subject, right: Subject) -> tuple[Chain, Chain]:
 
 
 def quick_inclusion(left: Subject, right: Subject) -> InclusionFinding | None:
-    """What the profiles settle; None if nothing."""
+    """What profiles, or for chains of different sizes counts and limits, settle; None if nothing."""
     one, other = left.chain, right.chain
     if (one.sensor, one.dead_time) != (other.sensor, other.dead_time):
         return InclusionFinding(Inclusion.UNKNOWN, reason="models of one sensor and dead time are compared")
     if one.n_masses != other.n_masses:
-        return by_limits(left, right)
+        return by_sizes(left, right)
     small, large = (left, right) if left.rank < right.rank else (right, left)
     profiles = (s.profile(Representation.TF, 0) for s in (small, large))
     return by_profiles(*profiles, left_is_smaller=left.rank < right.rank)
 
 
-def by_limits(left: Subject, right: Subject) -> InclusionFinding:
-    """Inclusion of chains of different sizes: the smaller one as a limit of the larger one, or not known."""
-    left_is_larger = left.chain.n_masses > right.chain.n_masses
-    small, large = (right, left) if left_is_larger else (left, right)
-    steps = limit_path(small.chain, large.chain)
-    if not steps or small.rank >= large.rank:
-        return InclusionFinding(
-            Inclusion.UNKNOWN, reason="the smaller chain is no limit of the larger one by rigid or cut springs"
-        )
-    inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
-    return InclusionFinding(inside, Sense.CLOSURE, Certainty.PROVEN, evidence=Limit(left_is_larger, steps))
-
-
 def included(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
     """The model of the smaller rank searched in the other: what is exact first, then the synthesis, then ideals."""
+    if small.n_masses != large.n_masses:
+        return by_computing(small, large, settings)
     structures = (rational_part(small), rational_part(large))
     closed = included_by_parts(*structures, settings.seed, CLOSURE_LIMITS)
     if closed.evidence is not None:
@@ -159,6 +150,8 @@ def _turned(found: InclusionFinding) -> InclusionFinding:
     evidence = found.evidence
     if isinstance(evidence, FibreAt | Solved | Refuted | ByParts):
         evidence = replace(evidence, left_given=not evidence.left_given)
+    elif isinstance(evidence, PoleSharing | LimitFibre):
+        evidence = replace(evidence, left_is_larger=not evidence.left_is_larger)
     elif isinstance(evidence, RelativeDegrees):
         evidence = RelativeDegrees(not evidence.left_is_larger, evidence.right, evidence.left)
     return replace(found, inclusion=other, evidence=evidence)

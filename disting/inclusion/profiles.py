@@ -12,7 +12,7 @@ from typing import TypeVar
 from disting.algebra.matroid import Matroid, rank_in
 from disting.certainty import Certainty
 from disting.conditions.evidence import Counts, Labels
-from disting.conditions.inclusion_finding import (
+from disting.inclusion.finding import (
     FullImage,
     Inclusion,
     InclusionFinding,

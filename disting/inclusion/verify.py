@@ -4,12 +4,13 @@ from dataclasses import replace
 
 from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels
 from disting.conditions.exact import rational_part
-from disting.conditions.inclusion_finding import FullImage, InclusionEvidence, LargerProjection, Limit, RelativeDegrees
-from disting.conditions.inclusion_profiles import degrees_refute, ordered
-from disting.conditions.specialisation import follows
 from disting.conditions.subject import Subject
 from disting.conditions.verify import POINTS, Witness
 from disting.ideals import ByParts, Refuted, Solved, coefficient_map, confirms_by_parts
+from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
+from disting.inclusion.across_sizes_verify import confirms_across_sizes
+from disting.inclusion.finding import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.inclusion.profiles import degrees_refute, ordered
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain, Sensor
@@ -24,6 +25,10 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
     a, b = left.canonical.chain, right.canonical.chain
     left_is_smaller, fresh = left.rank < right.rank, Witness("inclusion")
     match evidence:
+        case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre():
+            return a.n_masses != b.n_masses and confirms_across_sizes(evidence, left, right)
+        case Counts() if a.n_masses != b.n_masses:
+            return confirms_across_sizes(evidence, left, right)
         case Counts():
             small, large = ordered(evidence.left, evidence.right, left_is_smaller)
             return degrees_refute(small, large) and fresh.confirms(evidence, "tf", a, b)
@@ -39,9 +44,6 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
             here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
             return evidence.left_is_larger != left_is_smaller and _fall_apart(smaller, larger, here, there)
-        case Limit():
-            whole, part = (a, b) if evidence.left_is_larger else (b, a)
-            return part.n_masses < whole.n_masses and follows(whole, part, evidence.steps)
         case ByParts():
             parts = (rational_part(a), rational_part(b))
             return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)

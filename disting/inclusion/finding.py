@@ -3,11 +3,20 @@
 import json
 from dataclasses import asdict, dataclass
 from enum import StrEnum
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from disting.certainty import Certainty
 from disting.conditions.evidence import Counts, FibreAt, Labels, from_dict, spelled, to_dict
 from disting.ideals import ByParts, PartStep, Refuted, Solved, Vanishing
+from disting.inclusion.across_sizes_evidence import (
+    ACROSS_SIZES,
+    AcrossSizes,
+    Limit,
+    LimitFibre,
+    Meeting,
+    PoleSharing,
+    TooLarge,
+)
 
 
 class Inclusion(StrEnum):
@@ -92,33 +101,8 @@ class RelativeDegrees:
         return f"deg D₂ − deg N₂ = {here} < {there} ≤ deg D₁ − deg N₁"
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """The smaller chain is a limit of the larger one: `steps` (spring, what it tends to), masses numbered anew after each.
-
-    Both chains are in their canonical forms (see `specialisation`).
-    """
-
-    kind: ClassVar[str] = "limit"
-    left_is_larger: bool
-    steps: tuple[tuple[str, str], ...]
-
-    def sentence(self, left: str, right: str) -> str:
-        """Which springs become rigid or are cut."""
-        larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        words = {"∞": "without bound", "0": "cut"}
-        path = ", then ".join(f"{spring} {words[limit]}" for spring, limit in self.steps)
-        anew = " (masses numbered anew after each step)" if len(self.steps) > 1 else ""
-        return f"With {path}{anew} {larger} becomes {smaller}, for all parameters of {smaller}."
-
-    @property
-    def formula(self) -> str:
-        """The limits."""
-        return ", ".join(f"{spring} → {limit}" for spring, limit in self.steps)
-
-
-InclusionEvidence = Limit | Counts | LargerProjection | FullImage | RelativeDegrees | ByParts | FibreAt | Solved | Refuted
-_OWN = {c.kind: c for c in (LargerProjection, FullImage, RelativeDegrees, Limit)}
+InclusionEvidence = AcrossSizes | Counts | LargerProjection | FullImage | RelativeDegrees | ByParts | FibreAt | Solved | Refuted
+_OWN: dict[str, Any] = ACROSS_SIZES | {c.kind: c for c in (LargerProjection, FullImage, RelativeDegrees)}
 _SHOWN = {c.kind: c for c in (Vanishing, Solved, Refuted)}
 
 
@@ -176,7 +160,16 @@ def _evidence_to_dict(evidence: InclusionEvidence | None) -> dict[str, object]:
         case ByParts():
             steps = [{"split": s.split, "part": s.part, "kind": s.shown.kind, **asdict(s.shown)} for s in evidence.steps]
             return {"kind": evidence.kind, "left_given": evidence.left_given, "steps": steps}
-        case LargerProjection() | FullImage() | RelativeDegrees() | Limit():
+        case (
+            LargerProjection()
+            | FullImage()
+            | RelativeDegrees()
+            | Limit()
+            | LimitFibre()
+            | Meeting()
+            | PoleSharing()
+            | TooLarge()
+        ):
             return {"kind": evidence.kind, **asdict(evidence)}
         case _:
             return to_dict(evidence)
@@ -185,7 +178,7 @@ def _evidence_to_dict(evidence: InclusionEvidence | None) -> dict[str, object]:
 def _evidence_from_dict(plain: dict[str, object]) -> InclusionEvidence:
     kind, fields = str(plain["kind"]), {name: _tupled(v) for name, v in plain.items() if name != "kind"}
     if kind in _OWN:
-        return _OWN[kind](**fields)  # type: ignore[arg-type]
+        return _OWN[kind](**fields)  # type: ignore[no-any-return]
     if kind != ByParts.kind:
         return from_dict(plain)  # type: ignore[return-value]
     steps = plain["steps"]

@@ -1,0 +1,179 @@
+"""Evidence of conditions 1 to 9: degrees, symbolic forms, ranks, a renaming, a numbering of masses."""
+
+from dataclasses import dataclass
+from itertools import groupby
+from typing import ClassVar
+
+Labels = tuple[str, ...]
+TRANSCENDENTAL = "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
+
+
+@dataclass(frozen=True, slots=True)
+class Counts:
+    """Conditions 1 and 2: degrees (numerator n, denominator m) of both transfer functions."""
+
+    kind: ClassVar[str] = "counts"
+    left: tuple[int, int]
+    right: tuple[int, int]
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both degrees in words."""
+        a, b = (f"a numerator of degree {n} over a denominator of degree {m}" for n, m in (self.left, self.right))
+        return f"{left} has {a}, {right} {b}."
+
+    @property
+    def formula(self) -> str:
+        """N_MI = n + m + 1 on both sides."""
+        (n1, m1), (n2, m2) = self.left, self.right
+        return f"n + m + 1 = {n1} + {m1} + 1 = {n1 + m1 + 1},  {n2} + {m2} + 1 = {n2 + m2 + 1}"
+
+
+@dataclass(frozen=True, slots=True)
+class Forms:
+    """Condition 3: the invariants that vary in one model only."""
+
+    kind: ClassVar[str] = "forms"
+    only_left: Labels
+    only_right: Labels
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which invariants vary on one side only."""
+        sides = ((self.only_left, left, right), (self.only_right, right, left))
+        parts = [_varies(labels, here, there) for labels, here, there in sides if labels]
+        why = f": {TRANSCENDENTAL}" if "Td" in (*self.only_left, *self.only_right) else ""
+        return _capital("; ".join(parts)) + why + "."
+
+    @property
+    def formula(self) -> str:
+        """Labels that vary on one side only."""
+        return f"free in one only: {spelled(self.only_left) or '–'} | {spelled(self.only_right) or '–'}"
+
+
+@dataclass(frozen=True, slots=True)
+class Ranks:
+    """Conditions 4 and 5: a set of invariants whose Jacobian rows have different generic ranks."""
+
+    kind: ClassVar[str] = "ranks"
+    rows: Labels
+    left: int
+    right: int
+    all_rows: bool
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both ranks in words."""
+        if self.all_rows:
+            return f"{left} has {self.left} determinable parameters, {right} {self.right}."
+        return f"In {left} the invariants {spelled(self.rows)} have rank {self.left}, in {right} rank {self.right}."
+
+    @property
+    def formula(self) -> str:
+        """rank of the Jacobian's rows on both sides."""
+        what = "Φ" if self.all_rows else spelled(self.rows)
+        return f"rank ∂({what})/∂p = {self.left} ≠ {self.right}"
+
+
+@dataclass(frozen=True, slots=True)
+class Renaming:
+    """Condition 6: pairs (left parameter, right parameter), and the symmetries that give the renaming, if any do."""
+
+    kind: ClassVar[str] = "renaming"
+    pairs: tuple[tuple[str, str], ...]
+    symmetries: tuple[str, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """The renaming, shortened to what moves."""
+        moved = [f"{a} to {b}" for a, b in self.pairs if a != b]
+        rename = f"after renaming {', '.join(moved)}" if moved else "without renaming any parameter"
+        why = f" ({' and '.join(self.symmetries)})" if self.symmetries else ""
+        return f"{left} has the transfer function of {right} {rename}{why}, over positive parameters too."
+
+    @property
+    def formula(self) -> str:
+        """All pairs."""
+        return ", ".join(f"{a} → {b}" for a, b in self.pairs)
+
+
+@dataclass(frozen=True, slots=True)
+class FreeChoice:
+    """Condition 7: as many determinable parameters as non-constant invariants, on both sides."""
+
+    kind: ClassVar[str] = "free-choice"
+    rank: int
+    free: Labels
+
+    def sentence(self, left: str, right: str) -> str:
+        """The two equal numbers in words."""
+        return (
+            f"Both have {self.rank} determinable parameters for {len(self.free)} non-constant invariants, "
+            f"so each of {left} and {right} can give them any generic values."
+        )
+
+    @property
+    def formula(self) -> str:
+        """N_R equals the number of free invariants."""
+        return f"N_R = {self.rank} = |{{{spelled(self.free)}}}|"
+
+
+@dataclass(frozen=True, slots=True)
+class Embedding:
+    """Condition 8: the side that is the submodel, the numbering of its masses in the larger model, the common rank."""
+
+    kind: ClassVar[str] = "embedding"
+    left_is_submodel: bool
+    numbering: tuple[tuple[int, int], ...]
+    rank: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which model is part of which."""
+        part, whole = (left, right) if self.left_is_submodel else (right, left)
+        return f"{part} is {whole} with some elements missing, and both have {self.rank} determinable parameters."
+
+    @property
+    def formula(self) -> str:
+        """Masses of the submodel in the larger model."""
+        return ", ".join(f"{a} → {b}" for a, b in self.numbering)
+
+
+@dataclass(frozen=True, slots=True)
+class Supermodel:
+    """Condition 9: the parameters of the common supermodel and the rank that all three share."""
+
+    kind: ClassVar[str] = "supermodel"
+    parameters: Labels
+    rank: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """The third model in words."""
+        third = ", ".join(self.parameters)
+        return (
+            f"{left} and {right} are submodels of the chain with {third}; all three have {self.rank} determinable parameters."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The common rank."""
+        return f"N_R = {self.rank} for all three"
+
+
+ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
+
+
+def spelled(labels: Labels) -> str:
+    """Labels with runs shortened.
+
+    >>> spelled(("b0", "b1", "b2", "a1"))
+    'b0–b2, a1'
+    """
+    numbered = [(label[0], int(label[1:]) if label[1:].isdigit() else -1) for label in labels]
+    runs = [list(run) for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))]
+    ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
+    return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)
+
+
+def _varies(labels: Labels, here: str, there: str) -> str:
+    depends, are = ("depends", "is") if len(labels) == 1 else ("depend", "are")
+    return f"{spelled(labels)} {depends} on the parameters in {here} but {are} constant in {there}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,109 @@
+"""Evidence of the exact decision of chains: a theorem, a dead time, a fibre, what an external program found."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from disting.conditions.evidence_of_conditions import TRANSCENDENTAL
+
+_THEOREMS = {
+    "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
+    "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
+    "Foster": "{left} and {right} are undamped, each with force and sensor at one place: both give any such resonances",
+    "parts": "{left} and {right} are undamped and their parts at both sides of the gap can be exchanged one by one",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Theorem:
+    """Exact decision: a theorem of that `name` says that both models are the same for all parameters."""
+
+    kind: ClassVar[str] = "theorem"
+    name: str
+
+    def sentence(self, left: str, right: str) -> str:
+        """What the theorem says of this pair."""
+        return _THEOREMS[self.name].format(left=left, right=right) + ", over positive parameters too."
+
+    @property
+    def formula(self) -> str:
+        """The theorem by name."""
+        return f"{self.name} theorem"
+
+
+@dataclass(frozen=True, slots=True)
+class DeadTime:
+    """Exact decision: one of the two has a dead time, so a factor that is no rational function (see `exact`)."""
+
+    kind: ClassVar[str] = "dead time"
+    left_given: bool
+
+    def sentence(self, left: str, right: str) -> str:
+        """Whose it is and what that means."""
+        with_it, without = (left, right) if self.left_given else (right, left)
+        return f"{with_it} has a dead time, {without} has none: {TRANSCENDENTAL}."
+
+    @property
+    def formula(self) -> str:
+        """The factor."""
+        return "exp(−Td s), Td ≠ 0, is not rational"
+
+
+@dataclass(frozen=True, slots=True)
+class FibreAt:
+    """Exact decision: the fibre of one model over the transfer function of the other at a rational parameter point.
+
+    Both models are in their canonical forms. `left_given`: the point (name, fraction) is of the left model and the right one
+    was searched; `grounds`: "refuted" or "construction" (see `synthesis.decide`); so many of the `solutions` listed are real,
+    so many positive.
+    """
+
+    kind: ClassVar[str] = "fibre"
+    left_given: bool
+    point: tuple[tuple[str, str], ...]
+    grounds: str
+    solutions: int
+    real: int
+    positive: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """What the fibre shows."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        if self.grounds == "refuted":
+            return (
+                f"For one choice of rational parameters of {given} no parameters of {searched}, real or complex, give the same "
+                "transfer function: every branch of the inverse synthesis is refuted."
+            )
+        return (
+            f"For one choice of rational parameters of {given}, parameters of {searched} with the same transfer function are "
+            f"proven to exist: {self.solutions} solutions listed, {self.real} of them real, {self.positive} positive."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The size of the fibre."""
+        if self.grounds == "refuted":
+            return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
+        return f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
+
+
+@dataclass(frozen=True, slots=True)
+class ByProgram:
+    """Exact decision: an external program found the fibre's equations contradictory, modulo one small prime."""
+
+    kind: ClassVar[str] = "program"
+    program: str
+    left_given: bool
+    label: str
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found, and why it proves nothing."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        return (
+            f"{self.program} finds no parameters of {searched} with the transfer function of {given} at one random point "
+            "modulo one prime of 31 bits, too small for an error bound."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The ideal is everything, modulo the prime."""
+        return "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩ mod p"

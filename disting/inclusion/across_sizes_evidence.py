@@ -1,0 +1,185 @@
+"""What shows that a chain is, or is not, a limit of chains with more masses: kinds of evidence, each checked again alone."""
+
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+_WORDS = {"∞": "without bound", "0": "zero"}
+
+
+class PartLimit(NamedTuple):
+    """A row (free or grounded) of the larger chain becomes one of the smaller chain, by `steps` and by a count.
+
+    Step: an element and what it tends to, masses of the row numbered anew after each. `room`: rank, coordinates, factors and
+    1 or 0 for the mass (see `meeting`) of the last step; () if the steps lead to the row itself. Rows are canonical.
+    """
+
+    given: str
+    wanted: str
+    steps: tuple[tuple[str, str], ...]
+    room: tuple[int, ...] = ()
+
+    @property
+    def sentence(self) -> str:
+        """What happens to the row, without names of models."""
+        path = ", then ".join(f"{element} {_WORDS[limit]}" for element, limit in self.steps)
+        ways = [f"with {path}"] * bool(path) + ["by a count of dimensions"] * bool(self.room)
+        becomes = f"becomes the {self.wanted} one {' and '.join(ways)}" if ways else f"is the {self.wanted} one"
+        return f"the {self.given} row {becomes}"
+
+    @property
+    def formula(self) -> str:
+        """The limits, and the numbers of the count."""
+        limits = [f"{element} → {limit}" for element, limit in self.steps]
+        return ", ".join(limits + ([_counted(*self.room)] if self.room else [])) or "="
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The smaller chain is a limit of the larger one, row by row; a row that is not named comes to rest.
+
+    `smaller`, `larger`: indices of the chains of which this is said, the same as those given by a theorem; () for themselves.
+    """
+
+    kind: ClassVar[str] = "limit"
+    left_is_larger: bool
+    parts: tuple[PartLimit, ...]
+    smaller: tuple[int, ...] = ()
+    larger: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", tuple(PartLimit(*part) for part in self.parts))
+
+    def sentence(self, left: str, right: str) -> str:
+        """What becomes of each row."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        path = "; ".join(part.sentence for part in self.parts)
+        same = [f"{name} being the same as the chain {given}" for name, given in self._replaced(smaller, larger)]
+        why = f" ({' and '.join(same)})" if same else ""
+        how = "masses of a row numbered from 1 at each step"
+        return f"{smaller} is a limit of {larger} for all parameters of {smaller}{why}; {how}: {path}."
+
+    @property
+    def formula(self) -> str:
+        """The limits of each row."""
+        return "; ".join(f"{part.given} ⇒ {part.wanted}: {part.formula}" for part in self.parts)
+
+    def _replaced(self, smaller: str, larger: str) -> list[tuple[str, tuple[int, ...]]]:
+        return [(name, given) for name, given in ((smaller, self.smaller), (larger, self.larger)) if given]
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """Dimensions of closures add up (see `meeting`), so a common factor exists with which the smaller model is a limit."""
+
+    kind: ClassVar[str] = "meeting"
+    left_is_larger: bool
+    rank: int
+    coordinates: int
+    factors: int
+    same_mass: bool
+
+    def sentence(self, left: str, right: str) -> str:
+        """The count in words."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        mass = ", total masses being equal" if self.same_mass else ""
+        return (
+            f"{larger} has {self.rank} determinable parameters for {self.coordinates} coefficients up to a factor, those of "
+            f"{smaller} may be multiplied by any polynomial of {self.factors} coefficients: dimensions add up{mass}, so every "
+            f"{smaller} is a limit of {larger}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The inequality."""
+        return _counted(self.rank, self.coordinates, self.factors, self.same_mass)
+
+
+@dataclass(frozen=True, slots=True)
+class TooLarge:
+    """Numbers of determinable parameters, in the pair's order: the chain with fewer masses has as many or more."""
+
+    kind: ClassVar[str] = "too-large"
+    left: int
+    right: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both numbers, and what follows."""
+        return (
+            f"{left} has {self.left} determinable parameters, {right} {self.right}: limits with fewer poles have fewer than "
+            "the models that they are limits of."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The two ranks."""
+        return f"N_R = {self.left}, {self.right}"
+
+
+@dataclass(frozen=True, slots=True)
+class PoleSharing:
+    """Smaller models whose poles cannot be distributed to the rows of the larger chain (see `pole_sharing`).
+
+    `points`: their parameters in order, canonical form, each modulo the prime that belongs to the label and its place. One
+    point needs no more; at several, equations of the grounded row were used too, found with an error bound.
+    """
+
+    kind: ClassVar[str] = "pole-sharing"
+    left_is_larger: bool
+    label: str
+    points: tuple[tuple[int, ...], ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """What is impossible."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        found = "A model" if len(self.points) == 1 else f"Each of {len(self.points)} models"
+        row = "" if len(self.points) == 1 else " that its grounded row can have"
+        return (
+            f"{found} of {smaller} given in numbers is no limit of {larger}: no distribution of the poles to its two "
+            f"rows gives the zeros{row}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The equations without solution."""
+        return "v n = l₁ f₂ + l₂ f₁, d = e f₁ f₂  ⇒  v = 0"
+
+
+@dataclass(frozen=True, slots=True)
+class LimitFibre:
+    """Generic smaller models are found, with an error bound, among what limits of the larger chain's rows lead to.
+
+    `steps` of each row by name, the others being at rest; `solutions` at the prime and point of each label, see
+    `disting.ideals.Solved`, where `small_given` says that the points are of the smaller chain.
+    """
+
+    kind: ClassVar[str] = "limit-fibre"
+    left_is_larger: bool
+    steps: tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
+    small_given: bool
+    labels: tuple[str, ...]
+    solutions: tuple[tuple[int, ...], ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """The limits, and what was computed."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        given, searched = (smaller, "the limit") if self.small_given else ("the limit", smaller)
+        rows = [f"{', then '.join(f'{e} {_WORDS[x]}' for e, x in path)} in the {name} row" for name, path in self.steps if path]
+        return (
+            f"{smaller} is part of a limit of {larger} with {' and '.join(rows) or 'a row at rest'}: for random parameters of "
+            f"{given} modulo random primes, parameters of {searched} with the same transfer function were computed."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The limits, and that the fibre has a point."""
+        rows = [f"{name}: {', '.join(f'{e} → {x}' for e, x in path)}" for name, path in self.steps if path]
+        return "; ".join([*rows, "Φ₂(q₀) ≡ Φ₁(p₀)"])
+
+
+AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
+ACROSS_SIZES = {c.kind: c for c in (Limit, Meeting, TooLarge, PoleSharing, LimitFibre)}
+
+
+def _counted(rank: int, coordinates: int, factors: int, same_mass: int) -> str:
+    mass = " + 1" if same_mass else ""
+    return f"{rank} + {factors}{mass} ≥ {coordinates}"

@@ -1,0 +1,115 @@
+"""Polynomial equations between the transfer-function coefficients of a row of masses, found modulo a random prime.
+
+The pairs (N : D) of a row form an irreducible variety; scaling all elements, scaling time and the common factor leave it as it
+is. So its equations are spanned by such of one degree in all coefficients, one in those of N, and one weight (the sum of the
+powers of s): a block. With the monomials of a block as columns and random models as rows, the kernel of the matrix is the
+space of equations of this block modulo the prime, reduced from equations over the integers, if the matrix has its generic rank:
+if one minor, a polynomial with integer coefficients in the parameters of all these models, does not vanish. The probability
+that it does is bounded by `algebra.sampling.safety`.
+"""
+
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations_with_replacement
+from math import ceil, comb, log2
+from typing import Any
+
+from disting.algebra.quotient import constant, matrix, variable
+from disting.algebra.sampling import Size, prime, residues, safety
+from disting.inclusion.meeting import powers
+from disting.inclusion.rows import Row
+from disting.invariants.transfer import receptance, values_at
+
+DEGREES = range(2, 9)
+MONOMIALS = 120  # of a block, at most
+ALL_MONOMIALS = 10_000  # of a degree, at most
+MORE = 2  # models more than monomials
+SEARCH = "row equations"
+REMEMBERED = 128
+Monomial = tuple[int, ...]  # positions of its coefficients, repeated
+Block = tuple[Monomial, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RowEquation:
+    """The sum of numbers times monomials in the coefficients of N, then D, vanishes modulo the prime."""
+
+    monomials: Block
+    numbers: tuple[int, ...]
+    modulus: int
+
+    def holds(self, coefficients: tuple[int, ...]) -> bool:
+        """Whether it vanishes there."""
+        terms = zip(self.numbers, (_product(m, coefficients, self.modulus) for m in self.monomials), strict=True)
+        return sum(c * m for c, m in terms) % self.modulus == 0
+
+
+def row_equation(row: Row, label: str) -> RowEquation | None:
+    """An equation of the lowest degree that has one, modulo the prime of the label; None up to the largest block."""
+    block, modulus = _block(row), prime(label)
+    found = _kernel_vector(block, _models(row, len(block), label), modulus) if block else None
+    return None if found is None else RowEquation(block, found, modulus)
+
+
+def equation_safety(row: Row) -> int:
+    """Largest b with P(what `row_equation` finds is no reduction of an equation over the integers) <= 2^-b.
+
+    The block does not depend on the label. A coefficient of a row has degree N at most in its parameters, and its own
+    coefficients sum to 6^N at most.
+    """
+    block, n = _block(row), row.n_masses
+    degree = len(block[0]) * n
+    return safety(Size(len(block) * degree, len(block) * ceil(degree * log2(6) + log2(len(block)))), 1)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _block(row: Row) -> Block:
+    """The first block with an equation, modulo one prime; () if there is none."""
+    weights = [(first, i) for first, p in zip((1, 0), powers(row.structure), strict=True) for i in sorted(p)]
+    models = _models(row, MONOMIALS, SEARCH)
+    degrees = (d for d in DEGREES if comb(len(weights) + d - 1, d) <= ALL_MONOMIALS)
+    small = (block for degree in degrees for block in _blocks(weights, degree) if len(block) <= MONOMIALS)
+    return next((block for block in small if _kernel_vector(block, models, prime(SEARCH)) is not None), ())
+
+
+def _blocks(weights: list[tuple[int, int]], degree: int) -> list[Block]:
+    """The monomials of one degree, sorted into blocks."""
+    found = defaultdict(list)
+    for monomial in combinations_with_replacement(range(len(weights)), degree):
+        found[sum(weights[i][0] for i in monomial), sum(weights[i][1] for i in monomial)].append(monomial)
+    return [tuple(block) for _, block in sorted(found.items())]
+
+
+def _kernel_vector(block: Block, models: list[tuple[int, ...]], modulus: int) -> tuple[int, ...] | None:
+    """Numbers with which the monomials sum to zero in all models; None if there are none."""
+    rows = [[_product(m, model, modulus) for m in block] for model in models[: len(block) + MORE]]
+    basis, nullity = matrix(rows, len(block), modulus).nullspace()
+    return tuple(int(basis[i, 0]) for i in range(len(block))) if nullity else None
+
+
+def _models(row: Row, count: int, label: str) -> list[tuple[int, ...]]:
+    """More random models than there are monomials."""
+    return [_model(row, f"{label}:{k}", prime(label)) for k in range(count + MORE)]
+
+
+def _model(row: Row, label: str, modulus: int) -> tuple[int, ...]:
+    """The coefficients of a random model, those of N first."""
+    point = residues(f"{label}:{row}", len(row.structure.parameters), modulus)
+    values = values_at(row.structure, point, lambda number: constant(number, modulus))
+    found = receptance(row.structure, values, variable(modulus), constant(1, modulus))
+    shift = _common(found.num, found.den)
+    num, den = powers(row.structure)
+    return (*(int(found.num[i + shift]) for i in sorted(num)), *(int(found.den[i + shift]) for i in sorted(den)))
+
+
+def _common(num: Any, den: Any) -> int:
+    """The common power of s."""
+    return next(i for i in range(num.length()) if int(num[i]) or int(den[i]))
+
+
+def _product(monomial: Monomial, coefficients: tuple[int, ...], modulus: int) -> int:
+    found = 1
+    for i in monomial:
+        found = found * coefficients[i] % modulus
+    return found

@@ -1,0 +1,145 @@
+"""From findings to a verdict: the conditions in order, in each representation, until one decides.
+
+Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then structure (8 and 9). A
+necessary condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is
+left to the exact decision; what it cannot settle is UNDECIDED. The paper's view ends with the conditions.
+All of it is over the complex numbers: distinguishable models are so over real and positive parameters too (real and positive
+points are Zariski dense), while for indistinguishable ones the admissible values are asked for (see `conditions.admissible`).
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from disting.certainty import Certainty
+from disting.conditions.admissible import ADMISSIBLE, resting_on
+from disting.conditions.exact import EXACT
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.subject import Subject
+from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
+from disting.domain import Domain
+from disting.errors import ContradictionError
+from disting.inclusion import Inclusion, InclusionFinding, inclusion_finding
+from disting.invariants.sample import Representation
+from disting.verdict.query import FIBRE, PARAMETERS, RULE_NAMES, Query
+from disting.verdict.result import Relation, Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One condition in one representation, with what it found."""
+
+    representation: str
+    finding: Finding
+
+    @property
+    def relation(self) -> Relation:
+        """What this finding alone decides."""
+        number, outcome = self.finding.number, self.finding.outcome
+        if outcome is Outcome.SOMETIMES:
+            return Relation.SOMETIMES
+        if outcome is Outcome.FAILS and (number <= len(NECESSARY) or number in (EXACT, ADMISSIBLE)):
+            return Relation.DISTINGUISHABLE
+        if outcome is Outcome.HOLDS and number > len(NECESSARY):
+            return Relation.INDISTINGUISHABLE
+        return Relation.UNDECIDED
+
+
+def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
+    """Yield every condition's finding lazily, in order: representation by representation, condition by condition."""
+    count = query.count(left, right)
+    for representation in query.view.representations:
+        for condition in CONDITIONS:
+            if condition.number in query.conditions:
+                yield from _step(condition, left, right, representation, count)
+        if representation == FIBRE:
+            yield Step(FIBRE, left.exact(right))
+
+
+def decide(left: Subject, right: Subject, query: Query) -> Verdict:
+    """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
+    found, domain = _decided(left, right, query), query.view.domain
+    if query.tells_inclusion:
+        found = with_inclusion(found, left.rank == right.rank, lambda: inclusion_finding(left, right))
+        found = _with_shares(found, left, right)
+    if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
+        return replace(found, domain=domain)
+    grade = (found.certainty or Certainty.NUMERICAL, found.safety)
+    step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade))
+    open_pair = Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(open_note(step.finding.note),))
+    said = open_pair if step.relation is Relation.UNDECIDED else verdict_of(left.name, right.name, step, domain)
+    return replace(said, inclusion=found.inclusion, left_positive=found.left_positive, right_positive=found.right_positive)
+
+
+def open_note(reason: str) -> str:
+    """What is said of a pair that is open over admissible parameters only."""
+    return f"over complex parameters they are indistinguishable; {reason}"
+
+
+def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
+    """With the positive equivalents of each side whose generic models have equivalents on the other side, not only limits."""
+    if left.chain.n_masses != right.chain.n_masses:
+        return verdict
+    here = verdict.inclusion in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
+    there = verdict.inclusion in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
+    return replace(
+        verdict,
+        left_positive=left.positive(right) if here else None,
+        right_positive=right.positive(left) if there else None,
+    )
+
+
+def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], InclusionFinding]) -> Verdict:
+    """The verdict over complex parameters with its inclusion; of unequal rank the finding tells it."""
+    if verdict.relation is Relation.UNDECIDED:
+        return verdict
+    if verdict.relation is Relation.INDISTINGUISHABLE:
+        return replace(verdict, inclusion=Inclusion.EQUAL)
+    if equal_rank:
+        return replace(verdict, inclusion=Inclusion.NEITHER)
+    found = finding()
+    return replace(verdict, inclusion=found.inclusion, inclusion_finding=found)
+
+
+def _decided(left: Subject, right: Subject, query: Query) -> Verdict:
+    notes: list[str] = []
+    for step in steps(left, right, query):
+        if step.relation is not Relation.UNDECIDED:
+            return verdict_of(left.name, right.name, step)
+        if step.finding.outcome is Outcome.ABANDONED:
+            notes.append(f"{_rule(step)} was abandoned: {step.finding.note}")
+    return Verdict(left.name, right.name, Relation.UNDECIDED, notes=tuple(notes))
+
+
+def _rule(step: Step) -> str:
+    number = step.finding.number
+    return "the exact decision" if number == EXACT else f"condition {number} on {step.representation}"
+
+
+def audit(left: Subject, right: Subject, query: Query) -> Verdict:
+    """Run every condition in every representation; raise ContradictionError where two decide differently."""
+    deciding = [step for step in steps(left, right, query) if step.relation is not Relation.UNDECIDED]
+    if len({step.relation for step in deciding}) > 1:
+        found = ", ".join(f"{s.relation} by condition {s.finding.number} ({s.representation})" for s in deciding)
+        raise ContradictionError(f"{left.name} and {right.name}: {found}")
+    return decide(left, right, query)
+
+
+def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLEX) -> Verdict:
+    """The verdict that a deciding step gives."""
+    f, rule = step.finding, RULE_NAMES[step.finding.number]
+    return Verdict(left, right, step.relation, rule, step.representation, f.certainty, f.safety, f.evidence, domain)
+
+
+def _step(
+    condition: Necessary | Sufficient | Structural, left: Subject, right: Subject, representation: str, count: int
+) -> Iterator[Step]:
+    match condition:
+        case Structural() if representation == STRUCTURE:
+            yield Step(representation, condition.check(left, right))
+        case Necessary() if representation in tuple(Representation):
+            r = Representation(representation)
+            n = count if r is Representation.MARKOV else 0
+            yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
+        case Sufficient() if representation in tuple(Representation):
+            r = Representation(representation)
+            yield Step(representation, condition.check(left, right, r, count if r is Representation.MARKOV else 0))

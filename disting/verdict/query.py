@@ -1,0 +1,71 @@
+"""What may be used to decide a pair: representations, conditions, Markov parameters, and the values of the parameters."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.exact import EXACT
+from disting.conditions.subject import Subject
+from disting.conditions.table import CONDITIONS, STRUCTURE
+from disting.domain import Domain
+from disting.errors import InputError
+
+ALL_CONDITIONS = tuple(c.number for c in CONDITIONS)
+RULE_NAMES = {0: "", **{n: str(n) for n in ALL_CONDITIONS}, EXACT: "exact", ADMISSIBLE: "admissible"}  # what `decided_by` says
+FIBRE = "fibre"  # the representation of the exact decision
+PARAMETERS = "parameters"  # and of the question whether equivalents have admissible parameters
+
+
+class View(StrEnum):
+    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds the exact decision.
+
+    `real` and `positive` are `exact`, and then look whether equivalents with such parameters exist.
+    """
+
+    TF = "tf"
+    MARKOV = "markov"
+    COMBINED = "combined"
+    EXACT = "exact"
+    REAL = "real"
+    POSITIVE = "positive"
+
+    @property
+    def domain(self) -> Domain:
+        """Parameter values that this view speaks of."""
+        return Domain(self.value) if self in (View.REAL, View.POSITIVE) else Domain.COMPLEX
+
+    @property
+    def representations(self) -> tuple[str, ...]:
+        """The representations of this view, in order."""
+        if self in (View.TF, View.MARKOV):
+            return (self.value,)
+        return ("tf", "markov", STRUCTURE) if self is View.COMBINED else ("tf", "markov", STRUCTURE, FIBRE)
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """What may be used to decide: the view, the conditions' numbers, the number of Markov parameters (0 = all).
+
+    `inclusion`: after the exact decision, say also whose models lie in the other's closure and which positive models have
+    positive equivalents; this is most of the work.
+    """
+
+    view: View = View.EXACT
+    conditions: tuple[int, ...] = ALL_CONDITIONS
+    markov: int = 0
+    inclusion: bool = True
+
+    def __post_init__(self) -> None:
+        if not set(self.conditions) <= set(ALL_CONDITIONS):
+            raise InputError(f"conditions are numbered 1 to 9, not {sorted(set(self.conditions) - set(ALL_CONDITIONS))}")
+        if self.markov < 0:
+            raise InputError(f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}")
+
+    @property
+    def tells_inclusion(self) -> bool:
+        """Whether verdicts say whose models have equivalents on the other side: not in the paper's views."""
+        return self.inclusion and FIBRE in self.view.representations
+
+    def count(self, left: Subject, right: Subject) -> int:
+        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are exhaustive."""
+        return self.markov or left.chain.structure.n_states + right.chain.structure.n_states

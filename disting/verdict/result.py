@@ -1,0 +1,134 @@
+"""What is known of a pair, with its proof, and how that is said, stored and read."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.certainty import Certainty
+from disting.conditions.evidence import Evidence
+from disting.conditions.evidence import from_dict as evidence_from
+from disting.conditions.evidence import to_dict as evidence_to
+from disting.conditions.exact import EXACT
+from disting.domain import Domain
+from disting.inclusion import Inclusion, InclusionFinding, inclusion_from_dict, inclusion_to_dict
+from disting.positivity import PositiveFinding
+from disting.verdict.query import RULE_NAMES
+
+
+class Relation(StrEnum):
+    """What is known of a pair; SOMETIMES: for some admissible parameters there is an equivalent, for others there is none."""
+
+    DISTINGUISHABLE = "distinguishable"
+    INDISTINGUISHABLE = "indistinguishable"
+    SOMETIMES = "sometimes"
+    UNDECIDED = "undecided"
+
+
+def error_bound(certainty: str, safety: int) -> str:
+    """Text of the bound that goes with a certainty."""
+    if not certainty:
+        return ""
+    return f"2^-{safety}" if certainty == Certainty.BOUNDED else "0"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Relation of a pair with its proof.
+
+    `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
+    or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned. `inclusion`
+    tells, over complex parameters, whose generic models have equivalents on the other side; for models of unequal rank
+    `inclusion_finding` says why. `left_positive`: which positive left models have a positive equivalent on the right, where
+    generic left ones have equivalents there; `right_positive`: the reverse.
+    """
+
+    left: str
+    right: str
+    relation: Relation
+    decided_by: str = ""
+    representation: str = ""
+    certainty: Certainty | None = None
+    safety: int = 0
+    evidence: Evidence | None = None
+    domain: Domain = Domain.COMPLEX
+    notes: tuple[str, ...] = ()
+    inclusion: Inclusion = Inclusion.UNKNOWN
+    inclusion_finding: InclusionFinding | None = None
+    left_positive: PositiveFinding | None = None
+    right_positive: PositiveFinding | None = None
+
+    def __post_init__(self) -> None:
+        decided = self.relation is not Relation.UNDECIDED
+        if decided != bool(self.decided_by and self.representation and self.certainty and self.evidence):
+            raise ValueError("exactly a decided verdict names condition, representation, certainty and evidence")
+
+    def __bool__(self) -> bool:
+        raise TypeError("a verdict is not true or false; look at its relation")
+
+    @property
+    def error_bound(self) -> str:
+        """Probability that the verdict is wrong, at most; "0" where nothing is left to chance, "" if undecided."""
+        return error_bound(self.certainty or "", self.safety)
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in words an engineer understands."""
+        over = "" if self.domain is Domain.COMPLEX else f" over {self.domain} parameters"
+        if self.evidence is None:
+            why = f" ({'; '.join(self.notes)})" if self.notes else ""
+            return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
+        says = "agree for some parameters only" if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
+        return f"{self.left} and {self.right} {says} ({self.rule}): {self.evidence.sentence(self.left, self.right)}"
+
+    @property
+    def rule(self) -> str:
+        """What decided, in words; "" if nothing did."""
+        if self.decided_by.isdigit():
+            where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
+            return f"condition {self.decided_by}, {where}"
+        return {"": "", RULE_NAMES[EXACT]: "exact decision"}.get(self.decided_by, f"equivalents with {self.domain} parameters")
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON; error bound and sentence are derived."""
+        evidence = evidence_to(self.evidence) if self.evidence else {}
+        return {
+            "left": self.left,
+            "right": self.right,
+            "relation": self.relation.value,
+            "decided_by": self.decided_by,
+            "representation": self.representation,
+            "certainty": self.certainty.value if self.certainty else "",
+            "safety": self.safety,
+            "domain": self.domain.value,
+            "inclusion": self.inclusion.value,
+            "inclusion_finding": {} if self.inclusion_finding is None else inclusion_to_dict(self.inclusion_finding),
+            "left_positive": {} if self.left_positive is None else self.left_positive.to_dict(),
+            "right_positive": {} if self.right_positive is None else self.right_positive.to_dict(),
+            "error_bound": self.error_bound,
+            "evidence": evidence,
+            "notes": list(self.notes),
+            "sentence": self.sentence,
+        }
+
+    @staticmethod
+    def from_dict(data: dict[str, object]) -> "Verdict":
+        """Inverse of to_dict; raises ValueError, KeyError or TypeError for what is none."""
+        certainty, evidence, inclusion = data["certainty"], data["evidence"], data["inclusion_finding"]
+        return Verdict(
+            str(data["left"]),
+            str(data["right"]),
+            Relation(str(data["relation"])),
+            str(data["decided_by"]),
+            str(data["representation"]),
+            Certainty(str(certainty)) if certainty else None,
+            int(str(data["safety"])),
+            evidence_from(evidence) if isinstance(evidence, dict) and evidence else None,
+            Domain(str(data["domain"])),
+            tuple(map(str, data["notes"])) if isinstance(data["notes"], list) else (),
+            Inclusion(str(data["inclusion"])),
+            inclusion_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
+            *(_positive_from(data[side]) for side in ("left_positive", "right_positive")),
+        )
+
+
+def _positive_from(data: object) -> PositiveFinding | None:
+    return PositiveFinding.from_dict(data) if isinstance(data, dict) and data else None

@@ -1,0 +1,112 @@
+"""The shipped classes of families with all sets of ground dampers: current, whole, and as compare says."""
+
+import json
+from random import Random
+
+import pytest
+
+from disting import CatalogError, InputError, Relation, catalog, compare
+from disting.catalogs.damper_family import damper_family
+from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, name_of, read, text_of, write
+from disting.catalogs.files import shipped_folder
+from disting.cli import main
+from disting.settings import Settings
+
+SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
+MODELS = {3: 88, 4: 464, 5: 2336}
+UNDECIDED = 1949  # of 2,727,280 damped pairs of 5 masses
+ALL = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
+
+
+def shipped_text(n, damped):
+    return (shipped_folder() / f"{name_of(n, damped)}.jsonl").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("n", "damped"), ALL)
+def test_all_models_and_pairs_are_there(n, damped):
+    found = damper_catalog(n, damped=damped)
+    assert found.found.counts()[OPEN] == (UNDECIDED if (n, damped) == (5, True) else 0)
+    assert len(found) == MODELS[n]
+    assert sum(found.found.counts().values()) == MODELS[n] * (MODELS[n] - 1) // 2
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_three_masses_are_current_to_the_byte(damped):
+    assert text_of(damper_family(3, damped=damped), Settings()) == shipped_text(3, damped)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("damped", [False, True])
+def test_four_masses_are_current_to_the_byte(damped):
+    assert text_of(damper_family(4, damped=damped), Settings()) == shipped_text(4, damped)
+
+
+@pytest.mark.parametrize(("n", "damped"), ALL)
+def test_without_dampers_as_the_shipped_catalogue_says(n, damped):
+    found, plain = damper_catalog(n, damped=damped), catalog(n, damped=damped)
+    for left, right, verdict in plain.pairs():
+        assert found.look_up((left, ()), (right, ()))[0] in (verdict.relation, OPEN)
+
+
+@pytest.mark.parametrize("n", [3, 4])
+def test_at_random_as_compare_says(n):
+    found, random = damper_catalog(n, damped=True), Random(n)
+    for _ in range(40):
+        i, j = random.sample(range(len(found)), 2)
+        relation, rule = found.found.look_up(i, j)
+        if rule != "exact":
+            assert compare(found.found.chains[i], found.found.chains[j]).relation is relation
+
+
+def test_a_file_that_was_written_is_read(tmp_path):
+    found = damper_catalog(3, damped=True)
+    path = write(found, Settings(), tmp_path)
+    again = read(tmp_path, 3, True)
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+    assert list(again.csv_lines()) == list(found.csv_lines())
+    assert again.classes() == found.classes()
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda lines: [],
+        lambda lines: lines[:-1],
+        lambda lines: [lines[0], lines[2], lines[1], *lines[3:]],
+        lambda lines: [lines[0].replace('"schema":1', '"schema":0'), *lines[1:]],
+        lambda lines: [*lines[:-1], lines[-1][:-3]],
+        lambda lines: [*lines[:-1], json.dumps(json.loads(lines[-1]) | {"rank": [1]})],
+        lambda lines: [*lines[:-1], json.dumps(json.loads(lines[-1]) | {"group": ["x"] * 8})],
+    ],
+)
+def test_a_damaged_file_is_refused_with_the_remedy(tmp_path, damage):
+    path = tmp_path / f"{name_of(3, True)}.jsonl"
+    path.write_text("\n".join(damage(shipped_text(3, True).splitlines())), encoding="utf-8")
+    with pytest.raises(CatalogError, match="disting catalog dampers 3"):
+        read(tmp_path, 3, True)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(CatalogError, match=r"there is no .*dampers-4-undamped.jsonl; make it with"):
+        read(tmp_path, 4, False)
+
+
+def test_the_command_writes_the_files(tmp_path, capsys):
+    assert main(["catalog", "dampers", "2", "--out", str(tmp_path), "--no-cache"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        f"{tmp_path}/dampers-2-undamped.jsonl: 12 models, 66 pairs: 62 distinguishable, 4 indistinguishable, 0 undecided",
+        f"{tmp_path}/dampers-2-damped.jsonl: 12 models, 66 pairs: 59 distinguishable, 7 indistinguishable, 0 undecided",
+    ]
+
+
+def test_the_command_answers_from_the_shipped_file(tmp_path, capsys):
+    target = tmp_path / "pairs.csv"
+    assert main(["dampers", "3", "--damped", "--sets", "all", "--csv", str(target)]) == 0
+    assert capsys.readouterr().out.startswith("88 models, 3828 pairs: 3678 distinguishable, 150 indistinguishable")
+    lines = target.read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 3829 and lines[1].startswith("3:1,3:1+b1,distinguishable,1")
+
+
+def test_models_that_are_not_there_are_refused():
+    with pytest.raises(InputError, match="models 1 to 73"):
+        damper_catalog(5).look_up((74, ()), (1, ()))
