@@ -1,9 +1,11 @@
 """Where tasks run: in this process, in worker processes, or on a dask.distributed cluster; all by concurrent.futures."""
 
-import multiprocessing
+import threading
 from collections.abc import Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor, InvalidStateError, ProcessPoolExecutor
 from contextlib import contextmanager
+from multiprocessing import active_children, get_context
+from signal import SIG_DFL, SIGINT, signal
 
 from disting.errors import InputError
 
@@ -14,11 +16,42 @@ def executor(jobs: int, scheduler: str = "") -> Iterator[Executor | None]:
     if scheduler:
         yield from _cluster(scheduler)
     elif jobs > 1:
-        # Spawned workers share nothing with this process, so no lock or connection can be inherited half-way.
-        with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        with _processes(jobs) as pool:
             yield pool
     else:
         yield None
+
+
+@contextmanager
+def _processes(jobs: int) -> Iterator[Executor]:
+    """Spawned workers: they share nothing with this process, so no lock or connection can be inherited half-way.
+
+    Ctrl-C ends them at once and without a word; this process tells of it.
+    """
+    with _quiet_about_cancelled_work(), ProcessPoolExecutor(jobs, get_context("spawn"), signal, (SIGINT, SIG_DFL)) as pool:
+        try:
+            yield pool
+        except KeyboardInterrupt:
+            for worker in active_children():
+                worker.terminate()
+            raise
+
+
+@contextmanager
+def _quiet_about_cancelled_work() -> Iterator[None]:
+    """Until Python 3.12 a pool whose workers are gone complains in its thread of work that was cancelled before."""
+    usual = threading.excepthook
+
+    def hook(failed: threading.ExceptHookArgs) -> None:
+        """Tells of anything else."""
+        if failed.exc_type is not InvalidStateError:
+            usual(failed)
+
+    threading.excepthook = hook
+    try:
+        yield
+    finally:
+        threading.excepthook = usual
 
 
 def _cluster(address: str) -> Iterator[Executor]:

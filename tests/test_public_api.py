@@ -38,7 +38,17 @@ HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich", 
 
 def test_public_names():
     modules = {"algebra", "catalogs", "certainty", "comparison", "conditions", "domain", "engine", "equivalence", "errors"}
-    modules |= {"ideals", "identifiability", "invariants", "model", "parametric", "positivity", "proof", "settings"}
+    modules |= {
+        "ideals",
+        "identifiability",
+        "inclusion",
+        "invariants",
+        "model",
+        "parametric",
+        "positivity",
+        "proof",
+        "settings",
+    }
     modules |= {"question", "synthesis", "verdict"}
     seen = {name for name in vars(disting) if not name.startswith("_")} - modules
     optional = {

@@ -3,14 +3,16 @@
 import argparse
 import sys
 from itertools import combinations
-from pathlib import Path
 
-from disting.catalogs.damper_family import damper_family
+from disting.catalogs.damper_family import DamperFamily, damper_family
+from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
-from disting.cli.commands import emitted, reference
+from disting.cli.common import emitted, emitted_lines, reference
+from disting.cli.paths import written_file
 from disting.cli.work import engine_for
+from disting.errors import InputError
 from disting.model.drawing import text_drawing
-from disting.model.family import Family
+from disting.model.family import MOST_MASSES, Family
 from disting.verdict import Relation
 
 SIGNS = {Relation.DISTINGUISHABLE: ".", Relation.INDISTINGUISHABLE: "=", Relation.UNDECIDED: "?"}
@@ -24,12 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     names = [s.value for s in DamperSets]
     text = "one damper at a time (single, as in the paper's Fig. 14) or all 2^N sets (default: single)"
     parser.add_argument("--sets", choices=names, default=DamperSets.SINGLE.value, help=text)
-    parser.add_argument("--csv", metavar="FILE", help="write all pairs as CSV; - is standard output")
+    parser.add_argument("--csv", type=written_file, metavar="FILE", help="write all pairs as CSV; - is standard output")
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the table, or write it as CSV."""
-    if options.model.isdigit():
+    if options.model.isdecimal():
         return _whole_family(options)
     n, number = reference(options.model)
     chain = Family(n, options.damped)[number]
@@ -42,29 +44,49 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def build(options: argparse.Namespace) -> int:
+    """Compute the classes of whole families with all sets of dampers, undamped and damped, and write their files."""
+    with engine_for(options) as (engine, pool, progress):
+        for n in options.masses or SHIPPED_SIZES:
+            for damped in (False, True):
+                found = damper_family(
+                    n, damped=damped, patient=options.patient, engine=engine, executor=pool, progress=progress
+                )
+                print(f"{write(found, engine.settings, options.out, patient=options.patient)}: {counted(found)}")
+    return 0
+
+
 def _whole_family(options: argparse.Namespace) -> int:
     """All models of a size with all sets: by classes, pairs only as they are written."""
-    with engine_for(options) as (engine, pool, progress):
-        found = damper_family(
-            int(options.model),
-            damped=options.damped,
-            which=DamperSets(options.sets),
-            engine=engine,
-            executor=pool,
-            progress=progress,
-        )
-    if options.csv == "-":
-        sys.stdout.writelines(found.csv_lines())
-        return 0
+    found = _family(int(options.model), options)
     if options.csv:
-        with Path(options.csv).open("w", encoding="utf-8") as file:
-            file.writelines(found.csv_lines())
+        emitted_lines(options.csv, found.csv_lines())
+    if options.csv == "-":
+        return 0
     rules = ", ".join(f"{n} by {_rule(rule)}" for rule, n in found.found.counts_by_rule().items() if rule)
-    counts = ", ".join(f"{n} {relation}" for relation, n in found.found.counts().items())
     groups = found.classes()
-    print(f"{len(found)} models, {sum(found.found.counts().values())} pairs: {counts}\n{rules}")
+    print(f"{counted(found)}\n{rules}")
     print(f"{len(groups)} classes of indistinguishable models, the largest of {max(map(len, groups), default=0)}")
     return 0
+
+
+def _family(n: int, options: argparse.Namespace) -> DamperFamily:
+    """The shipped classes, or computed where there are none."""
+    if not 1 <= n <= MOST_MASSES:
+        raise InputError(f"families of 1 to {MOST_MASSES} masses are listed, not of {n}")
+    which = DamperSets(options.sets)
+    if n in SHIPPED_SIZES and which is DamperSets.ALL:
+        return damper_catalog(n, damped=options.damped)
+    with engine_for(options) as (engine, pool, progress):
+        return damper_family(n, damped=options.damped, which=which, engine=engine, executor=pool, progress=progress)
+
+
+def counted(found: DamperFamily) -> str:
+    """Models and pairs in one line."""
+    counts = found.found.counts()
+    return f"{len(found)} models, {sum(counts.values())} pairs: " + ", ".join(
+        f"{n} {relation}" for relation, n in counts.items()
+    )
 
 
 def _rule(rule: str) -> str:

@@ -4,9 +4,11 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from disting.cli.common import emitted
 from disting.cli.work import engine_for
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports, whole_family
@@ -50,11 +52,8 @@ def run(options: argparse.Namespace) -> int:
             progress=progress,
         )
     if options.json:
-        text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False) + "\n"
-        if options.json == "-":
-            sys.stdout.write(text)
-        else:
-            Path(options.json).write_text(text, encoding="utf-8")
+        text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        emitted(options.json, text)
     if options.json != "-":
         print("\n".join(_told(found, train)))
     if options.out:
@@ -68,6 +67,10 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
     """Training and test data, masked; what the readers noticed goes to standard error."""
     if options.demo == bool(options.train):
         raise InputError("give a file with measured data, or --demo for simulated data, not both")
+    if options.demo and (options.test or options.read or options.column):
+        raise InputError("--demo brings its own data: leave --test, --read and --column away")
+    if options.profiles and not options.out:
+        raise InputError("--profiles draws into the page: name its folder with --out")
     both: tuple[FrequencyResponse, FrequencyResponse | None]
     if options.demo:
         from disting.simulation import demo
@@ -87,9 +90,16 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
 
 
 def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, ...]:
+    """The structures to fit; raises InputError where a parameter named by --fix or --bound is in none of them."""
     if options.family:
-        return whole_family(options.masses, quantity)
-    return chosen_ports(options.masses, options.actuator, options.sensor, options.gap, quantity)
+        found = whole_family(options.masses, quantity)
+    else:
+        found = chosen_ports(options.masses, options.actuator, options.sensor, options.gap, quantity)
+    known = {name for chain in found for name in chain.parameters}
+    unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
+    if unknown:
+        raise InputError(f"no candidate has a parameter {', '.join(unknown)}; there are {', '.join(sorted(known))}")
+    return found
 
 
 def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
@@ -103,6 +113,8 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
         for c in found.candidates[:SHOWN]:
             yield f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}"
         yield "more excitation or wider --thresholds may help"
+        if any(c.practical.unidentifiable for c in found.candidates[:SHOWN]):
+            yield "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force and sensor help"
         return
     yield f"{len(kept)} have parameters that can all be determined; the best of them{_why(found)}:"
     yield ""
@@ -129,8 +141,13 @@ def _table(candidates: Any) -> Iterator[str]:
     yield f"{'J test':>9} {'J train':>9} {'N_p':>4} {'cond.':>6} {'PII':>7} {'coll.':>6}  structure"
     for c in candidates:
         p = c.practical
-        indices = f"{p.condition_index:6.3g} {p.importance_ratio:7.3g} {p.collinearity:6.3g}"
+        indices = f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7} {_index(p.collinearity):>6}"
         yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
+
+
+def _index(value: float) -> str:
+    """A criterion; nothing where it is infinite, since the reasons below the table say what is not determined."""
+    return f"{value:.3g}" if isfinite(value) else "–"
 
 
 def _parameters(c: Candidate) -> Iterator[str]:

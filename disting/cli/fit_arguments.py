@@ -5,6 +5,8 @@ import re
 from pathlib import Path
 from typing import Any
 
+from disting.cli.paths import written_file, written_folder
+
 WEIGHTS = ("none", "std", "coherence")
 SIGNS = ("+", "-", "auto")
 THRESHOLDS = (30.0, 1000.0, 20.0)
@@ -41,9 +43,11 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     choice.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
     choice.add_argument("--seed", default="disting", help="of the few random starts")
     out = p.add_argument_group("output")
-    out.add_argument("--out", type=Path, metavar="DIR", help="write a page, figures, tables, JSON and a .mat file there")
+    out.add_argument(
+        "--out", type=written_folder, metavar="DIR", help="write a page, figures, tables, JSON and a .mat file there"
+    )
     out.add_argument("--profiles", action="store_true", help="with --out: a profile of every parameter of the selected model")
-    out.add_argument("--json", metavar="FILE", help="write the selection as JSON; - is standard output")
+    out.add_argument("--json", type=written_file, metavar="FILE", help="write the selection as JSON; - is standard output")
 
 
 def _option(text: str) -> tuple[str, Any]:
@@ -91,7 +95,7 @@ def _value(text: str) -> tuple[str, float]:
 
 def _masses(text: str) -> tuple[int, ...]:
     match = re.fullmatch(r"([1-9])(?:-([1-9])|((?:,[1-9])*))", text)
-    if not match:
+    if not match or int(match[2] or 9) < int(match[1]):
         raise argparse.ArgumentTypeError(f"numbers of masses are written like 3, 1-4 or 1,3, not {text!r}")
     if match[2]:
         return tuple(range(int(match[1]), int(match[2]) + 1))
@@ -101,6 +105,8 @@ def _masses(text: str) -> tuple[int, ...]:
 def _thresholds(text: str) -> tuple[float, float, float]:
     try:
         first, second, third = (float(part) for part in text.split(","))
-        return first, second, third
     except ValueError:
-        raise argparse.ArgumentTypeError(f"thresholds are written like 30,1000,20, not {text!r}") from None
+        first = second = third = -1.0
+    if not all(limit > 0 for limit in (first, second, third)):
+        raise argparse.ArgumentTypeError(f"thresholds are written like 30,1000,20, all positive, not {text!r}")
+    return first, second, third

@@ -8,11 +8,15 @@ from typing import Any
 
 from disting import __version__
 from disting.catalogs.files import shipped_folder
-from disting.cli import commands, dampers, equivalents, fit_arguments, simulate
+from disting.cli import catalogs, compare, dampers, equivalents, fit_arguments, models, report, simulate, upkeep, verdicts
+from disting.cli.common import VIEWS
+from disting.cli.paths import written_file, written_folder
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
 from disting.model.chain import Sensor
+from disting.model.family import MOST_MASSES
 
+MODEL = "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the ground; +lag; +delay"
 LIST = "decide by these conditions only, such as 1-5,8; 1-9 is the paper's view (default: all, then the exact decision)"
 Groups = Any  # the object that argparse gives for sub-commands has no public type
 DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
@@ -23,13 +27,25 @@ EPILOG = (
 )
 
 
-def _whole(low: int) -> Callable[[str], int]:
+def _whole(low: int, high: int = 10**9) -> Callable[[str], int]:
+    """Whole numbers from `low` to `high`."""
+
     def number(text: str) -> int:
-        if not text.isdigit() or int(text) < low:
+        """The number, or an error that says what is needed."""
+        if not text.isdecimal() or len(text) > 99 or int(text) < low:
             raise argparse.ArgumentTypeError(f"a whole number of at least {low} is needed, not {text!r}")
+        if int(text) > high:
+            raise argparse.ArgumentTypeError(f"a whole number of at most {high} is needed, not {text!r}")
         return int(text)
 
     return number
+
+
+def _seconds(text: str) -> float:
+    """A time such as 60 or 0.5."""
+    if not re.fullmatch(r"\d{1,9}(\.\d*)?|\.\d+", text) or float(text) == 0:
+        raise argparse.ArgumentTypeError(f"seconds are a positive number such as 60, not {text!r}")
+    return float(text)
 
 
 def _sizes(text: str) -> range:
@@ -37,6 +53,8 @@ def _sizes(text: str) -> range:
     match = re.fullmatch(r"([1-9]\d{0,2})(?:-([1-9]\d{0,2}))?", text)
     if not match or int(match[2] or match[1]) < int(match[1]):
         raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {text!r}")
+    if int(match[2] or match[1]) > MOST_MASSES:
+        raise argparse.ArgumentTypeError(f"families of at most {MOST_MASSES} masses are listed, not of {match[2] or match[1]}")
     return range(int(match[1]), int(match[2] or match[1]) + 1)
 
 
@@ -59,6 +77,9 @@ def _conditions(text: str) -> tuple[int, ...]:
     return tuple(sorted(chosen))
 
 
+MASSES = _whole(1, MOST_MASSES)
+
+
 def parser() -> argparse.ArgumentParser:
     """The parser of all commands; `run` of the parsed options is the command's function."""
     top = _Parser(prog="disting", description=DESCRIPTION, epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -72,15 +93,15 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_models(groups: Groups) -> None:
-    p = _command(groups, "models", commands.models, "the numbered list of all models of one size")
-    p.add_argument("masses", type=_whole(1), metavar="N", help="number of masses")
+    p = _command(groups, "models", models.run, "the numbered list of all models of one size")
+    p.add_argument("masses", type=MASSES, metavar="N", help="number of masses")
     p.add_argument("--identifiability", action="store_true", help="say for each model which parameters can be determined")
     _shared(p, damped=True, work=True)
 
 
 def _add_compare(groups: Groups) -> None:
-    p = _command(groups, "compare", commands.compare, "one verdict, explained")
-    p.add_argument("left", metavar="N:I", help="a model: masses:number, as 'disting models' lists it")
+    p = _command(groups, "compare", compare.run, "one verdict, explained")
+    p.add_argument("left", metavar="N:I", help=MODEL)
     p.add_argument("right", metavar="M:J", help="the other model, of the same or another size")
     _shared(p, damped=True, sensor=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
@@ -92,17 +113,19 @@ def _add_compare(groups: Groups) -> None:
 
 
 def _add_verdicts(groups: Groups) -> None:
-    p = _command(groups, "verdicts", commands.verdicts, "all pairs of one size, or of several sizes together")
+    p = _command(groups, "verdicts", verdicts.run, "all pairs of one size, or of several sizes together")
     p.add_argument("masses", type=_sizes, metavar="N|N-M", help="number of masses, or several sizes such as 1-4 in one matrix")
     _shared(p, damped=True, sensor=True, work=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
     _deciding(p)
-    p.add_argument("--representation", choices=commands.VIEWS, default="all", help="which may decide (default: all)")
+    p.add_argument("--representation", choices=VIEWS, default="all", help="which may decide (default: all)")
     p.add_argument(
         "--markov", type=_whole(1), default=0, metavar="K", help="use G_0 and G_1..G_K (default: all that are needed)"
     )
-    p.add_argument("--csv", metavar="FILE", help="write the verdicts as CSV; - is standard output")
-    p.add_argument("--json", metavar="FILE", help="write the verdicts with evidence as JSON; - is standard output")
+    p.add_argument("--csv", type=written_file, metavar="FILE", help="write the verdicts as CSV; - is standard output")
+    p.add_argument(
+        "--json", type=written_file, metavar="FILE", help="write the verdicts with evidence as JSON; - is standard output"
+    )
 
 
 def _add_equivalents(groups: Groups) -> None:
@@ -118,9 +141,16 @@ def _add_dampers(groups: Groups) -> None:
 
 
 def _add_fit(groups: Groups) -> None:
-    p = _command(groups, "fit", commands.fit, "the structures that explain a measured frequency response")
+    p = _command(groups, "fit", _fit, "the structures that explain a measured frequency response")
     fit_arguments.add_arguments(p)
     _shared(p, work=True)
+
+
+def _fit(options: argparse.Namespace) -> int:
+    """Fit measured data; only here are the libraries loaded that no other command needs."""
+    from disting.cli import fit
+
+    return fit.run(options)
 
 
 def _add_simulate(groups: Groups) -> None:
@@ -130,15 +160,17 @@ def _add_simulate(groups: Groups) -> None:
 
 
 def _add_report(groups: Groups) -> None:
-    p = _command(groups, "report", commands.report, "HTML pages, figures and tables of whole catalogues")
-    p.add_argument("masses", type=_whole(1), nargs="*", metavar="N", help="numbers of masses")
+    p = _command(groups, "report", report.run, "HTML pages, figures and tables of whole catalogues")
+    p.add_argument("masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses")
     text = "the paper's figures and tables from our own data, and its claims one by one, into the folder paper below DIR"
     p.add_argument("--paper", action="store_true", help=text)
     choice = p.add_mutually_exclusive_group()
     for name in ("damped", "undamped", "both"):
         choice.add_argument(f"--{name}", dest="damping", action="store_const", const=name, help=f"{name} models")
     p.set_defaults(damping="both")
-    p.add_argument("--out", type=Path, default=Path("reports"), metavar="DIR", help="folder to write to (default: reports)")
+    p.add_argument(
+        "--out", type=written_folder, default=Path("reports"), metavar="DIR", help="folder to write to (default: reports)"
+    )
     _shared(p, work=True)
 
 
@@ -146,33 +178,45 @@ def _add_catalog(groups: Groups) -> None:
     what = "Precomputed catalogues."
     p: argparse.ArgumentParser = groups.add_parser("catalog", help="build, settle or verify them", description=what)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
-    q = _command(actions, "build", commands.build, "compute catalogues, undamped and damped")
-    q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
-    q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
+    q = _command(actions, "build", catalogs.build, "compute catalogues, undamped and damped")
+    q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument(
+        "--out", type=written_folder, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)"
+    )
     _shared(q, work=True)
-    q = _command(actions, "candidates", commands.candidates, "compute the verdicts on all pairs of a fit's 120 candidates")
-    q.add_argument("--out", type=Path, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)")
+    q = _command(actions, "candidates", catalogs.candidates, "compute the verdicts on all pairs of a fit's 120 candidates")
+    q.add_argument(
+        "--out", type=written_folder, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)"
+    )
     _shared(q, work=True)
-    q = _command(actions, "settle", commands.settle, "decide with more time what catalogues leave open, to be built in")
-    q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
-    q.add_argument("--seconds", type=float, default=3600.0, metavar="S", help="time for one pair (default: 3600)")
+    q = _command(actions, "dampers", dampers.build, "compute whole families with all sets of dampers to the ground, by classes")
+    q.add_argument("masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses (default: 3 4 5)")
+    q.add_argument(
+        "--out", type=written_folder, default=Path("catalog"), metavar="DIR", help="folder to write to (default: catalog)"
+    )
+    text = "ask the dearest method of what is left for 5 masses and more too: an hour instead of minutes"
+    q.add_argument("--patient", action="store_true", help=text)
+    _shared(q, work=True)
+    q = _command(actions, "settle", catalogs.settle, "decide with more time what catalogues leave open, to be built in")
+    q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("--seconds", type=_seconds, default=3600.0, metavar="S", help="time for one pair (default: 3600)")
     q.add_argument("--catalog", type=Path, default=Path("catalog"), metavar="DIR", help="folder (default: catalog)")
-    q = _command(actions, "verify", commands.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
-    q.add_argument("masses", type=_whole(1), nargs="+", metavar="N", help="numbers of masses")
+    q = _command(actions, "verify", catalogs.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
+    q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")
     q.add_argument("--catalog", type=Path, default=shipped_folder(), metavar="DIR", help="folder (default: the shipped one)")
     _shared(q, work=True)
 
 
 def _add_doctor(groups: Groups) -> None:
-    _command(groups, "doctor", commands.doctor, "what is installed, and what else would help")
+    _command(groups, "doctor", upkeep.doctor, "what is installed, and what else would help")
 
 
 def _add_cache(groups: Groups) -> None:
     what = "The cache of profiles and verdicts."
     p: argparse.ArgumentParser = groups.add_parser("cache", help="look at or empty the cache", description=what)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
-    _command(actions, "info", commands.cache_info, "where the cache is and what it holds")
-    _command(actions, "clear", commands.cache_clear, "remove all entries")
+    _command(actions, "info", upkeep.cache_info, "where the cache is and what it holds")
+    _command(actions, "clear", upkeep.cache_clear, "remove all entries")
 
 
 def _deciding(parser: argparse.ArgumentParser) -> None:
@@ -187,6 +231,7 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one sentence."""
 
     def error(self, message: str) -> None:  # type: ignore[override]
+        """Say what is wrong and where help is; exit status 2."""
         self.exit(2, f"disting: {message}; see '{self.prog} --help'\n")
 
 

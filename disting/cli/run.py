@@ -4,6 +4,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import redirect_stdout
 
 from disting.cli.parser import parser
 from disting.errors import DistingError
@@ -11,9 +12,10 @@ from disting.errors import DistingError
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
-    with warnings.catch_warnings():
+    with open(os.devnull, "w", encoding="utf-8") as nowhere, warnings.catch_warnings():
         warnings.showwarning = _warned
-        return _run(arguments)
+        with redirect_stdout(sys.stdout or nowhere):  # there is none where the shell closed it
+            return _run(arguments)
 
 
 def _run(arguments: Sequence[str] | None) -> int:
@@ -30,6 +32,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         return 2
     except OSError as reason:
         print(f"disting: {reason.strerror or reason}: {reason.filename or ''}".rstrip(": "), file=sys.stderr)
+        return 2
+    except MemoryError as reason:
+        print(f"disting: there is not enough memory ({reason or 'no more can be had'}); ask for less", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("disting: interrupted; what was finished is kept in the cache", file=sys.stderr)

@@ -1,9 +1,9 @@
 """disting simulate: what a bench would measure on a chain with known parameters."""
 
 import argparse
-import sys
-from pathlib import Path
 
+from disting.cli.common import emitted
+from disting.cli.paths import written_file
 from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
@@ -39,7 +39,9 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         p.add_argument(f"--{name}", type=int, default=whole, metavar="K", help=f"{text} (default: {whole})")
     text = "Coulomb friction of a mass, such as 1=0.3; may be repeated (default: none)"
     p.add_argument("--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text)
-    p.add_argument("--csv", metavar="FILE", default="-", help="where the response goes (default: standard output)")
+    p.add_argument(
+        "--csv", type=written_file, metavar="FILE", default="-", help="where the response goes (default: standard output)"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -62,10 +64,9 @@ def run(options: argparse.Namespace) -> int:
     series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
     response = series.response(options.to, period=options.samples)
     text = csv_text(response)
+    emitted(options.csv, text)
     if options.csv == "-":
-        sys.stdout.write(text)
         return 0
-    Path(options.csv).write_text(text, encoding="utf-8")
     print(f"{len(response)} lines from {response.frequency[0]:g} to {response.frequency[-1]:g} Hz in {options.csv}")
     return 0
 

@@ -31,6 +31,7 @@ def _progress() -> Iterator[Progress]:
         tasks: dict[str, object] = {}
 
         def advance(what: str, done: int, total: int) -> None:
+            """A bar for each thing that is done."""
             task = tasks.setdefault(what, bar.add_task(what) if what not in tasks else None)
             bar.update(task, completed=done, total=total)  # type: ignore[arg-type]
 

@@ -69,6 +69,7 @@ def _by_parts(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expan
     chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
 
     def values() -> dict[str, Expression]:
+        """Masses and springs in terms of those of the given chain."""
         known = {name: Expression(p, p**0) for name, p in _ring(given).items() if name != "s"}
         masses, springs = [known[f"m{i}"] for i in range(1, n + 1)], [known[k] for k in known if k[0] == "k"]
         if free:

@@ -15,7 +15,7 @@ from flint import fmpq
 
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.model.family import Family
+from disting.model.family import MOST_MASSES, Family
 
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
 MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
@@ -35,7 +35,7 @@ def chain_of(model: Chain | str, family: Family) -> Chain:
     match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
     if not match:
         raise InputError(f"a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not {model!r}")
-    return _extended(replace(family, n_masses=int(match[1]))[int(match[2])], match[3])
+    return _extended(_sized(family, match[1])[int(match[2])], match[3])
 
 
 def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
@@ -51,8 +51,15 @@ def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", to.strip()) if isinstance(to, str) else None
     if match is None:
         return (chain_of(to, family),)
-    plain = [_extended(chain, match[3]) for chain in replace(family, n_masses=int(match[1])).models]
+    plain = [_extended(chain, match[3]) for chain in _sized(family, match[1]).models]
     return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
+
+
+def _sized(family: Family, masses: str) -> Family:
+    """The family with as many masses as the text says."""
+    if int(masses) > MOST_MASSES:
+        raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {masses}")
+    return replace(family, n_masses=int(masses))
 
 
 def _extended(chain: Chain, extras: str) -> Chain:
@@ -105,7 +112,11 @@ def assignments(texts: list[str]) -> dict[str, str]:
 
 
 def _fraction(name: str, value: Value) -> fmpq:
-    exact = _number(str(value).strip())
+    text = str(value).strip()
+    if _is_long(text):
+        limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as its power of ten"
+        raise InputError(f"{name} = {text[:40]!r}: a value has {limits}; choose other units")
+    exact = _number(text)
     if exact is None:
         raise InputError(f"{name} = {str(value)[:40]!r}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
     if exact <= 0:
@@ -115,10 +126,13 @@ def _fraction(name: str, value: Value) -> fmpq:
 
 
 def _number(text: str) -> Fraction | None:
-    exponent = re.search(r"[eE]([+-]?\d+)$", text)
-    if len(text) > MOST_DIGITS or (exponent and (len(exponent[1]) > 4 or abs(int(exponent[1])) > MOST_DIGITS)):
-        return None
     try:
         return Fraction(text)
     except (ValueError, ZeroDivisionError):
         return None
+
+
+def _is_long(text: str) -> bool:
+    """Whether the text, or the power of ten that it is written with, is too large to be computed with exactly."""
+    exponent = re.search(r"\d\.?[eE]([+-]?\d+)$", text)
+    return len(text) > MOST_DIGITS or bool(exponent and (len(exponent[1]) > 4 or abs(int(exponent[1])) > MOST_DIGITS))

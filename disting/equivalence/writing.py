@@ -53,6 +53,7 @@ def sympy_expression(expression: Expression) -> Any:
         raise InputError("SymPy is not installed: pip install sympy, or use the formulas as text or LaTeX") from None
 
     def of(polynomial: Polynomial) -> Any:
+        """The sum of its terms."""
         summands = ((c, powers.items()) for c, powers in terms(polynomial))
         return sympy.Add(*(c * sympy.Mul(*(sympy.Symbol(n) ** e for n, e in powers)) for c, powers in summands))
 

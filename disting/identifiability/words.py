@@ -65,4 +65,4 @@ def _point(found: "Identifiability") -> str:
     """Real and positive ones, which depend on the point, unless theorems name all."""
     if found.most is None or all(a.certainty is Certainty.THEOREM for a in found.alternatives):
         return ""
-    return f"; at the random point looked at {number(found.real)} real, {number(found.positive)} positive"
+    return f"; with random values {number(found.real)} of them real, {number(found.positive)} positive"

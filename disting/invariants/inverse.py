@@ -37,6 +37,7 @@ def _turned(q: Quotient) -> Quotient:
     k = q.den.degree() - q.num.degree()
 
     def lifted(polynomial: nmod_poly) -> nmod_poly:
+        """Times s^k."""
         return polynomial.left_shift(k)
 
     return Quotient(q.den, lifted(q.num), q.den_derivatives, tuple(map(lifted, q.num_derivatives)))

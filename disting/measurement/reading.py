@@ -71,6 +71,8 @@ def _through_time(path: str | Path, options: dict[str, Any]) -> FrequencyRespons
 
 def _existing(path: str | Path) -> Path:
     file = Path(path)
+    if file.is_dir():
+        raise InputError(f"{file} is a folder; name a file with measured data")
     if not file.is_file():
         raise InputError(f"there is no file {file}")
     return file

@@ -31,6 +31,7 @@ class _Group:
 
     @property
     def first(self) -> int:
+        """The first of its columns."""
         return min(self.columns.values())
 
 

@@ -49,6 +49,7 @@ def table(text: str, origin: str) -> Table:
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
     def readable(dialect: tuple[str, str]) -> int:
+        """How many of the last lines are numbers only, more than one, when read so."""
         parts = [_fields(line, dialect[0]) for line in lines[-SAMPLE:]]
         return sum(len(p) > 1 and _count(p, dialect[1]) == len(p) for p in parts)
 

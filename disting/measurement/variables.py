@@ -44,23 +44,15 @@ def from_variables(
     `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which response (from 0, one number for
     every other axis) of an array of several; `sensor`, `sign` as for a text file.
     """
-    name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
+    name, unit = _frequency(arrays, frequency, frequency_unit, origin)
+    values = _numeric(arrays, name, origin).real.ravel() * UNIT[unit]
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
-    unit = frequency_unit or ("rad/s" if name in OMEGA_NAMES else "Hz")
-    if unit not in UNIT:
-        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {unit!r}')
-    values = _numeric(arrays, name, origin).real.ravel()
-    size, quantity = len(values), sensor or Sensor.ACCELERATION
-
-    def beside(asked: str | None, usual: Sequence[str]) -> Real | None:
-        return _optional(arrays, asked, usual, size, index, origin)
-
     found = FrequencyResponse(
-        values * UNIT[unit],
-        row(_numeric(arrays, chosen, origin), size, index, chosen) * as_sign(sign),
-        beside(deviation, DEVIATION_NAMES),
-        beside(coherence, COHERENCE_NAMES),
-        sensor=as_sensor(quantity),
+        values,
+        row(_numeric(arrays, chosen, origin), len(values), index, chosen) * as_sign(sign),
+        _optional(arrays, deviation, DEVIATION_NAMES, len(values), index, origin),
+        _optional(arrays, coherence, COHERENCE_NAMES, len(values), index, origin),
+        sensor=as_sensor(sensor or Sensor.ACCELERATION),
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
     )
@@ -118,6 +110,15 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
     if asked not in arrays:
         raise InputError(f"{origin} has no variable {asked!r}; variables: {_listed(arrays)}")
     return asked
+
+
+def _frequency(arrays: Arrays, asked: str | None, unit: str | None, origin: str) -> tuple[str, str]:
+    """The variable that holds the frequencies, and their unit: as said, else as the name tells."""
+    name = _name(arrays, asked, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
+    found = unit or ("rad/s" if name in OMEGA_NAMES else "Hz")
+    if found not in UNIT:
+        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {found!r}')
+    return name, found
 
 
 def _optional(

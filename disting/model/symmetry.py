@@ -68,6 +68,7 @@ def _moved(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Chain:
     mirrored = Symmetry.REFLECTION in symmetries
 
     def fold(i: int) -> int:
+        """Where mass i is after the reflection."""
         return chain.gap + 1 + chain.n_masses - i if mirrored and i > chain.gap else i
 
     return replace(

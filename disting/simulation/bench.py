@@ -46,7 +46,9 @@ class Bench:
         if not 0 < self.sampling_rate < np.inf or self.samples < 16 or self.periods < 1:
             raise InputError("a bench has a positive sampling rate [Hz], periods of at least 16 samples, at least one period")
         if not all(0 <= value < np.inf for value in (self.input_noise, self.output_noise, self.quantum)):
-            raise InputError("noise and quantum are not negative")
+            raise InputError("noise and quantum are finite and not negative")
+        if self.seed < 0:
+            raise InputError(f"a seed is a whole number of at least 0, not {self.seed}")
 
 
 def simulate(

@@ -64,6 +64,7 @@ def stepped(
     push = np.outer(_oversampled(force, samples, 2 * steps), act)
 
     def acceleration(x: Real, v: Real, f: Real) -> Real:
+        """(f - D v - K x - F_c tanh(v/v_s)) / M."""
         return np.asarray(inverse * (f - m.D @ v - m.K @ x - coulomb * np.tanh(v / speed)))
 
     x, v = _start(m, act, force, period, samples)

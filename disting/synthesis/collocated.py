@@ -42,6 +42,7 @@ def between(segment: Segment, data: Data, left: list[Ball], right: list[Ball]) -
     mass = whole[q]
 
     def join(a: Part, b: Part) -> Part:
+        """Left side, the mass between, right side."""
         return Part((*a.masses[::-1], mass, *b.masses), (*a.springs[::-1], *b.springs), a.gauges + b.gauges)
 
     yield from combined(peel(w_left), lambda: peel(w_right), join)

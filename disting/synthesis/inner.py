@@ -197,9 +197,11 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
     w_right = _side(m_b * phi - spring * b_poly, b_poly, m_b, nodes - a - 1, None)
 
     def join(x: Part, y: Part) -> Part:
+        """Left side, the two inner masses with their spring, right side."""
         return Part((*x.masses[::-1], m_a, m_b, *y.masses), (*x.springs[::-1], spring, *y.springs), x.gauges + y.gauges)
 
     def join_damped(b: Ball, x: Part, y: Part) -> Leaf:
+        """The same with the dampers to the ground; none at the inner mass is a boundary case where one is meant."""
         plain = join(x, y)
         dampers = (*x.all_dampers[::-1], b, friction.NOTHING, *y.all_dampers)
         return replace(plain, dampers=dampers) if a not in branch.segment.dampers or not is_boundary(b) else BOUNDARY

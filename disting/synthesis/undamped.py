@@ -44,6 +44,7 @@ def _sides(segment: Segment, left: tuple[Ball, Ball], right: tuple[Ball, Ball], 
     w_right = _side(right, m_b, kappa, segment.nodes - segment.b, False)
 
     def join(a: Part, b: Part) -> Part:
+        """Left side, the two inner masses with their spring, right side."""
         return Part((*a.masses[::-1], m_a, m_b, *b.masses), (*a.springs[::-1], poly([kappa]), *b.springs), 1)
 
     yield from combined(peel(w_left), lambda: peel(w_right), join)

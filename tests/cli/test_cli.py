@@ -1,26 +1,10 @@
 """The command line as its users meet it: real processes, their output and their exit status."""
 
-import csv
-import io
 import json
-import os
-import signal
-import sqlite3
-import subprocess
-import sys
-import time
 
 import pytest
 
-
-def disting(*arguments, cache="off", cwd=None):
-    environment = os.environ | {"DISTING_CACHE": str(cache), "COLUMNS": "100"}
-    command = [sys.executable, "-m", "disting", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
-
-
-def rows(text):
-    return list(csv.DictReader(io.StringIO(text)))
+from tests.cli.process import disting, rows
 
 
 def test_models_lists_the_family():
@@ -49,6 +33,20 @@ def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
     assert (mixed["left"], mixed["right"], mixed["relation"]) == ("2:1", "3:1", "distinguishable")
 
 
+def test_compare_reads_ground_dampers_lag_and_dead_time():
+    found = json.loads(disting("compare", "3:1+b1", "3:4+b3+lag", "--damped", "--json").stdout)
+    assert (found["left"], found["right"], found["relation"]) == ("A1+b1", "A4+b3+lag", "distinguishable")
+    found = json.loads(disting("compare", "3:1+delay", "3:11+delay", "--damped", "--json").stdout)
+    assert (found["left"], found["right"], found["relation"]) == ("A1+delay", "A11+delay", "indistinguishable")
+
+
+def test_report_writes_the_families_with_dampers_too(tmp_path):
+    told = disting("report", "3", "--damped", "--out", str(tmp_path)).stdout
+    assert (tmp_path / "dampers-3-damped.html").is_file() and not (tmp_path / "dampers-3-undamped.html").exists()
+    assert "dampers-3-damped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "chains-3-damped" in told
+
+
 def test_verdicts_csv_contract_and_subsets():
     everything = rows(disting("verdicts", 3, "--damped", "--csv", "-").stdout)
     assert list(everything[0])[:6] == ["left", "right", "relation", "decided_by", "representation", "certainty"]
@@ -68,30 +66,6 @@ def test_verdicts_json_has_evidence(tmp_path):
     assert done.returncode == 0
     assert "3 models, 3 pairs" in done.stdout
     assert all(v["evidence"]["kind"] for v in json.loads(path.read_text())["verdicts"])
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ((), "required"),
-        (("compare", "3:12", "3:1"), "models 1 to 11"),
-        (("compare", "3", "3:1"), "masses:number"),
-        (("models", "0"), "at least 1"),
-        (("verdicts", "3", "--conditions", "0-5"), "conditions are written like"),
-        (("verdicts", "3", "--conditions", "5-3"), "conditions are written like"),
-        (("verdicts", "3", "--sensor", "force"), "invalid choice"),
-        (("verdicts", "3", "--csv", "/no/such/folder/v.csv"), "No such file"),
-        (("verdicts", "3", "--scheduler", "tcp://127.0.0.1:9"), "no dask scheduler"),
-        (("catalog", "verify", "3", "--catalog", "/no/such"), "disting catalog build"),
-        (("report", "3", "--damped", "--undamped"), "not allowed with"),
-    ],
-)
-def test_bad_usage_is_one_clear_sentence_and_status_2(arguments, says):
-    done = disting(*arguments)
-    assert done.returncode == 2
-    assert says in done.stderr
-    assert len(done.stderr.strip().splitlines()) == 1
-    assert "Traceback" not in done.stderr
 
 
 def test_help_on_everything():
@@ -124,71 +98,6 @@ def test_catalog_build_and_verify(tmp_path):
     assert "line 5 is not what is computed now" in bad.stdout
 
 
-def test_cache_is_filled_reported_and_cleared(tmp_path):
-    cache = tmp_path / "deep" / "cache.sqlite3"
-    paper = ("verdicts", 3, "--conditions", "1-9", "--csv", "-")
-    assert disting(*paper, cache=cache).stdout == disting(*paper, cache=cache).stdout
-    info = disting("cache", "info", cache=cache).stdout
-    assert "entries  9" in info  # nine canonical models; transfer functions settle all pairs
-    assert disting("verdicts", 4, "--no-cache", cache=cache).returncode == 0
-    assert "entries  9" in disting("cache", "info", cache=cache).stdout
-    assert "9 entries removed" in disting("cache", "clear", cache=cache).stdout
-
-
-@pytest.mark.parametrize("content", [b"", b"\x00" * 5000, b"SQLite format 3\x00 but no more", os.urandom(3000)])
-def test_a_damaged_cache_is_set_aside_with_a_warning(tmp_path, content):
-    cache = tmp_path / "cache.sqlite3"
-    cache.write_bytes(content)
-    done = disting("verdicts", 3, "--csv", "-", cache=cache)
-    assert done.returncode == 0
-    assert len(rows(done.stdout)) == 55
-    assert "Traceback" not in done.stderr
-    assert done.stderr.startswith("disting: warning:")
-    assert list(tmp_path.glob("cache.sqlite3.damaged-*"))
-
-
-def test_many_processes_share_one_cache(tmp_path):
-    cache = tmp_path / "cache.sqlite3"
-    environment = os.environ | {"DISTING_CACHE": str(cache)}
-    command = [sys.executable, "-m", "disting", "verdicts", "4", "--damped", "--csv", "-"]
-    running = [
-        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) for _ in range(4)
-    ]
-    outputs = [process.communicate(timeout=120) for process in running]
-    assert [process.returncode for process in running] == [0] * 4
-    assert {error for _, error in outputs} == {""}
-    assert len({text for text, _ in outputs}) == 1
-
-
-def test_a_run_killed_at_any_moment_resumes(tmp_path):
-    """Kill the run again and again; what it had stored stays, grows, and the last run gives the true result."""
-    cache = tmp_path / "cache.sqlite3"
-    environment = os.environ | {"DISTING_CACHE": str(cache)}
-    command = [sys.executable, "-m", "disting", "verdicts", "5", "--damped", "--conditions", "1-9", "--csv", "-"]
-    stored, delay = [], 0.5
-    while len(stored) < 8 or (stored[-1] == 0 and delay < 60):  # a busy machine needs longer to store anything
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
-        time.sleep(delay)
-        delay = delay + 0.15 if len(stored) < 8 else 2 * delay
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-        stored.append(entries(cache))
-    assert stored == sorted(stored)
-    assert stored[-1] > 0
-    paper = ("verdicts", 5, "--damped", "--conditions", "1-9", "--csv", "-")
-    assert disting(*paper, cache=cache).stdout == disting(*paper).stdout
-    assert entries(cache) == 90  # 49 canonical models, of which 41 need Markov parameters too
-
-
-def entries(cache):
-    if not cache.exists():
-        return 0
-    with sqlite3.connect(cache) as connection:
-        count = connection.execute("SELECT count(*) FROM entry").fetchone()[0]
-    connection.close()
-    return count
-
-
 def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
     alone = disting("verdicts", 3, "--damped", "--csv", "-").stdout
     assert disting("verdicts", 3, "--damped", "--csv", "-", "--jobs", 2).stdout == alone
@@ -196,29 +105,6 @@ def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as cluster:
         done = disting("verdicts", 3, "--damped", "--csv", "-", "--scheduler", cluster.scheduler_address)
     assert done.stdout == alone
-
-
-def test_interrupt_leaves_no_traceback(tmp_path):
-    environment = os.environ | {"DISTING_CACHE": str(tmp_path / "c.sqlite3")}
-    process = subprocess.Popen(
-        [sys.executable, "-m", "disting", "verdicts", "7", "--damped"],
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background jobs inherit SIG_IGN
-    )
-    time.sleep(2.0)
-    process.send_signal(signal.SIGINT)
-    _, error = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert error.strip() == "disting: interrupted; what was finished is kept in the cache"
-
-
-def test_a_closed_pipe_is_no_error():
-    command = f"{sys.executable} -m disting verdicts 4 --csv - --no-cache | head -1"
-    done = subprocess.run(["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith("left,right")
 
 
 def test_the_exact_decision_settles_what_conditions_leave_open():

@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 
-import numpy as np
 import pytest
 
 from disting.equivalence import Origin, Signs, assignments, chain_of, chains_of, equivalents
@@ -10,41 +9,13 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.synthesis.result import Status
+from tests.equivalence.mechanics import agree
 
 VALUES = assignments(["m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3,b1=0.5,b2=0.2,b3=0.7,T1=1/50,Td=0.01"])
-PLACES = (0.3 + 1.1j, 2.5 - 0.7j, 7.0 + 3.0j, -1.2 + 5.0j)
 
 
 def values_of(chain):
     return {name: VALUES[name] for name in chain.parameters}
-
-
-def response(chain, values, s):
-    """By a linear solve, from the picture of the chain alone."""
-    n = chain.n_masses
-    a, factor = np.zeros((n, n), dtype=complex), 1.0
-    for name, value in values.items():
-        if name == "T1":
-            factor /= 1 + value * s
-        elif name == "Td":
-            factor *= np.exp(-value * s)
-        elif name[0] in "mb":
-            a[int(name[1:]) - 1, int(name[1:]) - 1] += value * (s**2 if name[0] == "m" else s)
-        else:
-            i, j = (int(digit) for digit in name[1:3])
-            v = np.array([(node == j) - float(node == i) for node in range(1, n + 1)])
-            a += value * (s if name[0] == "d" else 1) * np.outer(v, v)
-    force, sensor = np.zeros(n + 1), np.zeros(n + 1)
-    force[chain.act_plus] += 1
-    force[chain.act_minus] -= 1
-    sensor[chain.meas_plus] += 1
-    sensor[chain.meas_minus] -= 1
-    return factor * (sensor[1:] @ np.linalg.solve(a, force[1:]))
-
-
-def agree(chain, values, member, tolerance=1e-8):
-    given = {name: float(Fraction(v)) for name, v in values.items()}
-    return all(abs(response(member.chain, member.values, s) / response(chain, given, s) - 1) < tolerance for s in PLACES)
 
 
 def test_every_equivalent_of_a_model_with_friction_has_its_frequency_response():

@@ -84,7 +84,7 @@ def test_the_sentences():
     assert said[1] == "7 parameters, all determinable; no other non-zero parameters, real or complex, give the same behaviour."
     assert said[2] == (
         "7 parameters, all determinable; three parameter vectors (not all proven to exist) give the same behaviour; "
-        "at the random point looked at one real, one positive."
+        "with random values one of them real, one positive."
     )
     assert said[4] == (
         "7 parameters, all determinable; two positive parameter vectors give the same behaviour: "

@@ -20,7 +20,8 @@ def test_a_renaming_maps_boxes():
     found = within_ranges(D3[2], D3[5], box)
     assert found.share is Share.ALWAYS and isinstance(found.evidence, BoxMap) and ("m1", "m3") in found.evidence.pairs
     assert confirms_within(found.evidence, D3[2], D3[5], box)
-    assert not confirms_within(found.evidence, D3[2], D3[5], ranges({"m1": (1, 3)}, {"m3": ("1/2", 2)}))
+    for given in ((1, 3), ("1/3", 2)):  # beyond either end
+        assert not confirms_within(found.evidence, D3[2], D3[5], ranges({"m1": given}, {"m3": ("1/2", 2)}))
     assert not confirms_within(BoxMap((("m1", "m1"),)), D3[2], D3[5], box)
 
 
@@ -52,6 +53,18 @@ def test_collocated_equivalents_are_all_listed():
     spring = k * (total / m2) ** 2
     exact = Fraction(int(spring.p), int(spring.q))
     assert equivalent_within(given, point, other, {"k01": (exact, exact)}) is Answer.YES
+
+
+def test_an_element_at_the_end_of_its_range_is_not_guessed():
+    """The mass with force and sensor is 1/lim s^2 G, the same in both; a ball around it reaches over the end of the range."""
+    given, other = Chain(3), Chain(3, act_plus=2, meas_plus=2)
+    point = random_point(given, "end")
+    mass = Fraction(int(point["m1"].p), int(point["m1"].q))
+    for ends in ((mass / 2, mass), (mass, 2 * mass)):
+        assert equivalent_within(given, point, other, {"m2": ends}) is Answer.UNKNOWN
+    for ends in ((mass / 3, mass / 2), (2 * mass, 3 * mass)):
+        assert equivalent_within(given, point, other, {"m2": ends}) is Answer.NO
+    assert equivalent_within(given, point, other, {"m2": (mass / 2, 2 * mass)}) is Answer.YES
 
 
 def test_without_a_positive_equivalent_there_is_none_in_a_box():

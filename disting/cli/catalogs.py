@@ -1,0 +1,62 @@
+"""disting catalog: compute, settle and verify catalogues."""
+
+import argparse
+
+from disting.catalogs import catalog
+from disting.catalogs.files import shipped_folder
+from disting.cli.work import engine_for
+from disting.engine import Engine
+
+
+def build(options: argparse.Namespace) -> int:
+    """Compute catalogues."""
+    from disting.catalogs.build import build, write
+    from disting.catalogs.settle import read_settled
+
+    settled = read_settled(shipped_folder())
+    with engine_for(options) as (engine, pool, progress):
+        for n in options.masses:
+            pair = [build(n, damped=d, engine=engine, settled=settled, executor=pool, progress=progress) for d in (False, True)]
+            for path in write(pair, options.out)[:-1]:
+                print(path)
+    return 0
+
+
+def candidates(options: argparse.Namespace) -> int:
+    """Compute the verdicts on the candidates of a fit."""
+    from disting.catalogs.candidates import matrix, write
+    from disting.fit.candidates import figure_1
+
+    with engine_for(options) as (engine, pool, progress):
+        found = matrix(figure_1(), engine=engine, executor=pool, progress=progress)
+    counts = ", ".join(f"{n} {relation}" for relation, n in found.counts().items())
+    print(f"{write(found, options.out)}: {len(found.chains)} models, {counts}")
+    return 0
+
+
+def settle(options: argparse.Namespace) -> int:
+    """Settle what catalogues leave open."""
+    from disting.catalogs.settle import settle
+
+    for n in options.masses:
+        for damped in (False, True):
+            found = catalog(n, damped=damped, folder=options.catalog)
+            count = settle(found, options.catalog, options.seconds, print)
+            print(f"{found.name}: {count} settled")
+    return 0
+
+
+def verify(options: argparse.Namespace) -> int:
+    """Verify catalogues; status 1 if something is wrong."""
+    from disting.catalogs.verify import verify
+
+    wrong: list[str] = []
+    with engine_for(options) as (_, pool, progress):
+        for n in options.masses:
+            for damped in (False, True):
+                fresh = Engine()  # nothing is taken from the cache: a verification computes
+                found = verify(n, damped=damped, folder=options.catalog, engine=fresh, executor=pool, progress=progress)
+                what = f"{n} masses, {'damped' if damped else 'undamped'}"
+                print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")
+                wrong += found
+    return 1 if wrong else 0

@@ -1,0 +1,63 @@
+"""What several commands share: how models, conditions and views are written, and how results are told."""
+
+import re
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.exact import EXACT
+from disting.domain import Domain
+from disting.errors import InputError
+from disting.model.family import MOST_MASSES
+from disting.verdict import RULE_NAMES, Query, View
+
+RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "a look at admissible parameters"}
+VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
+
+
+def reference(text: str) -> tuple[int, int]:
+    """Size and number of a model written masses:number; raises InputError."""
+    match = re.fullmatch(r"(\d{1,3}):(\d{1,7})", text)
+    if not match:
+        raise InputError(f"a model is written masses:number, for instance 3:4, not {text!r}")
+    if int(match[1]) > MOST_MASSES:
+        raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {match[1]}")
+    return int(match[1]), int(match[2])
+
+
+def query(conditions: tuple[int, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
+    """Conditions that are named decide alone: the exact decision belongs to the default."""
+    if domain != Domain.COMPLEX:
+        if conditions is not None or view is not View.EXACT:
+            raise InputError(f"--domain {domain} comes after the exact decision: leave --conditions and --representation away")
+        return Query(View(domain), markov=markov)
+    if conditions is None:
+        return Query(view, markov=markov)
+    return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
+
+
+def counted(counts: dict[str, int]) -> str:
+    """How many pairs each rule decides, and how many are open."""
+    parts = [f"{n} by condition {number}" for number, n in counts.items() if number.isdigit()]
+    parts += [f"{counts[rule]} by {text}" for rule, text in RULES.items() if counts.get(rule)]
+    return ", ".join([*parts, f"{counts.get('', 0)} undecided"])
+
+
+def emitted(where: str, text: str) -> None:
+    """Write text to a file, or to standard output for -; raises InputError where that is impossible."""
+    emitted_lines(where, [text])
+
+
+def emitted_lines(where: str, lines: Iterable[str]) -> None:
+    """As `emitted`, line by line as they come."""
+    if where == "-":
+        sys.stdout.writelines(lines)
+        return
+    try:
+        with Path(where).open("w", encoding="utf-8") as file:
+            file.writelines(lines)
+    except OSError as reason:
+        raise InputError(
+            f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
+        ) from None

@@ -1,0 +1,109 @@
+"""disting compare: one verdict, explained."""
+
+import argparse
+import json
+from collections.abc import Iterator
+
+from disting.catalogs import catalog
+from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.common import query, reference
+from disting.cli.work import engine_for
+from disting.comparison import compare
+from disting.conditions.ways import BothWays
+from disting.domain import Domain
+from disting.equivalence import chain_of
+from disting.errors import InputError
+from disting.inclusion import Inclusion
+from disting.model.chain import Chain, Sensor
+from disting.model.drawing import text_drawing
+from disting.model.family import Family
+from disting.proof import prove
+from disting.verdict import Query, Verdict, View
+
+
+def run(options: argparse.Namespace) -> int:
+    """Explain the verdict on one pair."""
+    if options.json and options.range:
+        raise InputError("what holds within ranges is told in words only: leave --json or --range away")
+    sensor = Sensor(options.sensor)
+    texts = (options.left, options.right)
+    references = [reference(text.partition("+")[0]) for text in texts]
+    chains = [chain_of(text, Family(1, options.damped, sensor)) for text in texts]
+    asked = query(options.conditions, View.EXACT, options.domain)
+    plain = sensor is Sensor.ACCELERATION and "+" not in "".join(texts)
+    verdict = _shipped(references, options.damped, asked) if plain else None
+    if verdict is None:
+        with engine_for(options) as (engine, _, _progress):
+            verdict = compare(*chains, query=asked, engine=engine)
+    if options.prove:
+        verdict = prove(verdict, chains[0], chains[1])
+    if options.json:
+        print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False))
+        return 0
+    ways = _both_ways(verdict, chains, dict(options.range)) if _tells_ways(verdict, options) else ()
+    print("\n".join([_explained(verdict, chains), *ways]))
+    return 0
+
+
+def _shipped(references: list[tuple[int, int]], damped: bool, asked: Query) -> Verdict | None:
+    """The stored verdict of a shipped pair, if all conditions may decide."""
+    (n, left), (m, right) = references
+    stored = n == m in SHIPPED_SIZES and left != right and asked == Query(asked.view)
+    return catalog(n, damped=damped).verdict(left, right, asked.view) if stored else None
+
+
+def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
+    """Whether there is something to tell of positive equivalents that the verdict's evidence does not say."""
+    if options.range or isinstance(verdict.evidence, BothWays):
+        return bool(options.range)
+    return options.domain == Domain.POSITIVE or verdict.inclusion in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+
+
+def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]) -> Iterator[str]:
+    """Which positive models of each side, within ranges if there are any, have an equivalent on the other side.
+
+    Without ranges and over complex parameters that is told only where the verdict tells it.
+    """
+    from disting.positivity import positive_finding, ranges, within_ranges
+
+    unknown = set(limits) - {name for chain in chains for name in chain.parameters}
+    if unknown:
+        raise InputError(f"no parameter of the two models is called {', '.join(sorted(unknown))}")
+    sides = list(zip((verdict.left, verdict.right), chains, (verdict.left_positive, verdict.right_positive), strict=True))
+    for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
+        boxes = ({n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other))
+        found = within_ranges(given, other, ranges(*boxes)) if limits else known
+        if found is None and verdict.domain is not Domain.POSITIVE:
+            continue
+        found = positive_finding(given, other) if found is None else found
+        where = "within the ranges" if limits else "positive"
+        why = found.evidence.sentence(name, other_name) if found.evidence else found.reason
+        seen = f" ({found.empirical.sentence})" if found.empirical else ""
+        yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
+
+
+def _explained(verdict: Verdict, chains: list[Chain]) -> str:
+    """Relation, drawings, sentence, evidence, certainty, domain, inclusion."""
+    names = (verdict.left, verdict.right)
+    width = max(map(len, names))
+    drawings = [f"  {name:{width}}  {text_drawing(c)}" for name, c in zip(names, chains, strict=True)]
+    lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
+    if verdict.evidence:
+        certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
+        lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]
+    lines.append(f"domain     {verdict.domain} parameters")
+    return "\n".join([*lines, *_inclusion(verdict)])
+
+
+def _inclusion(verdict: Verdict) -> list[str]:
+    """What is said of models of unequal rank."""
+    found = verdict.inclusion_finding
+    if found is None:
+        return []
+    says = {
+        Inclusion.LEFT_IN_RIGHT: f"generic {verdict.left} lie in {verdict.right}, not the reverse",
+        Inclusion.RIGHT_IN_LEFT: f"generic {verdict.right} lie in {verdict.left}, not the reverse",
+        Inclusion.NEITHER: "neither lies in the other",
+    }.get(found.inclusion, f"not known: {found.reason}")
+    why = f" ({found.certainty}): {found.evidence.sentence(verdict.left, verdict.right)}" if found.evidence else ""
+    return [f"inclusion  {says}{why}"]

@@ -1,0 +1,67 @@
+"""disting models: the numbered list of one size."""
+
+import argparse
+from collections.abc import Sequence
+from concurrent.futures import Executor
+
+from disting.catalogs import catalog
+from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.work import engine_for
+from disting.engine import Engine, Progress
+from disting.identifiability import Identifiability, Level
+from disting.invariants.profile import Profile
+from disting.model.drawing import LEGEND, text_drawing
+from disting.model.family import Family
+
+
+def run(options: argparse.Namespace) -> int:
+    """List the models of one size."""
+    family = Family(options.masses, options.damped)
+    with engine_for(options) as (engine, pool, progress):
+        profiles = engine.profiles_of(family, executor=pool, progress=progress)
+        known = _identifiabilities(family, engine, pool, progress)
+    print(_table(family, profiles, known), end="")
+    for gap in sorted({chain.gap for chain in family}):
+        parameters = next(chain.parameters for chain in family if chain.gap == gap)
+        print(f"parameters, gap {gap}: {' '.join(parameters)}")
+    print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters")
+    print("sets = parameter sets with the same behaviour: 1 identifiable, ∞ not, ? not known")
+    print(LEGEND)
+    if options.identifiability:
+        for number, found in enumerate(known, 1):
+            print(f"A{number}: {found.sentence}")
+    return 0
+
+
+def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifiability]) -> str:
+    """A line a model: its number, indices, degrees, ranks and drawing."""
+    from rich.console import Console
+    from rich.table import Table
+
+    names = ("model", "gap", "act-", "act+", "meas-", "meas+", "degree", "free", "params", "rank", "sets", "drawing")
+    table = Table(*names, box=None)
+    for number, (chain, profile, found) in enumerate(zip(family, profiles, known, strict=True), 1):
+        n, m = profile.degrees
+        numbers = (number, *chain.indices[1:], f"{n}/{m}", len(profile.form), profile.n_parameters, profile.rank)
+        table.add_row(*map(str, numbers), _sets(found), text_drawing(chain).replace("[", r"\["))
+    console = Console(highlight=False)
+    console.width = max(console.width, 74 + 8 * family.n_masses)  # drawings are not cut, they may run over
+    with console.capture() as text:  # printed by print, so that a closed pipe ends this command as it ends the others
+        console.print(table)
+    return text.get()
+
+
+def _identifiabilities(family: Family, engine: Engine, pool: Executor | None, progress: Progress) -> Sequence[Identifiability]:
+    """From the shipped catalogue where there is one."""
+    if family.n_masses in SHIPPED_SIZES:
+        return [row.identifiability for row in catalog(family.n_masses, damped=family.damped).rows]
+    return engine.identifiabilities(list(family), executor=pool, progress=progress)
+
+
+def _sets(found: Identifiability) -> str:
+    """How many parameter sets have one behaviour."""
+    if found.level is Level.NOT:
+        return "∞"
+    if found.most is None:
+        return "?"
+    return str(found.most) if found.least == found.most else f"{found.least}–{found.most}"

@@ -1,0 +1,59 @@
+"""disting report: pages, figures and tables of whole catalogues, and of the paper."""
+
+import argparse
+from concurrent.futures import Executor
+
+from disting.catalogs import Catalog, catalog
+from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
+from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.common import counted
+from disting.cli.work import engine_for
+from disting.engine import Engine, Progress
+from disting.errors import InputError
+from disting.verdict import View
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write pages, figures and tables."""
+    from disting.report.write import write_report
+
+    if not (options.masses or options.paper):
+        raise InputError("name at least one number of masses, or --paper")
+    if options.paper:
+        _paper(options)
+    if not options.masses:
+        return 0
+    choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
+    with engine_for(options) as (engine, pool, progress):
+        catalogs = [_catalog(n, damped, engine, pool, progress) for n in options.masses for damped in choices]
+    with_dampers = [damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices]
+    paths = write_report(catalogs, options.out, with_dampers)
+    for c in catalogs:
+        print(f"{c.name}: {counted(c.counts(View.EXACT))}, {len(c.classes(View.EXACT))} indistinguishable groups")
+    print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
+    return 0
+
+
+def _paper(options: argparse.Namespace) -> None:
+    """Write the paper's figures, tables and claims."""
+    from collections import Counter
+
+    from disting.paper import CLAIMS, Findings, Outcome
+    from disting.report.paper import write_paper
+
+    with engine_for(options) as (engine, pool, progress):
+        paths = write_paper(Findings(engine, pool, progress), options.out / "paper")
+    counts = Counter(claim.outcome for claim in CLAIMS)
+    agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
+    print(f"{len(CLAIMS)} claims of the paper: {agree} agree, {differ} differ, {unchecked} cannot be checked")
+    print(f"{len(paths)} files in {options.out / 'paper'}; open {paths[0]}")
+
+
+def _catalog(n: int, damped: bool, engine: Engine, pool: Executor | None, progress: Progress) -> Catalog:
+    """The shipped catalogue, or a new one where none is shipped."""
+    from disting.catalogs.build import build
+
+    if n in SHIPPED_SIZES:
+        return catalog(n, damped=damped)
+    return build(n, damped=damped, engine=engine, executor=pool, progress=progress)

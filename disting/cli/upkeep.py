@@ -1,0 +1,41 @@
+"""disting cache and disting doctor: what is stored, what is installed."""
+
+import argparse
+
+from disting import __version__
+from disting.engine import Store
+
+
+def cache_info(options: argparse.Namespace) -> int:
+    """Say where the cache is and what it holds."""
+    with Store.open(None) as store:
+        info = store.info()
+    print(f"path     {info.path or 'no cache'}\nentries  {info.entries}")
+    print(f"size     {info.bytes} bytes\nschema   {info.schema_version}")
+    return 0
+
+
+def cache_clear(options: argparse.Namespace) -> int:
+    """Remove all entries."""
+    with Store.open(None) as store:
+        print(f"{store.clear()} entries removed")
+    return 0
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """Say what works here, and what else could."""
+    from importlib.metadata import version
+    from importlib.util import find_spec
+
+    from disting.ideals.programs import installed
+
+    print(f"{'disting':14}{__version__}")
+    for name in ("python-flint", "numpy"):
+        print(f"{name:14}{version(name)}")
+    for name, found, brings in installed():
+        print(f"{name:14}{found}: {brings}" if found else f"{name:14}not found; optional, it would bring {brings}")
+    for name, brings in (("sympy", "maps as SymPy expressions"), ("distributed", "work on a cluster (--scheduler)")):
+        print(f"{name:14}{version(name) if find_spec(name) else 'not found'}; optional, for {brings}")
+    with Store.open(None) as store:
+        print(f"{'cache':14}{store.info().path or 'off'}")
+    return 0

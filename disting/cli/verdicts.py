@@ -1,0 +1,49 @@
+"""disting verdicts: all pairs of one size, or of several sizes together."""
+
+import argparse
+
+from disting.catalogs.combined import combined_family
+from disting.catalogs.export import decisions_csv, decisions_json
+from disting.cli.common import VIEWS, counted, emitted, query
+from disting.cli.work import engine_for
+from disting.engine import Decisions
+from disting.errors import InputError
+from disting.inclusion import Inclusion
+from disting.model.chain import Sensor
+from disting.proof import prove_all
+
+
+def run(options: argparse.Namespace) -> int:
+    """Decide all pairs of one size, or of several."""
+    if options.csv == options.json == "-":
+        raise InputError("one of --csv and --json can be standard output, not both: name a file for the other")
+    asked = query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
+    named = combined_family(options.masses, damped=options.damped, sensor=Sensor(options.sensor))
+    if len(options.masses) == 1:
+        named = tuple((f"A{number}", chain) for number, (_, chain) in enumerate(named, 1))
+    with engine_for(options) as (engine, pool, progress):
+        subjects = [engine.subject(name, chain) for name, chain in named]
+        decided = engine.decisions(subjects, asked, executor=pool, progress=progress)
+        if options.prove:
+            decided = prove_all(decided, progress=progress)
+    if options.csv:
+        emitted(options.csv, decisions_csv(decided))
+    if options.json:
+        emitted(options.json, decisions_json(decided))
+    if "-" not in (options.csv, options.json):
+        print(_summary(decided))
+    return 0
+
+
+def _summary(decided: Decisions) -> str:
+    """How many pairs each rule decides; of several sizes, how many smaller models lie in larger ones."""
+    total = len(decided.subjects) * (len(decided.subjects) - 1) // 2
+    told = f"{len(decided.subjects)} models, {total} pairs: {counted(decided.counts())}"
+    inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
+    return told + (f"; {inside} smaller models lie in larger ones, as limits" if inside else "")
+
+
+def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:
+    """Whether the smaller model lies in the one with more masses."""
+    sizes = {decided.subjects[k].chain.n_masses for k in (i, j)}
+    return len(sizes) == 2 and decided.inclusion(i, j) in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)

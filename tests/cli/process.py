@@ -1,0 +1,19 @@
+"""disting as its users start it: a process with its output and exit status."""
+
+import csv
+import io
+import os
+import subprocess
+import sys
+
+COMMAND = (sys.executable, "-m", "disting")
+
+
+def disting(*arguments, cache="off", cwd=None):
+    environment = os.environ | {"DISTING_CACHE": str(cache), "COLUMNS": "100"}
+    command = [*COMMAND, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
+
+
+def rows(text):
+    return list(csv.DictReader(io.StringIO(text)))

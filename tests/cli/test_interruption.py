@@ -1,0 +1,142 @@
+"""Caches that are shared, damaged or left by a killed run; Ctrl-C; readers that go away."""
+
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import time
+
+import pytest
+
+from tests.cli.process import COMMAND, disting, rows
+
+INTERRUPTED = "disting: interrupted; what was finished is kept in the cache"
+
+
+def test_a_warm_cache_gives_the_same_verdicts_with_all_that_is_told_of_them(tmp_path):
+    everything, cache = ("verdicts", 3, "--damped", "--json", "-"), tmp_path / "cache.sqlite3"
+    cold, warm, alone = disting(*everything, cache=cache), disting(*everything, cache=cache), disting(*everything)
+    assert cold.stdout == warm.stdout == alone.stdout
+    assert entries(cache) > 9
+
+
+def test_cache_is_filled_reported_and_cleared(tmp_path):
+    cache = tmp_path / "deep" / "cache.sqlite3"
+    paper = ("verdicts", 3, "--conditions", "1-9", "--csv", "-")
+    assert disting(*paper, cache=cache).stdout == disting(*paper, cache=cache).stdout
+    info = disting("cache", "info", cache=cache).stdout
+    assert "entries  9" in info  # nine canonical models; transfer functions settle all pairs
+    assert disting("verdicts", 4, "--no-cache", cache=cache).returncode == 0
+    assert "entries  9" in disting("cache", "info", cache=cache).stdout
+    assert "9 entries removed" in disting("cache", "clear", cache=cache).stdout
+
+
+@pytest.mark.parametrize("content", [b"", b"\x00" * 5000, b"SQLite format 3\x00 but no more", random.Random(1).randbytes(3000)])
+def test_a_damaged_cache_is_set_aside_with_a_warning(tmp_path, content):
+    cache = tmp_path / "cache.sqlite3"
+    cache.write_bytes(content)
+    done = disting("verdicts", 3, "--csv", "-", cache=cache)
+    assert done.returncode == 0
+    assert len(rows(done.stdout)) == 55
+    assert "Traceback" not in done.stderr
+    assert done.stderr.startswith("disting: warning:")
+    assert list(tmp_path.glob("cache.sqlite3.damaged-*"))
+
+
+def test_many_processes_share_one_cache(tmp_path):
+    cache = tmp_path / "cache.sqlite3"
+    environment = os.environ | {"DISTING_CACHE": str(cache)}
+    command = [*COMMAND, "verdicts", "4", "--damped", "--csv", "-"]
+    running = [
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) for _ in range(4)
+    ]
+    outputs = [process.communicate(timeout=120) for process in running]
+    assert [process.returncode for process in running] == [0] * 4
+    assert {error for _, error in outputs} == {""}
+    assert len({text for text, _ in outputs}) == 1
+
+
+def test_a_run_killed_at_any_moment_resumes(tmp_path):
+    """Kill the run again and again; what it had stored stays, grows, and the last run gives the true result."""
+    cache = tmp_path / "cache.sqlite3"
+    environment = os.environ | {"DISTING_CACHE": str(cache)}
+    command = [*COMMAND, "verdicts", "5", "--damped", "--conditions", "1-9", "--csv", "-"]
+    stored, delay = [], 0.5
+    while len(stored) < 8 or (stored[-1] == 0 and delay < 60):  # a busy machine needs longer to store anything
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
+        time.sleep(delay)
+        delay = delay + 0.15 if len(stored) < 8 else 2 * delay
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        stored.append(entries(cache))
+    assert stored == sorted(stored)
+    assert stored[-1] > 0
+    paper = ("verdicts", 5, "--damped", "--conditions", "1-9", "--csv", "-")
+    assert disting(*paper, cache=cache).stdout == disting(*paper).stdout
+    assert entries(cache) == 90  # 49 canonical models, of which 41 need Markov parameters too
+
+
+def entries(cache):
+    if not cache.exists():
+        return 0
+    with sqlite3.connect(cache) as connection:
+        count = connection.execute("SELECT count(*) FROM entry").fetchone()[0]
+    connection.close()
+    return count
+
+
+def interrupted(cache, stored, *arguments):
+    """Start a command, wait until it has stored so many entries, press Ctrl-C; what it said."""
+    process = subprocess.Popen(
+        [*COMMAND, *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"DISTING_CACHE": str(cache)},
+        start_new_session=True,  # a terminal tells the whole group
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background jobs inherit SIG_IGN
+    )
+    while process.poll() is None and entries(cache) < stored:
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    return process.returncode, error.strip()
+
+
+def test_interrupt_leaves_no_traceback(tmp_path):
+    assert interrupted(tmp_path / "c.sqlite3", 1, "verdicts", "7", "--damped") == (130, INTERRUPTED)
+
+
+def test_interrupt_ends_the_workers_without_a_word(tmp_path):
+    many = 40  # until all of them are at work
+    assert interrupted(tmp_path / "c.sqlite3", many, "verdicts", "8", "--damped", "--jobs", "2") == (130, INTERRUPTED)
+
+
+def shell(arguments, redirected):
+    command = f"set -o pipefail; {' '.join(COMMAND)} {arguments} {redirected}"
+    return subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("arguments", ["verdicts 4 --csv -", "models 3", "compare 3:1 3:2", "dampers 2 --csv -", "--help"])
+def test_a_closed_pipe_is_no_error(arguments):
+    done = shell(arguments, "| true")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_reader_gets_the_lines_it_wants():
+    done = shell("verdicts 4 --csv -", "| head -1")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("left,right")
+
+
+@pytest.mark.parametrize("arguments", ["verdicts 2", "models 2", "doctor", "verdicts 2 --csv -"])
+def test_without_standard_output_nothing_is_printed(arguments):
+    done = shell(arguments, ">&-")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_full_disk_is_named():
+    done = subprocess.run(
+        ["bash", "-c", f"{' '.join(COMMAND)} models 2 > /dev/full"], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (2, "disting: No space left on device\n")

@@ -1,0 +1,93 @@
+"""Pairs of models that the laws are about, and what the laws ask of them."""
+
+from dataclasses import replace
+from functools import cache
+from itertools import combinations
+
+from hypothesis import example, settings
+from hypothesis import strategies as st
+
+from disting import Chain, Engine, Family, Query, View, compare
+from disting.conditions.evidence import Counts, Embedding, Forms, Ranks, Renaming
+from disting.conditions.verify import Witness
+from disting.verdict import audit, decide
+from tests.laws.strategies import chains
+
+ENGINE = Engine()
+PAPER = Query(View.COMBINED)  # the exact decision of ground dampers is slow: it has laws of its own in test_exact_laws.py
+WITNESS = Witness()
+BY_CONDITIONS = (View.TF, View.MARKOV, View.COMBINED)
+SMALL = [(n, damped) for n in (1, 2, 3, 4) for damped in (False, True)]
+often = settings(max_examples=100, deadline=None)
+quick = settings(max_examples=40, deadline=None)
+
+
+def verdict(left, right, query=PAPER, engine=ENGINE):
+    return compare(left, right, query=query, engine=engine)
+
+
+def subject(chain, engine=ENGINE):
+    return engine.subject(str(chain), chain)
+
+
+@cache
+def family(n_masses, damped):
+    return [ENGINE.subject(f"A{i}", chain) for i, chain in enumerate(Family(n_masses, damped), 1)]
+
+
+@st.composite
+def similar_pairs(draw, max_masses=3):
+    """Two chains of one size and kind, so that the first conditions seldom decide."""
+    n = draw(st.integers(1, max_masses))
+    left, right = draw(chains(n, n)), draw(chains(n, n))
+    return left, replace(right, sensor=left.sensor, lag=left.lag, damped=left.damped)
+
+
+@st.composite
+def damper_pairs(draw):
+    """One chain of three masses with two sets of ground dampers, where conditions 8 and 9 apply."""
+    chain, masses = draw(chains(3, 3)), draw(st.sets(st.integers(1, 3)))
+    return chain, replace(chain, ground_dampers=tuple(masses))
+
+
+any_pair = st.one_of(st.tuples(chains(), chains()), similar_pairs(), damper_pairs())
+EXAMPLES = [
+    (Chain(2), Chain(3, meas_plus=3)),  # condition 2
+    (Family(3)[9], Family(3)[10]),  # 6
+    (Chain(1), Chain(1, damped=True)),  # 6, no symmetry
+    (Family(4)[11], Family(4)[13]),  # 7
+    (Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,)), Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,), damped=True)),  # 8
+    tuple(Chain(3, 2, 1, 3, 2, 3, damped=True, ground_dampers=(i,)) for i in (1, 2)),  # 9
+    (Family(3, damped=True)[1], Family(3, damped=True)[4]),  # 5 on Markov parameters
+    (Chain(1), Chain(1, dead_time=True)),  # 3
+    (Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(2,))),  # undecided
+]
+
+
+def with_examples(test):
+    for pair in EXAMPLES:
+        test = example(pair=pair)(test)
+    return test
+
+
+def mirrored(evidence):
+    """The same evidence said of (right, left)."""
+    match evidence:
+        case Counts() | Ranks():
+            return replace(evidence, left=evidence.right, right=evidence.left)
+        case Forms():
+            return Forms(evidence.only_right, evidence.only_left)
+        case Embedding():
+            return replace(evidence, left_is_submodel=not evidence.left_is_submodel)
+    return evidence
+
+
+def mirrored_renaming(evidence):
+    if isinstance(evidence, Renaming):
+        return replace(evidence, pairs=tuple((b, a) for a, b in evidence.pairs))
+    return mirrored(evidence)
+
+
+def audited(subjects, query):
+    for left, right in combinations(subjects, 2):
+        assert audit(left, right, query) == decide(left, right, query)
