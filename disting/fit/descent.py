@@ -94,14 +94,17 @@ def fine(plant: Plant, cost: Cost, box: Box, start: Real) -> tuple[Real, float]:
     origin = box.clipped(start)
 
     def at(steps: Real) -> Real:
+        """Parameters after steps of the logarithms."""
         p = origin.copy()
         p[free] *= np.exp(steps)
         return p
 
     def residual(steps: Real) -> Real:
+        """Residual there."""
         return cost.residual(plant.response(at(steps)))
 
     def sensitivity(steps: Real) -> Real:
+        """Its derivatives by the steps."""
         return cost.of(plant, at(steps))[1][:, free]
 
     with np.errstate(divide="ignore"):

@@ -117,7 +117,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
 
 
 def candidate_to_dict(c: Candidate) -> dict[str, Any]:
-    """Plain data of one candidate; a number that is not finite is null."""
+    """Plain data of one candidate; a number that is not finite is null, and so is `unidentifiable` where nothing is."""
     return {
         **_named(c.chain),
         "n_parameters": c.n_parameters,
@@ -128,6 +128,7 @@ def candidate_to_dict(c: Candidate) -> dict[str, Any]:
         "pii_ratio": _finite(c.practical.importance_ratio),
         "collinearity": _finite(c.practical.collinearity),
         "condition_index": _finite(c.practical.condition_index),
+        "unidentifiable": c.practical.unidentifiable or None,
         "akaike_weight": c.akaike_weight,
         "hit_rate": c.estimate.hit_rate,
         "admissible": c.admissible,

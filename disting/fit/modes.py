@@ -1,14 +1,14 @@
 """Poles and zeros of a chain with numbers for its parameters, and what an engineer reads off them."""
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import pi
 
 import numpy as np
 from scipy.linalg import eig
 
 from disting.fit.estimate import Task
 from disting.fit.plant import Complex, Real
-from disting.fit.practical import covariance
+from disting.fit.practical import standard_errors
 from disting.fit.select import Candidate
 from disting.model.structure import Structure
 from disting.simulation import matrices, port_vectors
@@ -52,18 +52,19 @@ class Result:
 def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
     """Inertias, stiffnesses, times, antiresonances and resonances [Hz] with damping ratios, each with its standard error.
 
-    Errors are propagated by central differences from the covariance of the logarithms of the fitted parameters.
+    Errors are propagated by central differences from the covariance of the logarithms of the fitted parameters; a result may be
+    determined although the parameters are not, such as the total inertia of an unidentifiable chain.
     """
     chain, names = candidate.chain, candidate.chain.parameters
     p = np.array([candidate.estimate.parameters[n] for n in names])
     free = task.box(names).free
-    spread = covariance(task.cost.of(task.plant(chain), p)[1][:, free], candidate.j_train)
+    columns = task.cost.of(task.plant(chain), p)[1][:, free]
     centre = _values(chain.structure, p)
     slopes = np.zeros((len(centre), int(free.sum())))
     for column, i in enumerate(np.flatnonzero(free)):
         both = [_values(chain.structure, p * np.exp(sign * STEP * (np.arange(len(p)) == i))) for sign in (1, -1)]
         slopes[:, column] = [(a.value - b.value) / (2 * STEP) for a, b in zip(*both, strict=True)]
-    errors = np.sqrt(np.einsum("ri,ij,rj->r", slopes, spread, slopes)) if np.isfinite(spread).all() else [inf] * len(centre)
+    errors = standard_errors(slopes, columns, candidate.j_train, candidate.practical.rank)
     return tuple(Result(r.name, r.value, float(e), r.unit) for r, e in zip(centre, errors, strict=True))
 
 

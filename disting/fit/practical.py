@@ -7,7 +7,7 @@ of columns changes neither collinearity nor condition indices, which see columns
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import inf, sqrt
+from math import inf, isfinite, sqrt
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from disting.fit.plant import Real
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
 ROUNDING = 1e-15  # a singular value below this share of the largest one is zero
+LOST = 1e-6  # share of a gradient along undetermined directions from which on its function is not determined
 
 
 def importance(columns: Real) -> Real:
@@ -71,6 +72,7 @@ class Practical:
 
     `importance` (16) and `relative_errors` (standard errors divided by the parameters, 0.01 = 1 %) by parameter;
     `condition_indices` rising; `worst_direction`: the combination of logarithms of parameters that the data determine least.
+    `unidentifiable` says what is determinable where no data at all determine every parameter, else "".
     """
 
     names: tuple[str, ...]
@@ -79,12 +81,18 @@ class Practical:
     condition_indices: tuple[float, ...]
     relative_errors: dict[str, float]
     worst_direction: dict[str, float]
+    unidentifiable: str = ""
 
     @property
     def importance_ratio(self) -> float:
         """Largest importance divided by the smallest; infinite where a parameter has none."""
         values = list(self.importance.values())
         return max(values) / min(values) if values and min(values) > 0 else inf
+
+    @property
+    def rank(self) -> int:
+        """Number of directions that are determined: those with a finite condition index."""
+        return sum(map(isfinite, self.condition_indices))
 
     @property
     def condition_index(self) -> float:
@@ -119,6 +127,23 @@ def covariance(columns: Real, j: float) -> Real:
     return np.asarray(half @ half.T)
 
 
+def standard_errors(slopes: Real, columns: Real, j: float, rank: int) -> Real:
+    """Standard errors of functions of ln p with gradients `slopes`, shape (n, n_p): sqrt(g' C g), without cancellation.
+
+    `rank` directions of ln p count as determined, those that the data determine best; infinite for a function that changes
+    along another one.
+    """
+    n_y, n_p = columns.shape
+    length = np.linalg.norm(columns, axis=0)
+    if n_y <= n_p or not length.all():
+        return np.full(len(slopes), inf)
+    _, values, right = np.linalg.svd(unit_columns(columns), full_matrices=True)
+    parts = slopes / length @ right.T
+    known = np.linalg.norm(parts[:, :rank] / values[:rank], axis=1) * sqrt(j / (n_y - n_p))
+    lost = np.linalg.norm(parts[:, rank:], axis=1) > LOST * np.linalg.norm(parts, axis=1)
+    return np.asarray(np.where(lost, inf, known))
+
+
 def worst_direction(columns: Real, names: Sequence[str]) -> dict[str, float]:
     """Right singular vector of the smallest singular value of S-tilde, its large entries by parameter, largest positive."""
     vector = np.linalg.svd(unit_columns(columns), full_matrices=True)[2][-1]
@@ -135,7 +160,10 @@ class Thresholds:
     collinearity: float = 20.0
 
     def reasons(self, found: Practical) -> tuple[str, ...]:
-        """Why a candidate is excluded; nothing if it is admissible. What is not a number violates every threshold."""
+        """Why a candidate is excluded; nothing if it is admissible. What is not a number violates every threshold.
+
+        Structural unidentifiability excludes at any threshold, and is said instead of the infinite indices that follow from it.
+        """
         along = ", ".join(found.worst_direction)
         least = max(found.importance.values()) / self.importance_ratio
         weak = ", ".join(name for name, value in found.importance.items() if not value >= least)
@@ -144,4 +172,7 @@ class Thresholds:
             ("PII ratio", found.importance_ratio, self.importance_ratio, weak),
             ("collinearity index", found.collinearity, self.collinearity, along),
         ]
-        return tuple(f"{what} {v:.3g} exceeds {limit:g} ({who})" for what, v, limit, who in rows if not v <= limit)
+        unknown = dict.fromkeys(who for _, value, limit, who in rows if value == inf > limit)
+        infinite = [f"these data do not determine {who}" for who in unknown if not (found.unidentifiable and who == along)]
+        finite = [f"{what} {v:.3g} exceeds {limit:g} ({who})" for what, v, limit, who in rows if v != inf and not v <= limit]
+        return (*filter(None, [found.unidentifiable]), *infinite, *finite)

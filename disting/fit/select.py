@@ -21,8 +21,10 @@ from disting.fit.estimate import Estimate, Method, Task, estimates
 from disting.fit.plant import Real
 from disting.fit.practical import Practical, Thresholds, practical
 from disting.fit.repeatability import Repeatability, margin, repeatability
+from disting.fit.structural import with_structure
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.settings import Settings
 
 FOLDS = 5  # of the cross-validation
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
@@ -129,8 +131,7 @@ def select(
     known = estimates(wanted, task, method=method, store=engine.store, executor=executor, progress=progress)
     limits = thresholds or Thresholds()
     test_cost = replace(cost, measured=test, lines=lines(test) if lines else None) if test else None
-    fitted = [_candidate(known[c], task, limits, test_cost) for c in wanted]
-    fitted = _weighted(sorted(fitted, key=lambda c: c.j_test), cost.n_residuals)
+    fitted = _fitted({c: known[c] for c in wanted}, task, limits, test_cost, engine.settings)
     kept = [c for c in fitted if c.admissible]
     noise = repeatability(train, test or train, (kept or fitted)[0].residual)
     selected, allowed = _simplest(kept, test_cost or cost, noise) if kept else (None, 0.0)
@@ -165,13 +166,29 @@ def _signed(task: Task, candidates: Sequence[Chain]) -> Task:
     return min(both, key=lambda t: estimates([smallest], t)[smallest].j)
 
 
-def _candidate(found: Estimate, task: Task, limits: Thresholds, test: Cost | None) -> Candidate:
-    """Criteria, test cost and reasons of one estimate."""
+def _judged(found: Estimate, task: Task) -> Practical:
+    """The criteria at the optimum, of the parameters that are free."""
+    chain, names = found.chain, found.chain.parameters
+    p = np.array([found.parameters[n] for n in names])
+    free = task.box(names).free
+    columns = task.cost.of(task.plant(chain), p)[1][:, free]
+    return practical(columns, [n for n, chosen in zip(names, free, strict=True) if chosen], found.j)
+
+
+def _fitted(
+    known: Mapping[Chain, Estimate], task: Task, limits: Thresholds, test_cost: Cost | None, settings: Settings
+) -> list[Candidate]:
+    """What each estimate is worth, in the order of the cost on test."""
+    judged = with_structure({c: _judged(found, task) for c, found in known.items()}, settings)
+    fitted = [_candidate(found, judged[c], task, limits, test_cost) for c, found in known.items()]
+    return _weighted(sorted(fitted, key=lambda c: c.j_test), task.cost.n_residuals)
+
+
+def _candidate(found: Estimate, judged: Practical, task: Task, limits: Thresholds, test: Cost | None) -> Candidate:
+    """Test cost and reasons of one estimate with its criteria."""
     chain, names = found.chain, found.chain.parameters
     p = np.array([found.parameters[n] for n in names])
     box = task.box(names)
-    columns = task.cost.of(task.plant(chain), p)[1][:, box.free]
-    judged = practical(columns, [n for n, free in zip(names, box.free, strict=True) if free], found.j)
     residual = _cross_validated(found, task, p) if test is None else _residual(chain, task, test, p)
     near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)

@@ -110,6 +110,7 @@ def merged(chain: Chain) -> Iterator[tuple[int, Chain]]:
         if joint != chain.gap:
 
             def moved(i: int, joint: int = joint) -> int:
+                """Number of a mass after the joint became rigid."""
                 return i - (i > joint)
 
             dampers = tuple(sorted({moved(i) for i in chain.ground_dampers}))

@@ -1,4 +1,4 @@
-"""The page that leads to the catalogues."""
+"""The page that leads to the catalogues, and from the description of a machine to its model."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,11 +6,17 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
+from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.damper_files import name_of
+from disting.report.damper_drawing import definitions
+from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
+from disting.report.dampers import family_title
 from disting.report.environment import render
+from disting.report.machine import machines, parts
 from disting.report.matrix import thumbnail
 from disting.report.model import Drawing, folder_of, model_of
 from disting.report.payload import script_json
-from disting.report.scene import PAGE_PALETTE
+from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
 from disting.report.words import plural, short_title, totals
 from disting.verdict import Relation
@@ -21,7 +27,7 @@ Link = tuple[str, str, str]
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """What the index shows of a catalogue."""
+    """What the index shows of a catalogue, or of a family with ground dampers; groups are those of several models."""
 
     name: str
     title: str
@@ -47,26 +53,39 @@ class Example:
     right: Drawing
 
 
-def index(catalogs: Sequence[Catalog], links: Sequence[Link] = ()) -> str:
-    """HTML of the index: the catalogues in the order given, and further pages."""
-    sizes = {c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs}
+def index(catalogs: Sequence[Catalog], links: Sequence[Link] = (), dampers: Sequence[DamperFamily] = ()) -> str:
+    """HTML of the index: the catalogues in the order given, families with ground dampers, and further pages."""
+    sizes: dict[str, dict[str, object]] = {c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs}
+    with_dampers: dict[str, dict[str, object]] = {
+        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
+    }
+    masses = sorted({c.n_masses for c in catalogs})
     return render(
         "index.html",
         cards=[card(c) for c in catalogs],
+        damper_cards=[damper_card(f) for f in dampers],
         example=example(catalogs),
         links=links,
-        sizes=script_json(sizes),
+        sizes=script_json(sizes | with_dampers),
+        machines=script_json(machines(catalogs)),
+        machine_parts=definitions(parts(catalogs)),
+        machine_sizes=masses,
+        machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,
     )
 
 
 def card(catalog: Catalog) -> Card:
     """Headline and thumbnail of a catalogue."""
-    scene = thumbnail(catalog)
-    box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    drawing = Markup(body(scene, PAGE_PALETTE))
     groups = len(catalog.classes())
-    return Card(catalog.name, short_title(catalog), len(catalog.family), groups, totals(catalog), box, drawing)
+    return _card(catalog.name, short_title(catalog), len(catalog.family), groups, totals(catalog), thumbnail(catalog))
+
+
+def damper_card(found: DamperFamily) -> Card:
+    """Headline of a family with ground dampers, and a thumbnail of its structures."""
+    kind = found.family.n_masses, found.family.damped
+    groups, counts = len(found.classes()), found.found.counts()
+    return _card(name_of(*kind), family_title(*kind), len(found), groups, counts, damper_thumbnail(found))
 
 
 def example(catalogs: Sequence[Catalog]) -> Example | None:
@@ -78,3 +97,8 @@ def example(catalogs: Sequence[Catalog]) -> Example | None:
     low, high = chosen.classes()[0][:2]
     drawings = (model_of(chosen, low).drawing, model_of(chosen, high).drawing)
     return Example(f"{chosen.name}.html#{low}-{high}", short_title(chosen), *drawings)
+
+
+def _card(name: str, title: str, models: int, groups: int, counts: dict[Relation, int], scene: Scene) -> Card:
+    box = f"0 0 {number(scene.width)} {number(scene.height)}"
+    return Card(name, title, models, groups, counts, box, Markup(body(scene, PAGE_PALETTE)))

@@ -1,8 +1,7 @@
 """The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, and as a thumbnail.
 
-Row and column of a field are the two models; the number is the condition that decided. Relations differ in colour and in
-shape: distinguishable is a plain field, indistinguishable has a dark upper corner, what depends on the parameters a dark lower
-one, undecided is crossed out and has no number.
+Row and column of a field are the two models; the number is the condition that decided. How a field shows its relation is told
+in `disting.report.fields`.
 """
 
 from collections.abc import Iterator
@@ -10,8 +9,9 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from disting.catalogs import Catalog
+from disting.report.fields import CORNERS, FILLS, LETTERS, corner, field, legend
 from disting.report.png import png
-from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text
+from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Text
 from disting.report.svg import svg
 from disting.report.words import SIGNS, VIEW_TITLES, headline, title
 from disting.verdict import Relation, View
@@ -19,22 +19,6 @@ from disting.verdict import Relation, View
 TOP = 88.0  # room for the figure's and the panels' titles, at letter size 1
 MARGIN = 16.0
 WIDEST_PNG = 5200  # pixels
-
-FILLS = {
-    Relation.DISTINGUISHABLE: Ink.DISTINGUISHABLE,
-    Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE,
-    Relation.SOMETIMES: Ink.SOMETIMES,
-}
-LETTERS = {
-    Relation.DISTINGUISHABLE: Ink.ON_DISTINGUISHABLE,
-    Relation.INDISTINGUISHABLE: Ink.ON_INDISTINGUISHABLE,
-    Relation.SOMETIMES: Ink.ON_SOMETIMES,
-}
-CORNERS = {Relation.INDISTINGUISHABLE: True, Relation.SOMETIMES: False}  # upper right, lower left
-SAID = {relation: f"{relation} by condition n" for relation in FILLS} | {
-    Relation.SOMETIMES: "for some parameters only",
-    Relation.UNDECIDED: "undecided",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +65,7 @@ def figure(catalog: Catalog) -> Scene:
     panels = (_panel(Grid(catalog, view, left + i * panel, top, cell), k) for i, view in enumerate(VIEW_TITLES))
     foot = top + size * cell + 26 * k
     width = max(len(VIEW_TITLES) * panel + left - cell, 620.0)
-    layers = (_head(catalog, k), *(layer for layers in panels for layer in layers), *_legend(MARGIN, foot, k))
+    layers = (_head(catalog, k), *(layer for layers in panels for layer in layers), *legend(Relation, MARGIN, foot, k))
     return Scene(width, foot + 26 * k, layers, f"{title(catalog)}: {headline(catalog)}")
 
 
@@ -114,8 +98,8 @@ def _panel(grid: Grid, k: float) -> Iterator[Layer]:
     numbers = sorted((_number(grid, pair) for pair in pairs), key=lambda text: text.fill)
     yield Layer(f"{view}-title", (Text(grid.x, grid.y - 14 * k, VIEW_TITLES[view], 13 * k, anchor=Anchor.START, bold=True),))
     yield Layer(f"{view}-labels", tuple(_labels(grid)))
-    yield Layer(f"{view}-fields", tuple(s for pair in grouped for s in _field(*grid.at(*pair), relations[pair], grid.cell)))
-    yield Layer(f"{view}-corners", tuple(_corner(*grid.at(*pair), relations[pair], grid.cell) for pair in marked))
+    yield Layer(f"{view}-fields", tuple(s for pair in grouped for s in field(*grid.at(*pair), relations[pair], grid.cell)))
+    yield Layer(f"{view}-corners", tuple(corner(*grid.at(*pair), relations[pair], grid.cell) for pair in marked))
     yield Layer(f"{view}-numbers", tuple(text for text in numbers if text.text))
 
 
@@ -130,22 +114,6 @@ def _labels(grid: Grid) -> Iterator[Text]:
         yield Text(x + 3, middle, f"A{model}", letters, Ink.MUTED, Anchor.START)
 
 
-def _field(x: float, y: float, relation: Relation, cell: float) -> tuple[Shape, ...]:
-    side = cell - 1
-    if relation is not Relation.UNDECIDED:
-        return (Rect(x, y, side, side, FILLS[relation]),)
-    inset = 0.3 * cell
-    cross = Path(((x + inset, y + side - inset), (x + side - inset, y + inset)), Ink.UNDECIDED, line=1)
-    return Rect(x + 0.5, y + 0.5, side - 1, side - 1, Ink.NONE, Ink.UNDECIDED, line=1), cross
-
-
-def _corner(x: float, y: float, relation: Relation, cell: float) -> Path:
-    """The dark corner, upper right or lower left."""
-    far, leg = cell - 1, 0.28 * cell
-    corner = ((far - leg, 0.0), (far, 0.0), (far, leg)) if CORNERS[relation] else ((0.0, far - leg), (0.0, far), (leg, far))
-    return Path(tuple((x + dx, y + dy) for dx, dy in corner), Ink.NONE, LETTERS[relation])
-
-
 def _number(grid: Grid, pair: tuple[int, int]) -> Text:
     verdict = grid.catalog.verdict(*pair, grid.view)
     x, y = grid.at(*pair)
@@ -157,17 +125,6 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
         0.62 * grid.cell,
         LETTERS.get(verdict.relation, Ink.LINE),
     )
-
-
-def _legend(x: float, y: float, k: float) -> Iterator[Layer]:
-    """A field of each relation, with its name."""
-    side = 17 * k
-    for relation in Relation:
-        corner = (_corner(x, y - side / 2, relation, side),) if relation in CORNERS else ()
-        number = (Text(x + side / 2, y, "n", 10.5 * k, LETTERS[relation]),) if relation in LETTERS else ()
-        said = Text(x + 24 * k, y, SAID[relation], 12 * k, anchor=Anchor.START)
-        yield Layer(f"legend-{relation}", (*_field(x, y - side / 2, relation, side), *corner, *number, said))
-        x += (46 + 6.6 * len(said.text)) * k
 
 
 def _runs(catalog: Catalog, high: int, cell: float) -> Iterator[Rect]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.catalogs import Catalog, ModelRow
-from disting.conditions.inclusion import Inclusion
 from disting.identifiability import Level
+from disting.inclusion import Inclusion
 from disting.model.drawing import text_drawing
 from disting.positivity import PositiveFinding, Share
 from disting.report.drawing import draw
@@ -145,6 +145,7 @@ def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
     """Which models become this one in a limit of their parameters, and the reverse."""
 
     def others(larger: bool) -> Iterator[int]:
+        """Models that this one lies in (`larger`), or that lie in it."""
         for other, v in verdicts.items():
             inside = Inclusion.LEFT_IN_RIGHT if (number < other) == larger else Inclusion.RIGHT_IN_LEFT
             if v.inclusion is inside:

@@ -44,8 +44,8 @@ class Count:
     numbers: tuple[int, ...]
 
 
-def page(catalog: Catalog) -> str:
-    """HTML of a catalogue."""
+def page(catalog: Catalog, *, dampers: str = "") -> str:
+    """HTML of a catalogue; `dampers`: name of the page of the family with ground dampers, where that is beside it."""
     found = totals(catalog)
     models = [model_of(catalog, row.number) for row in catalog.rows]
     return render(
@@ -67,7 +67,8 @@ def page(catalog: Catalog) -> str:
         groups=[[models[m - 1].drawing for m in members] for members in catalog.classes(View.EXACT)],
         models=models,
         sample=example(catalog),
-        payload=payload(catalog),
+        dampers=dampers,
+        payload=payload(catalog, dampers=bool(dampers)),
         plural=plural,
     )
 
@@ -92,7 +93,8 @@ def counts(catalog: Catalog) -> list[Count]:
     """Pairs by condition and view, every condition named, the undecided ones last."""
     found = [catalog.counts(view) for view in VIEW_TITLES]
     rows = [(str(c.number), c.title, c.text, _decides(c.number)) for c in CONDITIONS]
-    rows += [(RULE_NAMES[EXACT], "exact decision", "one fibre, by inverse network synthesis", Relation.DISTINGUISHABLE)]
+    by_exact = "all parameters with the other model's transfer function, at a random choice of its own"
+    rows += [(RULE_NAMES[EXACT], "exact decision", by_exact, Relation.DISTINGUISHABLE)]
     grounds = "theorems, order of poles and zeros, certified points"
     rows += [(RULE_NAMES[ADMISSIBLE], "positive equivalents", grounds, Relation.INDISTINGUISHABLE)]
     rows += [("", "undecided", "nothing decides", Relation.UNDECIDED)]

@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog
 from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.inclusion import Inclusion
+from disting.inclusion import Inclusion
 from disting.positivity import Share
 from disting.report.words import VIEW_TITLES, probability
 from disting.verdict import RULE_NAMES, Verdict, View
@@ -51,12 +51,12 @@ class Pool:
         return self.numbers.setdefault(value, len(self.numbers))
 
 
-def payload(catalog: Catalog) -> Markup:
-    """JSON text that is safe inside a script element."""
+def payload(catalog: Catalog, **more: object) -> Markup:
+    """JSON text that is safe inside a script element, with what else the page's script is to know."""
     texts, entries = Pool(), Pool()
     views = {view.value: packed([entries.number(_entry(v)) for v in _triangle(catalog, view)]) for view in VIEW_TITLES}
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
-    data = {
+    data = more | {
         "masses": catalog.n_masses,
         "damped": catalog.damped,
         "models": len(catalog.family),

@@ -1,11 +1,16 @@
 """Writes the report of some catalogues into a folder: a small site of pages, and figures and data beside them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
+from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
+from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
+from disting.report.dampers import damper_page
 from disting.report.environment import source
 from disting.report.index import Link, index
 from disting.report.matrix import figure, figure_png
@@ -22,17 +27,23 @@ LINKS: tuple[Link, ...] = (
 """Pages that other commands write, listed where they are in the folder already."""
 
 
-def write_report(catalogs: Sequence[Catalog], out: Path) -> list[Path]:
+def write_report(catalogs: Sequence[Catalog], out: Path, dampers: Sequence[DamperFamily] = ()) -> list[Path]:
     """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, and index.html.
 
-    The same catalogues give the same bytes. `out` is made if it does not exist; other files in it stay as they are, and the
-    index leads to the pages of shipped catalogues and to other known pages among them too. Returns the paths, in order.
+    Of families with ground dampers, `dampers`, a page each. The same catalogues give the same bytes. `out` is made if it does
+    not exist; other files in it stay as they are, and the index leads to the pages of shipped catalogues and to other known
+    pages among them too. Returns the paths, in order.
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
-    start = index(listed, [link for link in LINKS if (out / link[0]).is_file()])
-    style = source("style.css") + source("model.css")
-    files = [file for c in catalogs for file in _files(c)] + [(STYLE, style.encode()), ("index.html", start.encode())]
+    families = sorted([*dampers, *_dampers_beside(dampers, out)], key=lambda f: (f.family.n_masses, f.family.damped))
+    links = [link for link in LINKS if (out / link[0]).is_file()]
+    names = {c.name for c in listed}
+    with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
+    files = [file for c in catalogs for file in _files(c, with_dampers)]
+    files += [_damper_file(f, names) for f in dampers]
+    style, start = source("style.css") + source("model.css"), index(listed, links, families)
+    files += [(STYLE, style.encode()), ("index.html", start.encode())]
     return [_written(out / name, content) for name, content in files]
 
 
@@ -45,8 +56,22 @@ def _beside(catalogs: Sequence[Catalog], out: Path) -> Iterator[Catalog]:
             yield catalog(n, damped=damped)
 
 
-def _files(c: Catalog) -> Iterator[tuple[str, bytes]]:
-    yield f"{c.name}.html", page(c).encode()
+def _dampers_beside(dampers: Sequence[DamperFamily], out: Path) -> Iterator[DamperFamily]:
+    """The shipped families with ground dampers whose pages are in the folder already."""
+    given = {(f.family.n_masses, f.family.damped) for f in dampers}
+    for n, damped in product(DAMPER_SIZES, (False, True)):
+        if (n, damped) not in given and (out / f"{damper_name(n, damped)}.html").is_file():
+            yield damper_catalog(n, damped=damped)
+
+
+def _damper_file(found: DamperFamily, names: Container[str]) -> tuple[str, bytes]:
+    kind = found.family.n_masses, found.family.damped
+    return f"{damper_name(*kind)}.html", damper_page(found, catalog=name_of(*kind) in names).encode()
+
+
+def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, bytes]]:
+    name = damper_name(c.n_masses, c.damped)
+    yield f"{c.name}.html", page(c, dampers=name if name in with_dampers else "").encode()
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()
     yield f"{c.name}-matrix.png", figure_png(scene)

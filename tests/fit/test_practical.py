@@ -1,5 +1,7 @@
 """Criteria of practical identifiability on published numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,6 +16,7 @@ from disting.fit.practical import (
     covariance,
     importance,
     practical,
+    standard_errors,
     worst_direction,
 )
 from tests.measurement.bench_data import measured_data
@@ -92,3 +95,28 @@ def test_reasons_name_criterion_value_threshold_and_parameters():
 def test_what_is_no_matrix_is_refused(bad):
     with pytest.raises(InputError, match="rows and columns of finite numbers"):
         collinearity_index(bad)
+
+
+def test_what_is_infinite_is_said_by_its_parameters_not_as_a_number():
+    matrix = np.random.default_rng(5).normal(size=(20, 3))
+    matrix[:, 1] = -2 * matrix[:, 0]
+    found = practical(matrix, ["m1", "m2", "k12"], 1.0)
+    assert Thresholds().reasons(found) == ("these data do not determine m1, m2",)
+    assert Thresholds(np.inf, np.inf, np.inf).reasons(found) == () and found.rank == 2
+
+
+def test_a_value_that_is_no_number_excludes():
+    found = replace(practical(np.eye(3), ["a", "b", "c"], 1.0), collinearity=np.nan)
+    assert [reason.split(" (")[0] for reason in Thresholds().reasons(found)] == ["collinearity index nan exceeds 20"]
+
+
+def test_errors_of_results_are_those_of_the_covariance_and_infinite_across_what_is_not_determined():
+    matrix, slopes = np.random.default_rng(6).normal(size=(30, 4)), np.random.default_rng(7).normal(size=(5, 4))
+    expected = np.sqrt(np.diag(slopes @ covariance(matrix, 3.0) @ slopes.T))
+    np.testing.assert_allclose(standard_errors(slopes, matrix, 3.0, 4), expected, rtol=1e-9)
+    matrix[:, 3] = matrix[:, 2]  # only the sum of the last two is determined
+    both, one = standard_errors(np.array([[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 0.0]]), matrix, 3.0, 3)
+    assert one == np.inf
+    alone = np.sqrt(covariance(matrix[:, :3], 3.0)[2, 2] * (30 - 3) / (30 - 4))  # one column for the sum, a freedom less
+    assert both == pytest.approx(alone, rel=1e-9)
+    assert np.isinf(standard_errors(slopes, np.zeros((30, 4)), 3.0, 4)).all()

@@ -129,6 +129,29 @@ def test_indistinguishable_candidates_are_fitted_once_and_named():
     assert [(a.chain, a.relation) for a in pruned.alternatives] == [(c, Relation.INDISTINGUISHABLE) for c in (second, third)]
 
 
+def test_what_no_data_determine_is_said_by_its_combinations_and_never_selected():
+    chain = Chain(2, meas_plus=2, damped=True)
+    values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0}
+    loose = Thresholds(1e300, 1e300, 1e300)
+    found = select(response(chain, values, noise=0.01), [chain, replace(chain, ground_dampers=(1,))], thresholds=loose)
+    (plain,) = (c for c in found.candidates if c.chain == chain)
+    said = "not identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
+    assert plain.reasons == (said,) and plain.practical.unidentifiable == said and plain.practical.rank == 3
+    assert found.selected is None or found.selected.chain != chain
+    rows = json.loads(json.dumps(selection_to_dict(found), allow_nan=False))["candidates"]
+    row = next(r for r in rows if not r["ground_dampers"])
+    assert (row["unidentifiable"], row["condition_index"], row["collinearity"]) == (said, None, None)
+    errors = {r.name: r.standard_error / r.value for r in physical(plain, found.task)}
+    assert errors["total inertia"] < 0.01 and errors["stiffness k12"] == np.inf and errors["resonance 1"] < 0.01
+
+
+def test_known_parameters_make_it_identifiable():
+    chain = Chain(2, meas_plus=2, damped=True)
+    values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0}
+    (found,) = select(response(chain, values, noise=0.01), [chain], fixed={"m1": 1.0}).candidates
+    assert found.admissible and found.practical.unidentifiable == "" and found.practical.rank == 3
+
+
 def test_a_reversed_sensor_is_found():
     reversed_sensor = response(PLANTED, VALUES, noise=0.01, sign=-1)
     assert select(reversed_sensor, [PLANTED], sign=0).task.sign == -1

@@ -9,11 +9,13 @@ import pytest
 
 from disting.cli.run import main
 from disting.paper import CLAIMS, Findings, Outcome
+from disting.report.fields import LETTER
 from disting.report.paper import paper_figures, paper_page, write_paper
 from disting.report.paper.page import raised
 from disting.report.paper.picture import of_scene
 from disting.report.paper.refit import refit_figure
 from disting.report.paper.triangles import of_decisions, triangles
+from disting.report.scene import Text
 from disting.report.svg import svg
 from disting.verdict import Relation, View
 from tests.report.fit.test_page import Outline
@@ -90,6 +92,21 @@ def test_fields_of_figure_10(findings):
     drawn = svg(triangles("title", (panel,), 1, 24.0))
     assert drawn.count(">7</text>") == 10
     assert ">undecided</text>" not in drawn
+
+
+def test_a_narrow_figure_has_its_legend_in_rows(findings):
+    panel = of_decisions("left", findings.picture(3, True, View.TF))
+    one, two = triangles("title", (panel, panel), 1, 24.0), triangles("title", (panel, panel), 2, 24.0)
+    for scene, rows in ((one, 3), (two, 1)):
+        entries = [layer for layer in scene.layers if layer.name.startswith("legend-")]
+        words = [shape for layer in entries for shape in layer.shapes if isinstance(shape, Text) and len(shape.text) > 1]
+        assert len(words) == 3 and len({word.y for word in words}) == rows
+        assert all(word.x + LETTER * len(word.text) < scene.width + 10 and word.y < scene.height for word in words)
+
+
+def test_phones_get_drawings_of_their_own(page):
+    shown = re.findall(r'<svg class="plot (?:triangles )?(\w+)"', page)
+    assert shown.count("wide") == shown.count("narrow") == 7 and shown.count("both") == 1
 
 
 @pytest.mark.slow

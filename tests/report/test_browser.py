@@ -2,8 +2,6 @@
 
 import json
 import re
-import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,21 +10,10 @@ from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict import View
 
-playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 pytestmark = pytest.mark.xdist_group("browser")
 CURSOR = '[role="gridcell"]'
 SMALL, LARGE, START = "chains-3-damped.html", "chains-5-damped.html", "index.html"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[object]:
-    with playwright.sync_playwright() as p:
-        if not CHROMIUM and not Path(p.chromium.executable_path).exists():
-            pytest.skip("no Chromium found, neither the system's nor Playwright's own")
-        chromium = p.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")
@@ -35,30 +22,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_report([catalog(3), catalog(3, damped=True)], folder)
     (folder / LARGE).write_text(page(catalog(5, damped=True)), encoding="utf-8")
     return folder
-
-
-@pytest.fixture
-def visit(browser, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
-    """Open a page of the site; at the end of the test: no message on the console, no request but for the site's files."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    tab, troubles, requests = context.new_page(), [], []
-    tab.on("console", lambda message: troubles.append(message.text))
-    tab.on("pageerror", lambda error: troubles.append(str(error)))
-    tab.on("request", lambda request: requests.append(request.url.split("#")[0]))
-
-    def go(path: str, width: int = 1280, scheme: str = "light") -> object:
-        tab.set_viewport_size({"width": width, "height": 844 if width < 500 else 800})
-        tab.emulate_media(color_scheme=scheme)
-        tab.goto(f"{site.as_uri()}/{path}")
-        return tab
-
-    yield go
-    assert troubles == []
-    assert all(
-        re.fullmatch(re.escape(site.as_uri()) + r"/([\w-]+\.html|models/style\.css|models/[\w-]+/\d+\.html)", r)
-        for r in requests
-    )
-    context.close()
 
 
 def _place(tab, row: int, column: int) -> dict[str, float]:  # type: ignore[no-untyped-def]

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from disting.catalogs import Catalog, catalog
-from disting.conditions.inclusion import Inclusion
+from disting.inclusion import Inclusion
 from disting.report.model import limits, model_page, told_apart
 from disting.verdict import Relation, View
 from tests.report.test_page import Outline

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from disting.catalogs import catalog
+from disting.catalogs.damper_family import damper_family
 from disting.report import write_report
 
 ENDINGS = (".html", "-matrix.svg", "-matrix.png", ".csv", ".json")
@@ -46,6 +47,28 @@ def test_the_index_leads_to_pages_of_other_commands_where_they_are(tmp_path: Pat
     (tmp_path / "paper" / "index.html").write_text("", encoding="utf-8")
     start = write_report([catalog(2)], tmp_path)[-1].read_text(encoding="utf-8")
     assert 'href="paper/index.html"' in start and 'href="fit.html"' not in start
+
+
+def test_families_with_ground_dampers_have_a_page_and_are_linked_both_ways(tmp_path: Path) -> None:
+    found = [damper_family(2, damped=True), damper_family(1)]
+    paths = write_report([catalog(2, damped=True)], tmp_path, found)
+    assert {p.name for p in paths if p.name.startswith("dampers-")} == {"dampers-1-undamped.html", "dampers-2-damped.html"}
+    texts = {p.name: p.read_text(encoding="utf-8") for p in paths if p.suffix == ".html"}
+    assert 'href="dampers-2-damped.html"' in texts["chains-2-damped.html"]
+    assert 'href="chains-2-damped.html"' in texts["dampers-2-damped.html"] and "12 models, 66 pairs" in texts["index.html"]
+    assert 'href="chains-1-undamped.html"' not in texts["dampers-1-undamped.html"]  # not beside it
+    for text in texts.values():
+        for target in re.findall(r'href="(dampers-[^"#]+)', text):
+            assert (tmp_path / target).is_file()
+
+
+def test_the_index_keeps_pages_of_ground_dampers(tmp_path: Path) -> None:
+    (tmp_path / "dampers-3-damped.html").write_text("", encoding="utf-8")
+    texts = {
+        p.name: p.read_text(encoding="utf-8") for p in write_report([catalog(3, damped=True)], tmp_path) if p.suffix == ".html"
+    }
+    assert "88 models, 3,828 pairs" in texts["index.html"] and 'href="dampers-3-damped.html"' in texts["chains-3-damped.html"]
+    assert "dampers-3-damped.html" not in texts and not (tmp_path / "dampers-3-damped.html").read_text(encoding="utf-8")
 
 
 def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from disting.fit.select import Candidate
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.axes import degrees, logarithmic, spread
-from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import name, readable, response_unit, result_unit
 
 if TYPE_CHECKING:
@@ -26,22 +26,25 @@ POINTS = 1200  # of the model's line
 PEAK = 1 / sqrt(2)  # damping ratio from which on a second-order factor has no extremum
 HIGHEST = 20.0  # phases are shown below this angle and 90 for each differentiation [degree]
 EDGE = 1.02  # the diagram is this much wider than the data, on either side
-LABEL = 0.085  # room of a label, in widths of the diagram
+LABEL, SHORT_LABEL = 0.75, 0.48  # room of a label [inch]
+FRAME = 0.9  # of the figure's width that is not the diagram's [inch]
+MANY = 120  # lines of one measurement from which on its points are drawn smaller
+CLEAN = 0.9  # coherence: if no line is below, the axis begins here
 SIGNS = {"antiresonance": "▽", "resonance": "△"}
 MARKERS = {"antiresonance": "v", "resonance": "^"}
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A resonance or antiresonance [Hz] that shows in the measured band."""
+    """A resonance or antiresonance [Hz] that shows in the measured band, with its damping ratio."""
 
     kind: str
     frequency: float
+    damping: float
 
-    @property
-    def label(self) -> str:
-        """Sign and frequency."""
-        return f"{SIGNS[self.kind]} {readable(self.frequency)} Hz"
+    def label(self, unit: str = " Hz") -> str:
+        """Sign, frequency and damping ratio, in two lines."""
+        return f"{SIGNS[self.kind]} {readable(self.frequency)}{unit}\nζ {readable(self.damping, 2)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,22 +81,31 @@ def bode(
     strips = any(s.measured.coherence is not None for s in series)
 
     def draw(figure: "Figure") -> None:
+        """Amplitude, phase and coherence, one below the other."""
         panels = figure.subplots(2 + strips, 1, sharex=True, height_ratios=[3, 1.8, 0.7][: 2 + strips])
         low, high = line.omega[0] / (2 * pi) / EDGE, line.omega[-1] / (2 * pi) * EDGE
         panels[0].set_xscale("log")
         panels[0].set_xlim(low, high)
         logarithmic(panels[-1].xaxis, low, high)
-        _amplitude(panels[0], line, series, asymptotes(candidate.chain, results, line.omega, train))
+        inertias = asymptotes(candidate.chain, results, line.omega, train)
+        _amplitude(panels[0], line, series, [(_short(label) if is_narrow(figure) else label, y) for label, y in inertias])
         _phase(panels[1], line, series)
         if strips:
             _coherence(panels[2], series)
-        _marks(panels[0], panels[1], line, marks(results, line.omega))
+        _marks(panels[0], panels[1], line, marks(results, line.omega), figure.get_figwidth() - FRAME)
         panels[-1].set_xlabel("Frequency [Hz]")
-        figure.suptitle(f"Measured response and model: {name(candidate.chain)}", x=0.01, ha="left", size=10.5, weight="bold")
-        figure.legend(loc="outside lower center", ncols=4, columnspacing=2)
+        heading(figure, f"Measured response and model: {name(candidate.chain)}")
+        figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 4, columnspacing=2)
 
-    said = ", ".join(f"{m.kind} {readable(m.frequency)} Hz" for m in marks(results, line.omega))
-    return drawn("bode", f"Bode diagram of {name(candidate.chain)} and the data. {said}", (9.4, 6.4 + 0.8 * strips), draw)
+    found = marks(results, line.omega)
+    said = ", ".join(f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}" for m in found)
+    title = f"Bode diagram of {name(candidate.chain)} and the data. {said}"
+    return drawn("bode", title, (6.4 + 0.8 * strips, 5.8 + 0.8 * strips), draw)
+
+
+def _short(label: str) -> str:
+    """An asymptote's name without its value."""
+    return " ".join(label.split()[:2])
 
 
 def model_line(candidate: Candidate, task: Task, measured: Sequence[FrequencyResponse]) -> Line:
@@ -111,7 +123,7 @@ def marks(results: Sequence[Result], omega: Real) -> list[Mark]:
     values = {r.name: r.value for r in results}
     low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
     found = [
-        Mark(kind, value)
+        Mark(kind, value, values[f"damping ratio of {key}"])
         for key, value in values.items()
         for kind in MARKERS
         if key.startswith(kind) and low <= value <= high and values[f"damping ratio of {key}"] < PEAK
@@ -149,6 +161,7 @@ def _amplitude(panel: "Axes", line: Line, series: Sequence[Series], inertias: Se
     low, high = shown.min() / 1.4, shown.max() * 1.4
     panel.set_ylim(low, high)
     logarithmic(panel.yaxis, low, high)
+    panel.grid(which="minor", linewidth=0.35)
     of = response_unit(series[0].measured)
     panel.set_ylabel(f"Amplitude [{of}]" if of else f"Amplitude, {series[0].measured.sensor.value} per input")
 
@@ -158,6 +171,7 @@ def _phase(panel: "Axes", line: Line, series: Sequence[Series]) -> None:
         _points(panel, s, line.phase_of(s.measured))
     panel.plot(line.omega / (2 * pi), line.phase, color=Tone.INK, linewidth=1.5, zorder=3)
     degrees(panel.yaxis, float(line.phase.max() - line.phase.min()))
+    panel.grid(which="minor", axis="x", linewidth=0.35)
     panel.set_ylabel("Phase")
 
 
@@ -165,8 +179,10 @@ def _coherence(panel: "Axes", series: Sequence[Series]) -> None:
     for s in series:
         if s.measured.coherence is not None:
             _points(panel, s, s.measured.coherence)
-    panel.set_ylim(0, 1.08)
-    panel.set_yticks([0, 0.5, 1])
+    lowest = min(float(s.measured.coherence.min()) for s in series if s.measured.coherence is not None)
+    floor = CLEAN if lowest >= CLEAN else 0.0
+    panel.set_ylim(floor, 1 + 0.1 * (1 - floor))
+    panel.set_yticks([floor, (1 + floor) / 2, 1])
     panel.set_ylabel("Coherence")
 
 
@@ -176,7 +192,7 @@ def _points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
         values,
         linestyle="none",
         marker=s.marker,
-        markersize=3.6 if s.marker == "o" else 4.6,
+        markersize=(3.6 if s.marker == "o" else 4.6) * (0.7 if len(values) > MANY else 1.0),
         markerfacecolor="none",
         markeredgecolor=s.tone,
         markeredgewidth=0.9,
@@ -185,17 +201,22 @@ def _points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
     )
 
 
-def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark]) -> None:
-    """Signs on the model's line, thin lines through both panels, and labels above that keep their distance."""
+def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark], width: float) -> None:
+    """Signs on the model's line, thin lines through both panels, and labels above that keep their distance.
+
+    `width` of the panels [inch]; where it is scarce, the labels go without their unit.
+    """
     low, high = top.get_xlim()
     places = [log(m.frequency / low) / log(high / low) for m in found]
-    labels = spread(places, min(LABEL, 1 / max(len(found), 1)))
+    unit = " Hz" if LABEL * len(found) <= width else ""
+    labels = spread(places, min((LABEL if unit else SHORT_LABEL) / width, 1 / max(len(found), 1)))
     for kind, marker in MARKERS.items():
         at = [m.frequency for m in found if m.kind == kind]
         heights = np.interp(np.array(at), line.omega / (2 * pi), np.abs(line.G))
-        top.plot(at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=kind if at else "")
+        said = f"{kind}, ζ damping ratio" if at else ""
+        top.plot(at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=said)
     for mark, place, label in zip(found, places, labels, strict=True):
         for panel in (top, below):
             panel.axvline(mark.frequency, color=Tone.MUTED, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1)
         top.plot([place, label], [1.0, 1.035], transform=top.transAxes, color=Tone.MUTED, linewidth=0.7, clip_on=False)
-        top.text(label, 1.045, mark.label, transform=top.transAxes, ha="center", va="bottom", size=8.5)
+        top.text(label, 1.045, mark.label(unit), transform=top.transAxes, ha="center", va="bottom", size=8.5)

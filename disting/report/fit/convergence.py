@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.estimate import REACHED, Task
+from disting.fit.plant import Real
 from disting.fit.select import Candidate
 from disting.fit.sweep import Profile
 from disting.report.fit.axes import logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import percent, readable, unit_of
 
 if TYPE_CHECKING:
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LOWEST = 1e-12  # of the highest cost: what is below is drawn here, a perfect fit too
-COLUMNS = 3  # of the profiles
+COLUMNS, NARROW_COLUMNS = 3, 2  # of the profiles
+LIMIT = 1.96**2  # of (ln p/p0)^2 / sigma^2 that 95 % of all measurements stay below, were the model linear
 
 
 def hits(candidate: Candidate) -> int:
@@ -42,9 +44,11 @@ def waterfall(candidate: Candidate) -> Drawn:
     title = f"Cost from each start, sorted: {hits_in_words(candidate)}"
 
     def draw(figure: "Figure") -> None:
+        """A point a start, in rising order."""
         panel = figure.subplots()
         place = np.arange(1, len(costs) + 1)
         shown = np.maximum(costs, best)
+        panel.plot(place, shown, color=Tone.RULE, linewidth=1.2, zorder=1.5)
         for chosen, inside, edge, label in (
             (hit, Tone.FIRST, Tone.FIRST, "reached the best cost"),
             (~hit, "none", Tone.SECOND, "stopped above it"),
@@ -57,45 +61,64 @@ def waterfall(candidate: Candidate) -> Drawn:
         panel.set_ylim(low, high)
         panel.set_xlim(0, len(costs) + 1)
         logarithmic(panel.yaxis, low, high)
-        panel.set_xlabel("Start")
+        panel.set_xlabel("Start, by rising cost")
         panel.set_ylabel("Cost J on training data")
-        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
-        figure.legend(loc="outside lower center", ncols=3)
+        heading(figure, title)
+        figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3)
 
-    return drawn("starts", title, (9.4, 3.5), draw)
+    return drawn("starts", title, (3.5, 3.6), draw)
 
 
 def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]) -> Drawn:
     """Smallest cost at each value of a parameter, beside the parabola that its standard error stands for."""
-    rows = ceil(len(profiles) / COLUMNS)
     title = "Smallest cost at each value of one parameter, all others fitted anew"
 
+    def rows(columns: int) -> int:
+        """So many rows of panels."""
+        return ceil(len(profiles) / columns)
+
     def draw(figure: "Figure") -> None:
-        panels = figure.subplots(rows, COLUMNS, squeeze=False).ravel()
-        for panel, found in zip(panels, profiles, strict=False):
-            _profile(panel, candidate, task, found)
+        """A panel a parameter."""
+        columns = NARROW_COLUMNS if is_narrow(figure) else COLUMNS
+        panels = figure.subplots(rows(columns), columns, squeeze=False).ravel()
+        for place, (panel, found) in enumerate(zip(panels, profiles, strict=False)):
+            _profile(panel, candidate, task, found, unit=not is_narrow(figure))
+            if place + columns >= len(profiles):
+                panel.set_xlabel("Change [%]")
         for panel in panels[len(profiles) :]:
             panel.remove()
         panels[0].plot([], [], "-o", ms=4, color=Tone.FIRST, label="profile")
         panels[0].plot([], [], color=Tone.SECOND, linestyle=(0, (5, 3)), label="as the standard error predicts")
-        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
+        panels[0].plot([], [], color=Tone.MUTED, linestyle=(0, (1, 2)), label="limit of the 95 % interval")
+        heading(figure, title)
         figure.supylabel("Cost J on training data", size=9)
         handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+        figure.legend(handles, labels, loc="outside lower center", ncols=1 if is_narrow(figure) else 3)
 
-    return drawn("profiles", title, (9.4, 1.0 + 2.1 * rows), draw)
+    return drawn("profiles", title, (1.0 + 2.1 * rows(COLUMNS), 1.7 + 1.9 * rows(NARROW_COLUMNS)), draw)
 
 
-def _profile(panel: "Axes", candidate: Candidate, task: Task, found: Profile) -> None:
+def _profile(panel: "Axes", candidate: Candidate, task: Task, found: Profile, *, unit: bool) -> None:
     """J(p) and J (1 + (ln p/p0)^2 / (sigma^2 (n_y - N_p))), what it would be were the model linear in ln p."""
+    from matplotlib.ticker import FuncFormatter
+
     best, sigma = candidate.estimate.parameters[found.name], candidate.practical.relative_errors[found.name]
     freedom = task.cost.n_residuals - candidate.n_parameters
     fine = np.geomspace(found.values[0], found.values[-1], 60)
     if np.isfinite(sigma) and freedom > 0:
         parabola = candidate.j_train * (1 + (np.log(fine / best) / sigma) ** 2 / freedom)
-        panel.plot(fine, parabola, color=Tone.SECOND, linestyle=(0, (5, 3)), linewidth=1.2)
-    panel.plot(found.values, found.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2)
-    panel.axvline(best, color=Tone.MUTED, linewidth=0.8)
-    panel.set_title(f"{found.name} [{unit_of(found.name[0], task.cost.measured)}]", weight="normal")
+        panel.plot(_change(fine, best), parabola, color=Tone.SECOND, linestyle=(0, (5, 3)), linewidth=1.2)
+        limit = candidate.j_train * (1 + LIMIT / freedom)
+        panel.axhline(limit, color=Tone.MUTED, linestyle=(0, (1, 2)), linewidth=1.2)
+    panel.plot(_change(found.values, best), found.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2)
+    panel.axvline(0, color=Tone.MUTED, linewidth=0.8)
+    of = f" {unit_of(found.name[0], task.cost.measured)}" if unit else ""
+    panel.set_title(f"{found.name} = {readable(best)}{of}", weight="normal")
     panel.ticklabel_format(axis="y", useOffset=False)
     panel.locator_params(axis="x", nbins=4)
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: readable(value).replace("-", "−")))
+
+
+def _change(values: Real, best: float) -> Real:
+    """Relative change in percent."""
+    return np.asarray(100 * (values / best - 1))

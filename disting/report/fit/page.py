@@ -1,7 +1,7 @@
 """A selection as one HTML page that needs nothing else: the result first, then why, then how sure."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from markupsafe import Markup
 
@@ -9,16 +9,15 @@ import disting
 from disting.fit.alternatives import Alternative
 from disting.fit.estimate import Task
 from disting.fit.modes import Result
-from disting.fit.practical import Thresholds
 from disting.fit.select import Candidate, Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.fit.convergence import hits, hits_in_words
+from disting.report.fit.criteria import limits, nearest, shown, weakest
 from disting.report.fit.style import Drawn
-from disting.report.fit.thresholds import TITLES
-from disting.report.fit.words import cost_in_words, name, percent, readable, result_unit, unit_of, with_error
+from disting.report.fit.words import cost_in_words, error_in_percent, name, percent, readable, result_unit, unit_of, with_error
 from disting.report.scene import PAGE_PALETTE
 from disting.report.svg import body, number
 from disting.report.words import listed, plural
@@ -44,20 +43,6 @@ class Row:
     unit: str
     percent: str
     remark: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """A criterion of the shown candidate and its threshold."""
-
-    title: str
-    value: float
-    threshold: float
-
-    @property
-    def holds(self) -> bool:
-        """Whether it is fulfilled."""
-        return self.value <= self.threshold
 
 
 def fit_page(
@@ -99,26 +84,6 @@ def fit_page(
     )
 
 
-def shown(selection: Selection) -> Candidate:
-    """The candidate that a report describes: the selected one, else the nearest to being admissible."""
-    return selection.selected or nearest(selection)[0]
-
-
-def nearest(selection: Selection) -> list[Candidate]:
-    """Excluded candidates, those first whose worst criterion exceeds its threshold by the smallest factor."""
-    return sorted((c for c in selection.candidates if not c.admissible), key=lambda c: _excess(c, selection.thresholds))
-
-
-def _excess(candidate: Candidate, thresholds: Thresholds) -> float:
-    return max(limit.value / limit.threshold for limit in limits(candidate, thresholds))
-
-
-def limits(candidate: Candidate, thresholds: Thresholds) -> list[Limit]:
-    """The three criteria."""
-    names = [f.name for f in fields(thresholds)]
-    return [Limit(TITLES[n], getattr(candidate.practical, n), getattr(thresholds, n)) for n in names]
-
-
 def drawing(chain: Chain) -> Markup:
     """The chain as an engineer sketches it."""
     scene = draw(chain)
@@ -135,7 +100,9 @@ def result_row(found: Result, measured: FrequencyResponse) -> Row:
     outside = found.unit == "Hz" and not low <= found.value <= high
     remark = "outside the measured band" if outside else ""
     what = "its damping ratio" if found.name.startswith("damping ratio") else found.name  # follows its mode
-    return Row(what, with_error(found.value, found.standard_error), result_unit(found, measured), percent(share), remark)
+    return Row(
+        what, with_error(found.value, found.standard_error), result_unit(found, measured), error_in_percent(share), remark
+    )
 
 
 def parameter_rows(candidate: Candidate, task: Task, measured: FrequencyResponse) -> list[Row]:
@@ -148,14 +115,9 @@ def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) 
     if n in task.fixed:
         return Row(n, readable(value, 6), of, "", "fixed")
     share = candidate.practical.relative_errors[n]
-    return Row(n, with_error(value, share * value), of, percent(share), "at its bound" if n in candidate.at_bound else "")
-
-
-def weakest(candidate: Candidate) -> str:
-    """The combination of parameters that the data determine least, such as "ln k12 + 0.81 ln m2"."""
-    terms = sorted(candidate.practical.worst_direction.items(), key=lambda row: -abs(row[1]))
-    texts = [("− " if v < 0 else "+ ") + (f"{abs(v):.2g} " if abs(v) < 0.995 else "") + f"ln {n}" for n, v in terms]
-    return " ".join(texts).removeprefix("+ ")
+    return Row(
+        n, with_error(value, share * value), of, error_in_percent(share), "at its bound" if n in candidate.at_bound else ""
+    )
 
 
 def reasoning(selection: Selection) -> list[tuple[str, str]]:

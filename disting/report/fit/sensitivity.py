@@ -9,7 +9,7 @@ from disting.fit.plant import Real
 from disting.fit.practical import Thresholds, collinearity_by_subset
 from disting.fit.select import Candidate
 from disting.report.fit.axes import logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn:
     title = f"Importance of each parameter: largest / smallest = {ratio}, allowed {readable(thresholds.importance_ratio)}"
 
     def draw(figure: "Figure") -> None:
+        """A bar a parameter, the most important on top."""
         panel = figure.subplots()
         names, values = [name for name, _ in rows], np.array([value for _, value in rows])
         tones = [Tone.FIRST if value >= least else Tone.SECOND for value in values]
@@ -49,10 +50,11 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn:
         )  # fmt: skip
         panel.grid(axis="y", visible=False)
         logarithmic(panel.xaxis, floor, highest * 2.2)
-        panel.set_xlabel("Importance: change of the residuals for a relative change of the parameter")
-        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
+        parted = "\n" if is_narrow(figure) else " "
+        panel.set_xlabel(f"Importance: change of the residuals{parted}for a relative change of the parameter")
+        heading(figure, title)
 
-    return drawn("importance", title, (9.4, 1.5 + 0.29 * len(rows)), draw)
+    return drawn("importance", title, (1.5 + 0.29 * len(rows), 2.0 + 0.29 * len(rows)), draw)
 
 
 def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) -> Drawn | None:
@@ -65,9 +67,11 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
     indices = np.array([index for _, index in found])
     pair, worst = max((row for row in found if len(row[0]) == 2), key=lambda row: row[1])
     both = " and ".join(names[i] for i in pair)
-    title = f"Collinearity of sets of parameters: all {len(names)} {_index(indices[-1])}, worst pair {both} {_index(worst)}"
+    values = f"{_index(indices[-1])} for all {len(names)}, {_index(worst)} for the worst pair, {both}"
+    title = f"Collinearity of sets of parameters: {values}"
 
     def draw(figure: "Figure") -> None:
+        """A dot a set, by its size."""
         panel = figure.subplots()
         dots = np.unique(np.stack([sizes, np.round(np.log10(indices) / ONE_DOT)]), axis=1)
         panel.semilogy(dots[0], 10 ** (dots[1] * ONE_DOT), "o", ms=4, mfc="none", mec=Tone.FIRST, mew=0.9, label="one set")
@@ -83,10 +87,10 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
         logarithmic(panel.yaxis, 0.9, top)
         panel.set_xlabel("Parameters in the set")
         panel.set_ylabel("Collinearity index")
-        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
-        figure.legend(loc="outside lower center", ncols=3)
+        heading(figure, title)
+        figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3)
 
-    return drawn("collinearity", title, (9.4, 3.7), draw)
+    return drawn("collinearity", title, (3.7, 4.0), draw)
 
 
 def _index(value: float) -> str:

@@ -1,7 +1,9 @@
 """One look for all figures of a fit, and files that repeat byte by byte.
 
 A figure is drawn in few tones. In a file they are colours; in the page each becomes a variable of the style sheet, which knows
-light and dark. Settings of the user's matplotlib, dates and version names do not enter the files, and no global state remains.
+light and dark. Every figure is drawn twice, wide for files and screens, narrow for phones, with letters of one size; the page
+shows the one that fits. Settings of the user's matplotlib, dates and version names do not enter the files, and no global state
+remains.
 """
 
 import re
@@ -9,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from io import BytesIO
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup, escape
@@ -17,6 +20,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 RESOLUTION = 200  # pixels an inch of a PNG
+WIDE, NARROW = 9.4, 4.2  # inches
+POINTS = 72  # an inch
+TITLE_SIZE = 10.5  # points
+LETTER = 0.65  # width of a bold letter, in its size
 
 
 class Tone(StrEnum):
@@ -84,34 +91,57 @@ METADATA: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A figure: its file name without ending, what it shows in words, and its files."""
+    """A figure: its file name without ending, what it shows in words, its files, and an SVG for phones."""
 
     name: str
     title: str
     svg: bytes
     png: bytes
     pdf: bytes
+    narrow: bytes
 
     @property
     def inline(self) -> Markup:
-        """The SVG as an element of a page: tones as variables, ids that no other figure has, no reference to elsewhere."""
-        return inlined(self.svg.decode(), self.name, self.title)
+        """The SVGs as elements of a page, of which the style sheet shows one."""
+        return self.inline_as(self.name)
+
+    def inline_as(self, name: str) -> Markup:
+        """The same with ids that begin with another name than the figure's own."""
+        wide = inlined(self.svg.decode(), name, self.title, "wide")
+        return wide + inlined(self.narrow.decode(), f"{name}-n", self.title, "narrow")
 
 
-def drawn(name: str, title: str, size: tuple[float, float], draw: Callable[["Figure"], None]) -> Drawn:
-    """SVG, PNG and PDF of what `draw` draws into a figure of `size` [inch]."""
+def drawn(name: str, title: str, heights: tuple[float, float], draw: Callable[["Figure"], None]) -> Drawn:
+    """SVG, PNG and PDF of what `draw` draws into a figure; `heights` [inch] of the wide and of the narrow one."""
     import matplotlib
-    from matplotlib.figure import Figure
 
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(SETTINGS)
-        figure = Figure(figsize=size)
-        draw(figure)
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")  # the layout found once serves all files
-        files = {kind: _file(figure, kind) for kind in METADATA}
-    return Drawn(name, title, **files)
+        wide, narrow = _laid_out(WIDE, heights[0], draw), _laid_out(NARROW, heights[1], draw)
+        files = {kind: _file(wide, kind) for kind in METADATA}
+        return Drawn(name, title, **files, narrow=_file(narrow, "svg"))
+
+
+def _laid_out(width: float, height: float, draw: Callable[["Figure"], None]) -> "Figure":
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height))
+    draw(figure)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")  # the layout found once serves all files
+    return figure
+
+
+def is_narrow(figure: "Figure") -> bool:
+    """Whether it is drawn for a phone: panels one below the other, fewer columns in the legend."""
+    return bool(figure.get_figwidth() < WIDE)
+
+
+def heading(figure: "Figure", text: str) -> None:
+    """The title, at the left, in as many lines as it needs."""
+    room = int(figure.get_figwidth() * POINTS / (TITLE_SIZE * LETTER))
+    figure.suptitle("\n".join(wrap(text, room)), x=0.01, ha="left", size=TITLE_SIZE, weight="bold")
 
 
 def _file(figure: "Figure", kind: str) -> bytes:
@@ -120,8 +150,10 @@ def _file(figure: "Figure", kind: str) -> bytes:
     return buffer.getvalue()
 
 
-def inlined(svg: str, name: str, title: str) -> Markup:
-    """A stand-alone SVG of matplotlib as part of an HTML page.
+def inlined(svg: str, name: str, title: str, width: str) -> Markup:
+    """A stand-alone SVG of matplotlib as part of an HTML page; `width`: its class there, wide or narrow.
+
+    Tones become variables, coordinates hundredths of a point; no other figure has its ids, and nothing refers to elsewhere.
 
     Its own style rule, which would act on the whole page, becomes attributes of the root.
     """
@@ -131,9 +163,27 @@ def inlined(svg: str, name: str, title: str) -> Markup:
         raise ValueError("this is no SVG")
     text = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>|<style.*?</style>", "", body[1], flags=re.DOTALL)
     text = text.replace("xlink:href", "href")
-    text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text)
+    text = _with_own_ids(text, name)
     for tone, variable in VARIABLES.items():
         text = text.replace(tone.value, f"var(--{variable})")
-    text = re.sub(r"\n\s*", "\n", text)
+    text = re.sub(r'( d="| x="| y="|translate\()([^")]*)', lambda m: m[1] + re.sub(r"(\.\d\d)\d+", r"\1", m[2]), text)
+    text = re.sub(r"<g([^>]*)>\s*((?:<use [^>]*/>\s*)+)</g>", _with_common_style, re.sub(r"\n\s*", "\n", text))
     attributes = f'viewBox="{box[1]}" role="img" aria-label="{escape(title)}" stroke-linejoin="round" stroke-linecap="butt"'
-    return Markup(f'<svg class="plot" {attributes}>{text}</svg>')
+    return Markup(f'<svg class="plot {width}" {attributes}>{text}</svg>')
+
+
+def _with_own_ids(text: str, name: str) -> str:
+    """Ids that are referred to as NAME-1, NAME-2, ..., and no others."""
+    old = dict.fromkeys(re.findall(r'(?:href="#|url\(#)([^")]*)', text))
+    new = {key: f"{name}-{n}" for n, key in enumerate(old, 1)}
+    text = re.sub(r'\s+id="([^"]*)"', lambda m: f' id="{new[m[1]]}"' if m[1] in new else "", text)
+    return re.sub(r'(href="#|url\(#)([^")]*)', lambda m: m[1] + new[m[2]], text)
+
+
+def _with_common_style(group: re.Match[str]) -> str:
+    """Markers of one style with this style at their group: a measurement has hundreds of them."""
+    found = set(re.findall(r' style="[^"]*"', group[2]))
+    if len(found) != 1 or "style=" in group[1]:
+        return group[0]
+    (style,) = found
+    return f"<g{group[1]}{style}>{group[2].replace(style, '')}</g>"

@@ -10,7 +10,7 @@ from disting.fit.practical import Thresholds
 from disting.fit.select import Candidate
 from disting.fit.sweep import CRITERIA, Sweep, sweep
 from disting.report.fit.axes import logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ TITLES = {
     "importance_ratio": "largest / smallest importance (PII)",
     "collinearity": "collinearity index",
 }
+
+CROWDED = 0.3  # share of the height below which the line would meet a note at the foot of the panel
 
 
 def parameters_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
@@ -47,16 +49,20 @@ def _panels(
     """One panel a criterion, the threshold in use dashed, its value written beside it."""
 
     def draw(figure: "Figure") -> None:
-        panels = figure.subplots(1, len(CRITERIA), sharey=True)
+        """A panel a criterion, side by side or one below the other."""
+        narrow = is_narrow(figure)
+        panels = figure.subplots(*((len(CRITERIA), 1) if narrow else (1, len(CRITERIA))), sharey=True)
         for panel, criterion in zip(panels, CRITERIA, strict=True):
             found = sweep(candidates, criterion)
             _steps(panel, found.thresholds, values(found), getattr(thresholds, criterion))
             panel.set_title(TITLES[criterion], weight="normal")
+        for panel in panels[-1:] if narrow else panels:
             panel.set_xlabel("Threshold")
-        panels[0].set_ylabel(counted)
-        figure.suptitle(title, x=0.01, ha="left", size=10.5, weight="bold")
+        for panel in panels if narrow else panels[:1]:
+            panel.set_ylabel(counted)
+        heading(figure, title)
 
-    return drawn(name, title, (9.4, 3.1), draw)
+    return drawn(name, title, (3.1, 5.6), draw)
 
 
 def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:
@@ -79,7 +85,8 @@ def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:
     else:
         note = f"in use: {readable(used)}"
     side, place = "right" if used > 100 else "left", min(max(used, thresholds[0]), thresholds[-1])
+    low = float(np.interp(place, thresholds, counts)) < CROWDED * panel.get_ylim()[1]
     panel.annotate(
-        note, (place, 0.03), xycoords=("data", "axes fraction"), xytext=(-5 if side == "right" else 5, 0),
+        note, (place, 0.78 if low else 0.03), xycoords=("data", "axes fraction"), xytext=(-5 if side == "right" else 5, 0),
         textcoords="offset points", ha=side, va="bottom", color=Tone.SECOND, size=8.5,
     )  # fmt: skip

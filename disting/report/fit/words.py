@@ -10,6 +10,7 @@ from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
 
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
+UNDETERMINED = 10.0  # relative standard error above which a value is called not determined
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOTIONS = {"m": Sensor.ACCELERATION, "d": Sensor.VELOCITY, "b": Sensor.VELOCITY, "k": Sensor.POSITION}
 SIMPLE = {  # what a quotient of units is usually called
@@ -62,7 +63,7 @@ def with_error(value: float, error: float) -> str:
     >>> with_error(53.8927, 0.0448), with_error(0.00478339, 0.0000182), with_error(548.966, 2.596), with_error(2.0, inf)
     ('53.893 ± 0.045', '(4.783 ± 0.018)·10⁻³', '549.0 ± 2.6', '2 (not determined)')
     """
-    if not isfinite(error) or error > abs(value) * 10:
+    if not isfinite(error) or error > abs(value) * UNDETERMINED:
         return f"{readable(value)} (not determined)"
     if error <= NEGLIGIBLE * abs(value):
         return readable(value, 8)
@@ -82,6 +83,15 @@ def percent(share: float) -> str:
     if 0 < share < NEGLIGIBLE:
         return f"< {readable(100 * NEGLIGIBLE)} %"
     return f"{readable(100 * share, 2)} %" if isfinite(share) else "∞"
+
+
+def error_in_percent(share: float) -> str:
+    """A relative standard error in percent, where the value is determined at all.
+
+    >>> error_in_percent(0.0038), error_in_percent(inf)
+    ('0.38 %', '–')
+    """
+    return "–" if not share <= UNDETERMINED else percent(share)
 
 
 def name(chain: Chain) -> str:

@@ -14,7 +14,8 @@ from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
-from disting.report.fit.page import fit_page, shown
+from disting.report.fit.criteria import shown
+from disting.report.fit.page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold

@@ -6,7 +6,7 @@ from disting.fit.modes import physical
 from disting.model.family import Family
 from disting.paper import Findings
 from disting.report.fit.bode import bode
-from disting.report.fit.page import shown
+from disting.report.fit.criteria import shown
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
 from disting.report.paper.picture import Picture, of_plot, of_scene
 from disting.report.paper.refit import refit_figure
@@ -56,7 +56,8 @@ def _of_verdicts(findings: Findings) -> Iterator[Picture]:
         )
         printed = f"Fig. {name.removeprefix('figure-')}"
         caption = f"The eleven 3-mass models {without}, by conditions 1 to 7; a field shows the condition that decides."
-        yield of_scene(name, printed, caption, triangles(f"{printed}: {caption}", panels, 2, 24.0))
+        title = f"{printed}: {caption}"
+        yield of_scene(name, printed, caption, triangles(title, panels, 2, 24.0), triangles(title, panels, 1, 24.0))
 
 
 def _figure_12(findings: Findings) -> Picture:
@@ -77,4 +78,5 @@ def _of_larger_sets(findings: Findings) -> Iterator[Picture]:
     )
     family = enumerate(Family(3, damped=True), 1)
     panels = tuple(of_dampers(f"A{number}", findings.dampers(chain)) for number, chain in family)
-    yield of_scene("figure-14", "Fig. 14", caption, triangles(f"Fig. 14: {caption}", panels, 4, 30.0))
+    title = f"Fig. 14: {caption}"
+    yield of_scene("figure-14", "Fig. 14", caption, triangles(title, panels, 4, 30.0), triangles(title, panels, 2, 26.0))

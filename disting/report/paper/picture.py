@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from disting.report.fit.style import Drawn, inlined
+from disting.report.fit.style import Drawn
 from disting.report.paper.pdf import pdf
 from disting.report.png import png
 from disting.report.scene import PAGE_PALETTE, Scene
@@ -22,15 +22,18 @@ class Picture:
     inline: Markup
 
 
-def of_scene(name: str, printed: str, caption: str, scene: Scene) -> Picture:
-    """A picture of a scene; in the page its colours are those of the style sheet."""
-    box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    opening = Markup('<svg class="plot triangles" viewBox="{}" style="max-width:{}px" role="img" aria-label="{}">')
-    inline = opening.format(box, number(scene.width), scene.title) + Markup(body(scene, PAGE_PALETTE) + "</svg>")
+def of_scene(name: str, printed: str, caption: str, scene: Scene, narrow: Scene | None = None) -> Picture:
+    """A picture of a scene, in the page with the colours of the style sheet; `narrow` is shown on phones instead, if given."""
+    inline = _inline(scene, "wide") + _inline(narrow, "narrow") if narrow else _inline(scene, "both")
     return Picture(name, printed, caption, ((".svg", svg(scene).encode()), (".png", png(scene)), (".pdf", pdf(scene))), inline)
+
+
+def _inline(scene: Scene, width: str) -> Markup:
+    box = f"0 0 {number(scene.width)} {number(scene.height)}"
+    opening = Markup('<svg class="plot triangles {}" viewBox="{}" style="max-width:{}px" role="img" aria-label="{}">')
+    return opening.format(width, box, number(scene.width), scene.title) + Markup(body(scene, PAGE_PALETTE) + "</svg>")
 
 
 def of_plot(name: str, printed: str, caption: str, plot: Drawn) -> Picture:
     """A picture of a plot, whatever name the plot has by itself."""
-    inline = inlined(plot.svg.decode(), name, plot.title)
-    return Picture(name, printed, caption, ((".svg", plot.svg), (".png", plot.png), (".pdf", plot.pdf)), inline)
+    return Picture(name, printed, caption, ((".svg", plot.svg), (".png", plot.png), (".pdf", plot.pdf)), plot.inline_as(name))

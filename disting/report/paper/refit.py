@@ -9,7 +9,7 @@ from disting.fit.export import predicted
 from disting.fit.plant import Complex
 from disting.paper import Refit
 from disting.report.fit.axes import degrees, logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
@@ -25,19 +25,22 @@ def refit_figure(refit: Refit) -> Drawn:
     fitted = predicted(refit.fitted, dict(refit.fitted_parameters), refit.measured.omega)
 
     def draw(figure: "Figure") -> None:
-        grid = figure.add_gridspec(2, 2, width_ratios=[1.9, 1], height_ratios=[2, 1.2])
-        top = figure.add_subplot(grid[0, 0])
-        below = figure.add_subplot(grid[1, 0], sharex=top)
+        """The Bode diagram, and the damping ratios beside it or, on a phone, below."""
+        if is_narrow(figure):
+            grid = figure.add_gridspec(3, 1, height_ratios=[2, 1.2, 1.9])
+            places = (grid[0, 0], grid[1, 0], grid[2, 0])
+        else:
+            grid = figure.add_gridspec(2, 2, width_ratios=[1.9, 1], height_ratios=[2, 1.2])
+            places = (grid[0, 0], grid[1, 0], grid[:, 1])
+        top = figure.add_subplot(places[0])
         _amplitude(top, refit, fitted)
-        _phase(below, refit, fitted)
-        _damping(figure.add_subplot(grid[:, 1]), refit)
+        _phase(figure.add_subplot(places[1], sharex=top), refit, fitted)
+        _damping(figure.add_subplot(places[2]), refit)
         figure.legend(*top.get_legend_handles_labels(), loc="outside lower left", ncols=2)
-        figure.suptitle(
-            "The best A4 has the resonances of A1, but not their damping", x=0.01, ha="left", size=10.5, weight="bold"
-        )
+        heading(figure, "The best A4 has the resonances of A1, but not their damping")
 
     said = "; ".join(f"{m.name}: damping {readable(m.damping[0])} and {readable(m.damping[1])}" for m in refit.modes)
-    return drawn("figure-12", f"Bode diagrams of A1 and of A4 fitted to it. {said}", (9.4, 4.9), draw)
+    return drawn("figure-12", f"Bode diagrams of A1 and of A4 fitted to it. {said}", (4.9, 7.6), draw)
 
 
 def _amplitude(panel: "Axes", refit: Refit, fitted: Complex) -> None:

@@ -7,14 +7,16 @@ from itertools import combinations
 from disting.catalogs import Catalog
 from disting.catalogs.dampers import DamperTable, spelled
 from disting.engine import Decisions
-from disting.report.matrix import CORNERS, LETTERS, SAID, _corner, _field
+from disting.report.fields import CORNERS, LETTERS, corner, field, legend, legend_entry, legend_width
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
 from disting.report.words import SIGNS
 from disting.verdict import RULE_NAMES, Relation, View
 
 MARGIN = 16.0
 HEAD = 26.0  # a panel's title
-FOOT = 34.0  # the legend
+FOOT = 34.0  # the legend, in one row
+LEAST = 250.0  # width of a figure
+LINE = 24.0  # a row of the legend, where it needs more
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,9 +60,13 @@ def triangles(title: str, panels: Sequence[Panel], columns: int, cell: float) ->
         layers += _panel(panel, MARGIN + 2.0 * cell + column * width, 8 + HEAD + row * height, cell)
     rows = -(-len(panels) // columns)
     occurring = [r for r in Relation if any(r is relation for p in panels for relation, _ in p.fields.values())]
+    total = max(2 * MARGIN + min(columns, len(panels)) * width, LEAST)
     foot = 8 + rows * height + FOOT / 2
-    layers += _legend(occurring, MARGIN, foot)
-    total = max(2 * MARGIN + min(columns, len(panels)) * width, 430.0)
+    if sum(map(legend_width, occurring)) < total + LINE:
+        layers += legend(occurring, MARGIN, foot)
+    else:
+        layers += (legend_entry(relation, MARGIN, foot + i * LINE) for i, relation in enumerate(occurring))
+        foot += (len(occurring) - 1) * LINE
     return Scene(total, foot + FOOT / 2 + 4, tuple(layers), title)
 
 
@@ -72,8 +78,8 @@ def _panel(panel: Panel, x: float, y: float, cell: float) -> Iterator[Layer]:
     half = (cell - 1) / 2
     yield Layer("title", (Text(x, y - 4, panel.title, 13, anchor=Anchor.START, bold=True),))
     yield Layer("names", tuple(_names(panel.names, x, y, cell)))
-    yield Layer("fields", tuple(s for pair, (relation, _) in by_relation for s in _field(*places[pair], relation, cell)))
-    yield Layer("corners", tuple(_corner(*place, relation, cell) for place, relation in marked))
+    yield Layer("fields", tuple(s for pair, (relation, _) in by_relation for s in field(*places[pair], relation, cell)))
+    yield Layer("corners", tuple(corner(*place, relation, cell) for place, relation in marked))
     yield Layer(
         "signs", tuple(Text(a + half, b + half, sign, 0.62 * cell, LETTERS[relation]) for (a, b), relation, sign in signs)
     )
@@ -87,13 +93,3 @@ def _names(names: Sequence[str], x: float, y: float, cell: float) -> Iterator[Te
         if i:
             yield Text(x - 5, middle, name, size, Ink.MUTED, Anchor.END)
         yield Text(x + i * cell + 3, middle, name, size, Ink.MUTED, Anchor.START)
-
-
-def _legend(relations: Sequence[Relation], x: float, y: float) -> Iterator[Layer]:
-    side = 17.0
-    for relation in relations:
-        corner = (_corner(x, y - side / 2, relation, side),) if relation in CORNERS else ()
-        sign = (Text(x + side / 2, y, "n", 10.5, LETTERS[relation]),) if relation in LETTERS else ()
-        said = Text(x + 24, y, SAID[relation], 12, anchor=Anchor.START)
-        yield Layer(f"legend-{relation}", (*_field(x, y - side / 2, relation, side), *corner, *sign, said))
-        x += 46 + 6.6 * len(said.text)

@@ -9,13 +9,16 @@
     const masses = models.map((m) => m.masses).filter(Boolean);
     if (!masses.length) return ["", "Say the number of masses too, such as 5:17."];
     if (masses[0] !== masses[masses.length - 1]) return ["", `A catalogue holds one size; two sizes: disting compare ${text}`];
-    const family = sizes[`chains-${masses[0]}-${kind}`];
-    if (!family) return ["", `There is no catalogue of ${masses[0]} masses, ${kind}, here.`];
+    const dampers = models.flatMap((m) => m.dampers || []), name = `${models.some((m) => m.dampers) ? "dampers" : "chains"}-${masses[0]}-${kind}`;
+    const family = sizes[name];
+    if (!family) return ["", `There is no catalogue of ${masses[0]} masses, ${kind}${dampers.length ? ", with dampers to the ground" : ""}, here.`];
     const numbers = models.map((m) => m.number);
     const wrong = numbers.find((n) => n < 1 || n > family.models);
     if (wrong !== undefined) return ["", `That catalogue has the models 1 to ${family.models}.`];
+    if (dampers.some((mass) => mass > masses[0])) return ["", `There are the masses 1 to ${masses[0]}.`];
+    if (!family.folder) return [`${name}.html${damperHash(models)}`, ""];
     if (numbers.length === 1 || numbers[0] === numbers[1]) return [`${family.folder}/${numbers[0]}.html`, ""];
-    return [`chains-${masses[0]}-${kind}.html${pairHash(numbers)}`, ""];
+    return [`${name}.html${pairHash(numbers)}`, ""];
   };
   form.addEventListener("submit", (event) => {
     event.preventDefault();

@@ -1,7 +1,5 @@
 (() => {
-  const data = JSON.parse(document.getElementById("data").textContent);
-  const section = document.getElementById("verdicts");
-  const panel = document.getElementById("detail");
+  const data = JSON.parse(byId("data").textContent);
   const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula"];
   const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
   const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure", fibre: "one fibre", parameters: "equivalents" };
@@ -10,40 +8,26 @@
   const kind = data.damped ? "damped" : "undamped";
   const folder = `models/${data.masses}-${kind}`;
   const rule = (by) => RULES[by] || `condition ${by}`;
-  const byId = (id) => document.getElementById(id);
-  const slot = (name) => panel.querySelector(`[data-slot="${name}"]`);
   const said = { above: byId("above"), below: byId("below") };
   const views = () => [said.below.value, said.above.value];
-  let selected = null; // models, one or two, and the view: [[2, 5], "exact"]
+  const inOrder = (i, j) => (i < j ? [i, j] : [j, i]);
 
-  // ---- data: entry (high-1)(high-2)/2 + low-1 of a view; negative numbers repeat what is before them
-  const size = (data.models * (data.models - 1)) / 2;
-  const unpack = (runs) => {
-    const found = new Uint32Array(size);
-    let at = 0;
-    for (const number of runs)
-      if (number >= 0) found[at++] = number;
-      else found.fill(found[at - 1], at, (at -= number));
-    return found;
-  };
+  // ---- data: entry (high-1)(high-2)/2 + low-1 of a view
   const entries = {};
-  const entriesOf = (view) => (entries[view] ??= unpack(data.views[view]));
+  const entriesOf = (view) => (entries[view] ??= unpacked(data.views[view], (data.models * (data.models - 1)) / 2));
   const relations = data.entries.map((entry) => RELATIONS.indexOf(data.texts[entry[0]]));
-  const entry = (i, j, view) => {
-    const [low, high] = i < j ? [i, j] : [j, i];
-    return entriesOf(view)[((high - 1) * (high - 2)) / 2 + low - 1];
-  };
+  const place = (i, j) => (i > j ? ((i - 1) * (i - 2)) / 2 + j - 1 : ((j - 1) * (j - 2)) / 2 + i - 1);
+  const entry = (i, j, view) => entriesOf(view)[place(i, j)];
   const verdict = (i, j, view) => {
-    const [low, high] = i < j ? [i, j] : [j, i];
+    const [low, high] = inOrder(i, j);
     const found = Object.fromEntries(NAMES.map((name, at) => [name, data.texts[data.entries[entry(i, j, view)][at]]]));
     found.why = found.why.replaceAll("{L}", `A${low}`).replaceAll("{R}", `A${high}`);
     return found;
   };
   const short = (v) => (v.by ? `${v.relation}, ${rule(v.by)}` : v.relation);
-  const titled = (view) => data.titles[view].toLowerCase();
   const label = (i, j, view) => {
     if (i === j) return `A${i}, the model itself`;
-    return `A${Math.min(i, j)} and A${Math.max(i, j)}: ${short(verdict(i, j, view))} (${titled(view)})`;
+    return `A${Math.min(i, j)} and A${Math.max(i, j)}: ${short(verdict(i, j, view))} (${data.titles[view].toLowerCase()})`;
   };
 
   // ---- the panel of a pair or of a model
@@ -57,7 +41,6 @@
     link.textContent = `A${number}`;
     link.href = `${folder}/${number}.html`;
   };
-  const put = (texts) => Object.entries(texts).forEach(([name, text]) => (slot(name).textContent = text));
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
     put({ title: `A${low} and A${high}`, badge: v.relation, why: v.why, formula: v.formula, link: "" });
@@ -84,107 +67,68 @@
     slot("link").replaceChildren(link);
     byId("status").textContent = `A${model}. ${slot("why").textContent}`;
   };
-  const fill = ([models, view]) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
-  const hashOf = (models) => (models.length === 2 ? `#${models[0]}-${models[1]}` : `#A${models[0]}`);
-  const select = (models, view) => {
-    selected = [models, view];
-    matrix.pick(models.length === 2 ? models : [models[0], models[0]]);
-    fill(selected);
-    panel.hidden = false;
-    if (location.hash !== hashOf(models)) history.replaceState(null, "", hashOf(models));
-    panel.scrollTop = panel.parentElement.scrollTop = 0;
-    bring();
-  };
-  // the field stays in sight: above the sheet on a phone, below the upper edge elsewhere
-  const bring = () => {
-    const field = matrix.cursor();
-    const sheet = getComputedStyle(panel).position === "fixed";
-    const [top, bottom] = [60, sheet ? innerHeight - panel.offsetHeight - 20 : innerHeight - 30];
-    const by = field.bottom > bottom ? Math.min(field.bottom - bottom + (sheet ? 60 : 0), field.top - top) : field.top < top ? field.top - top : 0;
-    scrollBy({ top: by, behavior: "instant" });
-  };
-  const close = () => {
-    if (!selected) return;
-    const back = selected[0];
-    selected = null;
-    matrix.pick(null);
-    panel.hidden = true;
-    history.replaceState(null, "", location.pathname + location.search);
-    matrix.go(back[back.length - 1], back[0], { focus: true });
-  };
+  const fill = ({ models, view }) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
+  const select = (models, view) => bench.select({ models, view, address: models.length === 2 ? pairHash(models) : `#A${models[0]}` });
 
   const natural = Array.from({ length: data.models }, (_, i) => i + 1);
   const matrix = createMatrix(byId("matrix"), {
-    count: data.models,
     order: natural,
     views: views(),
-    codes: (view) => Uint8Array.from(entriesOf(view), (number) => relations[number]),
+    name: (i) => `A${i}`,
+    relation: (view) => {
+      const codes = Uint8Array.from(entriesOf(view), (number) => relations[number]);
+      return (i, j) => codes[place(i, j)];
+    },
     sign: (i, j, view) => {
       const by = data.texts[data.entries[entry(i, j, view)][1]];
       return SIGNS[by] || by;
     },
     label,
     onMove: (i, j, view) => (byId("readout").textContent = label(i, j, view)),
-    onOpen: (i, j, view) => select(i === j ? [i] : [Math.min(i, j), Math.max(i, j)], view),
+    onOpen: (i, j, view) => select(i === j ? [i] : inOrder(i, j), view),
   });
+  for (const radio of document.querySelectorAll('[name="order"]'))
+    radio.addEventListener("change", () => matrix.arrange(...(radio.value === "group" ? byGroup(data.groups, natural) : [natural, []])));
 
-  // ---- order: groups first, the largest before the others, so that indistinguishable blocks stand on the diagonal
-  const grouped = () => {
-    const groups = [...data.groups].sort((a, b) => b.length - a.length || a[0] - b[0]);
-    const inside = new Set(groups.flat());
-    const blocks = [];
-    groups.reduce((from, members) => (blocks.push([from, members.length]), from + members.length), 0);
-    return [[...groups.flat(), ...natural.filter((i) => !inside.has(i))], blocks];
-  };
-  for (const radio of section.querySelectorAll('[name="order"]'))
-    radio.addEventListener("change", () => matrix.arrange(...(radio.value === "group" ? grouped() : [natural, []])));
-
-  // ---- filter, views, size
-  const filter = () => {
+  // ---- filter and views
+  byId("filter").addEventListener("change", () => {
     const shown = RELATIONS.map((name) => byId("filter").elements[name].checked);
     const members = byId("group").value ? new Set(data.groups[byId("group").value - 1]) : null;
     matrix.filter((i, j, code) => shown[code] && (!members || (members.has(i) && members.has(j))));
-  };
-  byId("filter").addEventListener("change", filter);
-  byId("filter").addEventListener("submit", (event) => event.preventDefault());
+  });
   for (const choice of Object.values(said))
     choice.addEventListener("change", () => {
       matrix.show(views());
-      if (selected) fill((selected[1] = choice.value, selected));
+      bench.again({ view: choice.value });
     });
-  const ZOOM = { out: () => matrix.zoom(1 / 1.5), in: () => matrix.zoom(1.5), fit: matrix.fit };
-  section.querySelectorAll("[data-zoom]").forEach((b) => b.addEventListener("click", () => ZOOM[b.dataset.zoom]()));
 
-  // ---- search
-  const trouble = (text) => (byId("trouble").textContent = text);
-  byId("search").addEventListener("submit", (event) => {
-    event.preventDefault();
-    trouble("");
-    const models = parseModels(byId("find").value);
-    if (!models) return trouble(`Type a model such as ${data.masses}:2, or two numbers for a pair.`);
-    const masses = models.map((m) => m.masses || models[0].masses || data.masses);
-    if (masses.length === 2 && masses[0] !== masses[1]) return trouble("A catalogue compares models of one size.");
-    const numbers = [...new Set(models.map((m) => m.number))].sort((a, b) => a - b);
-    if (masses[0] !== data.masses) return (location.href = `chains-${masses[0]}-${kind}.html${numbers.length === 2 ? pairHash(numbers) : `#A${numbers[0]}`}`);
-    if (!show(numbers)) trouble(`There are the models 1 to ${data.models}.`);
-  });
-
-  // ---- deep links #2-5 (or #2:5) to a pair and #A5 to a model
+  // ---- what is typed, and deep links #2-5 (or #2:5) to a pair and #A5 to a model
+  const there = (numbers) => numbers.every((i) => i >= 1 && i <= data.models) && numbers[0] !== numbers[1];
   const show = (numbers) => {
-    if (numbers.some((i) => i < 1 || i > data.models) || numbers[0] === numbers[1]) return false;
     matrix.go(numbers[numbers.length - 1], numbers[0]);
     select(numbers, views()[0]);
-    return true;
   };
-  const follow = () => {
-    const found = /^#(?:A(\d+)|(\d+)(?:-|:|%3A)(\d+))$/i.exec(location.hash);
-    if (!found) return;
-    const numbers = found[1] ? [+found[1]] : [+found[2], +found[3]].sort((a, b) => a - b);
-    section.scrollIntoView({ behavior: "instant" });
-    show(numbers);
+  const find = (text) => {
+    const models = parseModels(text);
+    if (!models) return `Type a model such as ${data.masses}:2, or two numbers for a pair.`;
+    const masses = models.map((m) => m.masses || models[0].masses || data.masses);
+    if (masses.length === 2 && masses[0] !== masses[1]) return "A catalogue compares models of one size.";
+    const numbers = [...new Set(models.map((m) => m.number))].sort((a, b) => a - b);
+    if (models.some((m) => m.dampers)) {
+      if (!data.dampers) return "This catalogue has no dampers to the ground.";
+      location.href = `dampers-${masses[0]}-${kind}.html${damperHash(models)}`;
+    } else if (masses[0] !== data.masses) location.href = `chains-${masses[0]}-${kind}.html${numbers.length === 2 ? pairHash(numbers) : `#A${numbers[0]}`}`;
+    else if (there(numbers)) show(numbers);
+    else return `There are the models 1 to ${data.models}.`;
+    return "";
   };
-  panel.querySelector(".close").addEventListener("click", close);
-  document.addEventListener("keydown", (event) => event.key === "Escape" && close());
-  addEventListener("hashchange", follow);
-  follow();
+  const follow = (hash) => {
+    const found = /^#(?:A(\d+)|(\d+)(?:-|:|%3A)(\d+))$/i.exec(hash);
+    if (!found) return null;
+    const numbers = found[1] ? [+found[1]] : inOrder(+found[2], +found[3]);
+    return there(numbers) ? () => show(numbers) : null;
+  };
+  const bench = createBench(matrix, { fill, follow });
+  bench.search(find);
+  bench.follow();
 })();

@@ -9,12 +9,11 @@ import pytest
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.fit import fit_page, waterfall
-from disting.report.fit.page import shown
+from disting.report.fit.criteria import shown
 
 playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.xdist_group("browser")
-CELL = ".candidates tbody tr:nth-child({}) td:nth-child({})"
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +53,7 @@ def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection)
         cells = tab.locator(f".candidates tbody tr td:nth-child({n})").all()
         return [float(cell.get_attribute("data-value") or cell.inner_text()) for cell in cells]
 
-    for n, head in ((3, "Parameters"), (4, "J train"), (7, "PII ratio")):
+    for n, head in ((3, "J cross-validated"), (5, "J train"), (6, "Parameters"), (8, "PII ratio")):
         before = column(n)
         tab.get_by_role("button", name=head).click()
         assert column(n) == sorted(before)

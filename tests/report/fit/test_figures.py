@@ -7,6 +7,7 @@ from io import BytesIO
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 
 from disting.fit.modes import Result, physical
@@ -15,7 +16,7 @@ from disting.fit.sweep import profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit import bode, collinearity_dots, importance_bars, profile_panels, waterfall
 from disting.report.fit.bode import Mark, asymptotes, marks, model_line
-from disting.report.fit.style import VARIABLES, Drawn, Tone, drawn
+from disting.report.fit.style import NARROW, POINTS, VARIABLES, WIDE, Drawn, Tone, drawn, heading, is_narrow
 
 from .conftest import DRIVE, VALUES
 
@@ -57,8 +58,35 @@ def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: Drawn) -> 
     assert set(re.findall(r'(?:href="#|url\(#)([^")]*)', text)) <= set(ids)
 
 
+def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
+    seen: list[bool] = []
+    long = "a title that is so long that it needs more than one line on a phone, but one line elsewhere"
+
+    def draw(figure: Figure) -> None:
+        seen.append(is_narrow(figure))
+        heading(figure, long)
+
+    made = drawn("t", long, (2, 3), draw)
+    assert seen == [False, True]
+    boxes = re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', str(made.inline))
+    sizes = [tuple(float(side) / POINTS for side in box) for box in boxes]
+    assert sizes == [pytest.approx((WIDE, 2)), pytest.approx((NARROW, 3))]
+    lines = [text.count("<!-- ") for text in (made.svg.decode(), made.narrow.decode())]
+    assert lines[0] == 1 and lines[1] >= 2
+
+
+def test_marks_of_one_measurement_carry_their_style_once(figure: Drawn, train: FrequencyResponse) -> None:
+    uses = re.findall(r"<use [^>]*>", str(figure.inline))
+    assert len(uses) > 2 * 2 * len(train) and sum("stroke" in use for use in uses) < 60
+    assert not re.search(r'<use [^>]*="\d+\.\d{3,}', str(figure.inline))
+
+
+def test_the_label_of_a_mark_is_its_frequency_and_damping() -> None:
+    assert Mark("resonance", 76.66, 0.0185).label() == "△ 76.7 Hz\nζ 0.018"
+
+
 def test_a_text_of_the_user_is_no_formula() -> None:
-    made = drawn("t", '"a" & <b>', (3, 2), lambda figure: figure.suptitle("$\\undefined{ <b> $"))
+    made = drawn("t", '"a" & <b>', (2, 2), lambda figure: heading(figure, "$\\undefined{ <b> $"))
     assert ElementTree.fromstring(made.svg) is not None
     assert 'aria-label="&#34;a&#34; &amp; &lt;b&gt;"' in made.inline
 
@@ -72,7 +100,10 @@ def test_marks_stay_in_the_band_and_where_something_shows() -> None:
     ]
     pairs = [(Result(n, v, 0.0, "Hz"), Result(f"damping ratio of {n}", ratio, 0.0, "")) for n, v, ratio in rows]
     omega = 2 * np.pi * np.array([10.0, 100.0])
-    assert marks([r for pair in pairs for r in pair], omega) == [Mark("antiresonance", 20.0), Mark("resonance", 40.0)]
+    assert marks([r for pair in pairs for r in pair], omega) == [
+        Mark("antiresonance", 20.0, 0.1),
+        Mark("resonance", 40.0, 0.02),
+    ]
 
 
 def test_marks_and_asymptotes_are_those_of_the_drive(selection: Selection, train: FrequencyResponse) -> None:
@@ -101,7 +132,7 @@ def test_figures_of_the_parameters(selection: Selection) -> None:
     assert found is not None
     assert "allowed 1000" in importance_bars(found, selection.thresholds).title
     collinearity = collinearity_dots(found, selection.task, selection.thresholds)
-    assert collinearity is not None and "all 5 " in collinearity.title
+    assert collinearity is not None and " for all 5, " in collinearity.title
     panels = profile_panels(found, selection.task, [profile(found, selection.task, "k12")])
     assert len(panels.svg) > 5000
 

@@ -14,8 +14,10 @@ from disting.fit.export import read_model
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain, Sensor
 from disting.report.fit import fit_page, waterfall, write_fit_report
-from disting.report.fit.page import limits, nearest, reasoning, shown, weakest
+from disting.report.fit.criteria import limits, nearest, shown, weakest
+from disting.report.fit.page import reasoning
 
 from .conftest import DRIVE, HOSTILE
 
@@ -114,7 +116,7 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     assert f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are admissible: 5 parameters" in said
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
-    assert len(drawings) == 1 + len(FIGURES) and all(a.get("aria-label") for a in drawings)
+    assert len(drawings) == 1 + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
 
 
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
@@ -196,3 +198,15 @@ def test_structures_that_no_data_can_tell_apart_are_named(train: FrequencyRespon
 
 def test_no_alternatives_are_said_so(outline: Outline) -> None:
     assert "None: each of the 15 other candidates with 2 masses is distinguishable" in " ".join(outline.text.split())
+
+
+def test_what_no_data_determine_is_said_in_words(train: FrequencyResponse, tmp_path: Path) -> None:
+    found = select(train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)])
+    page, *_, plain, table = write_fit_report(found, tmp_path, train)
+    said = " ".join(Outline(page.read_text(encoding="utf-8")).text.split())
+    determined = "ot identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
+    assert f"N{determined}. Known parameters" in said and "no, not identifiable" in said
+    assert "∞" not in said and not re.search(r"\binf\b", said)
+    (candidate,) = json.loads(plain.read_text(encoding="utf-8"))["candidates"]
+    assert candidate["unidentifiable"] == f"n{determined}" and candidate["condition_index"] is None
+    assert f"n{determined}" in table.read_text(encoding="utf-8")

@@ -1,0 +1,147 @@
+"""A family with sets of dampers to the ground as one HTML page that needs nothing else, be it of thousands of models.
+
+The page holds the classes, not the pairs (see `damper_payload`); its script looks up what a field shows.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import groupby
+
+from disting.catalogs.damper_family import DamperFamily, Name
+from disting.catalogs.dampers import spelled
+from disting.conditions.exact import EXACT
+from disting.model.chain import Chain
+from disting.report.damper_drawing import SharedDrawing, definitions, ground_dampers, height_with_dampers, shared
+from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
+from disting.report.drawing import draw
+from disting.report.environment import render
+from disting.report.model import Drawing
+from disting.report.words import plural
+from disting.verdict import RULE_NAMES, Relation
+
+LISTED = 24  # undecided pairs of classes up to this number are listed
+SHOWN_AT_ONCE = 12  # classes; more are folded away
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A class of indistinguishable models: structures, and the sets of ground dampers that each of them has in the class."""
+
+    number: int
+    size: int
+    members: tuple[tuple[tuple[int, ...], str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """A chain with all its sets of ground dampers: into how many classes they fall, and how many pairs of those are open."""
+
+    drawing: SharedDrawing
+    classes: int
+    undecided: int
+
+
+@dataclass(frozen=True, slots=True)
+class Count:
+    """A row of the table of counts."""
+
+    sign: str
+    title: str
+    text: str
+    relation: Relation
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """Two classes that nothing decides: their first models, and how many pairs of models that is."""
+
+    left: str
+    right: str
+    pairs: int
+
+
+def damper_page(found: DamperFamily, *, catalog: bool = True) -> str:
+    """HTML of a family with sets of ground dampers; `catalog`: the pages of the family without them are beside it."""
+    family, by_size, totals = found.family, numbered(found.found), found.found.counts()
+    parts, drawings = shared(tuple(family))
+    ground = tuple(ground_dampers(family.n_masses))
+    undecided = list(opened(found, by_size))
+    return render(
+        "dampers.html",
+        family=family,
+        kind="damped" if family.damped else "undamped",
+        models=len(found),
+        sets=len(found.sets),
+        compared=sum(totals.values()),
+        totals=totals,
+        groups=[_group(found, by_size, number) for number in range(by_size.several)],
+        at_once=SHOWN_AT_ONCE,
+        structures=list(structures(found, by_size, drawings)),
+        counts=counts(found),
+        undecided=undecided[:LISTED],
+        more=len(undecided) - LISTED,
+        parts=definitions((*parts, *ground)),
+        drawings=drawings,
+        sample=Drawing(0, draw(Chain(3, 1, 1, 3, 1, 2, damped=family.damped, ground_dampers=(2,)))),
+        payload=payload(found, catalog=catalog, tall=height_with_dampers(family.n_masses)),
+        catalog=catalog,
+        plural=plural,
+    )
+
+
+def family_title(n_masses: int, damped: bool) -> str:
+    """Such as "3 masses, damped"."""
+    return f"{plural(n_masses, 'mass', 'masses')}, {'damped' if damped else 'undamped'}"
+
+
+def structures(found: DamperFamily, by_size: Numbered, drawings: tuple[SharedDrawing, ...]) -> Iterator[Structure]:
+    """The family's chains."""
+    rows = by_size.group.reshape(len(found.family), len(found.sets)).tolist()
+    undecided = open_classes(found.found, by_size)
+    for drawing, row in zip(drawings, map(set, rows), strict=True):
+        yield Structure(drawing, len(row), sum(a in row and b in row for a, b in undecided))
+
+
+def counts(found: DamperFamily) -> list[Count]:
+    """Pairs by deciding rule: those that prove distinguishable, those that prove indistinguishable, the undecided ones."""
+    number, same = found.found.counts_by_rule(), found.found.counts()[Relation.INDISTINGUISHABLE]
+    said, exact = rules(), RULE_NAMES[EXACT]
+    by_exact = same - sum(number.get(rule, 0) for rule in "6789")
+    parts = {rule: (_decides(rule), number.get(rule, 0)) for rule in said if rule != exact}
+    rows = [(rule, relation, n) for rule, (relation, n) in parts.items()]
+    rows += [
+        (exact, Relation.DISTINGUISHABLE, number.get(exact, 0) - by_exact),
+        (exact, Relation.INDISTINGUISHABLE, by_exact),
+    ]
+    told = [Count(said[rule][0], _title(said[rule][1]), said[rule][2], relation, n) for rule, relation, n in rows]
+    return [*told, Count("", "undecided", "nothing decides", Relation.UNDECIDED, number[""])]
+
+
+def opened(found: DamperFamily, by_size: Numbered) -> Iterator[Open]:
+    """The pairs of classes that stay open, in the order of the classes."""
+    for a, b in open_classes(found.found, by_size):
+        left, right = (_short(found.name(int(by_size.first[g]))) for g in (a, b))
+        yield Open(left, right, int(by_size.sizes[a] * by_size.sizes[b]))
+
+
+def _group(found: DamperFamily, by_size: Numbered, number: int) -> Group:
+    names = [found.name(i) for i in by_size.members(number)]
+    sets: dict[str, list[int]] = {}
+    for structure, of in groupby(names, key=lambda name: name[0]):
+        sets.setdefault(", ".join(spelled(masses) for _, masses in of), []).append(structure)
+    return Group(number + 1, len(names), tuple((tuple(of), text) for text, of in sets.items()))
+
+
+def _short(name: Name) -> str:
+    """A model as deep links name it, such as 17+b1+b3."""
+    return "+".join([str(name[0]), *(f"b{mass}" for mass in name[1])])
+
+
+def _decides(rule: str) -> Relation:
+    return Relation.DISTINGUISHABLE if rule <= "5" else Relation.INDISTINGUISHABLE
+
+
+def _title(words: str) -> str:
+    """Without the number, which stands beside it."""
+    return words.partition(", ")[2] or words.removeprefix("the ")

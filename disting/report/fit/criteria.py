@@ -1,0 +1,62 @@
+"""The criteria of a candidate as a report puts them: value, threshold and meaning, what is least determined, who is nearest."""
+
+from dataclasses import dataclass, fields
+from math import isfinite
+
+from disting.fit.practical import Thresholds
+from disting.fit.select import Candidate, Selection
+from disting.report.fit.thresholds import TITLES
+from disting.report.fit.words import readable
+
+MEANINGS = {
+    "condition_index": "how unevenly the data determine combinations of parameters: 1 is best",
+    "importance_ratio": "influence of the strongest parameter on the response, divided by that of the weakest",
+    "collinearity": "how far the other parameters can compensate a change of one: 1 not at all, 20 to 95 %",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A criterion of the shown candidate and its threshold."""
+
+    title: str
+    meaning: str
+    value: float
+    threshold: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is fulfilled."""
+        return self.value <= self.threshold
+
+    @property
+    def said(self) -> str:
+        """The value; nothing where it is infinite, which the candidate's reasons put in words."""
+        return readable(self.value) if isfinite(self.value) else "–"
+
+
+def shown(selection: Selection) -> Candidate:
+    """The candidate that a report describes: the selected one, else the nearest to being admissible."""
+    return selection.selected or nearest(selection)[0]
+
+
+def nearest(selection: Selection) -> list[Candidate]:
+    """Excluded candidates, those first whose worst criterion exceeds its threshold by the smallest factor."""
+    return sorted((c for c in selection.candidates if not c.admissible), key=lambda c: _excess(c, selection.thresholds))
+
+
+def _excess(candidate: Candidate, thresholds: Thresholds) -> float:
+    return max(limit.value / limit.threshold for limit in limits(candidate, thresholds))
+
+
+def limits(candidate: Candidate, thresholds: Thresholds) -> list[Limit]:
+    """The three criteria."""
+    names = [f.name for f in fields(thresholds)]
+    return [Limit(TITLES[n], MEANINGS[n], getattr(candidate.practical, n), getattr(thresholds, n)) for n in names]
+
+
+def weakest(candidate: Candidate) -> str:
+    """The combination of parameters that the data determine least, such as "ln k12 + 0.81 ln m2"."""
+    terms = sorted(candidate.practical.worst_direction.items(), key=lambda row: -abs(row[1]))
+    texts = [("− " if v < 0 else "+ ") + (f"{abs(v):.2g} " if abs(v) < 0.995 else "") + f"ln {n}" for n, v in terms]
+    return " ".join(texts).removeprefix("+ ")

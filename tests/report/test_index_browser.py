@@ -1,0 +1,203 @@
+"""The start page's "Describe your machine" in a real browser: every description leads to its model, with its drawing."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from disting.catalogs import Catalog, catalog
+from disting.catalogs.files import SHIPPED_SIZES
+from disting.model.chain import Chain
+from disting.model.constraints import violated
+from disting.model.symmetry import Symmetry, forms
+from disting.report import write_report
+from disting.report.drawing import draw
+from disting.report.index import index
+from disting.report.machine import descriptions, machines, part_name, parts
+
+pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+pytestmark = pytest.mark.xdist_group("browser")
+KINDS = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
+CHOICES = ("masses", "dampers", "gap", "force", "sensor")
+EXCHANGE = (Symmetry.RECIPROCITY_FREE, Symmetry.RECIPROCITY_GROUNDED)
+DESCRIBE = """(descriptions) => JSON.stringify(descriptions.map(([masses, dampers, gap, force, sensor]) => {
+  const form = document.getElementById("machine"), read = (name) => form.querySelector(`[data-slot="${name}"]`).textContent;
+  for (const [name, value] of Object.entries({ masses, dampers, gap, force, sensor })) {
+    if (form.elements[name].value === value) continue;
+    form.elements[name].value = value;
+    form.elements[name].dispatchEvent(new Event("change", { bubbles: true }));
+    if (form.elements[name].value !== value) throw new Error(`${name} does not offer ${value}`);
+  }
+  const uses = [...form.querySelectorAll("use")].map((use) => use.getAttribute("href"));
+  const links = (name) => [...form.querySelectorAll(`[data-slot="${name}"] a`)].map((a) => a.getAttribute("href"));
+  return {
+    model: form.dataset.model, number: read("number"), remark: read("remark"), said: read("twins"),
+    twins: links("twins"), links: links("links"), uses, missing: uses.filter((use) => !document.querySelector(use)),
+    label: form.querySelector("svg").getAttribute("aria-label"),
+    offered: form.elements.force.options.length * form.elements.sensor.options.length,
+  };
+}))"""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("start")
+    write_report([catalog(2, damped=True)], folder)
+    (folder / "index.html").write_text(index([catalog(n, damped=damped) for n, damped in KINDS]), encoding="utf-8")
+    return folder
+
+
+def _asked(chain: Chain) -> list[str]:
+    """What is chosen to describe a chain."""
+    ports = f"{chain.act_minus},{chain.act_plus}", f"{chain.meas_minus},{chain.meas_plus}"
+    return [str(chain.n_masses), "damped" if chain.damped else "undamped", str(chain.gap), *ports]
+
+
+def _described(tab, chains: list[Chain]) -> Iterator[tuple[Chain, dict]]:  # type: ignore[no-untyped-def]
+    return zip(chains, json.loads(tab.evaluate(DESCRIBE, [_asked(chain) for chain in chains])), strict=True)
+
+
+def test_every_model_is_reached_by_its_description(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html")
+    for n, damped in KINDS:
+        shipped, kind = catalog(n, damped=damped), "damped" if damped else "undamped"
+        groups = shipped.classes()
+        for chain, found in _described(tab, list(shipped.family)):
+            number = shipped.family.number(chain)
+            assert (found["model"], found["remark"]) == (f"{n}:{number}", "")
+            assert found["number"] == f"A{number} of {n} mass{'es' if n > 1 else ''}, {kind}"
+            assert found["links"] == [f"models/{n}-{kind}/{number}.html", f"{shipped.name}.html#A{number}"]
+            group = next((g for g in groups if number in g), (number,))
+            pairs = [sorted((number, other)) for other in group if other != number]
+            assert found["twins"] == [f"{shipped.name}.html#{low}-{high}" for low, high in pairs]
+            assert str(len(pairs)) in found["said"] or not pairs
+
+
+def test_a_description_outside_of_the_family_leads_to_its_model_by_the_symmetries_named(visit) -> None:  # type: ignore[no-untyped-def]
+    tab, seen = visit("index.html"), set()
+    for n in SHIPPED_SIZES:
+        family = catalog(n, damped=True).family
+        for chain, found in _described(tab, list(descriptions(n, damped=True))):
+            mirrored, exchanged = "other end" in found["remark"], "exchanged" in found["remark"]
+            named = EXCHANGE * exchanged + (Symmetry.REFLECTION,) * mirrored
+            listed = family[int(found["model"].split(":")[1])]
+            assert next(form.chain for form in forms(chain) if form.symmetries == named) == listed
+            assert (found["remark"] != "") == any(violated(chain.indices, (38,)))
+            seen.add((mirrored, exchanged))
+    assert len(seen) == 4
+
+
+def test_nothing_but_admissible_descriptions_is_offered(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html")
+    for n in SHIPPED_SIZES:
+        first = {chain.gap: chain for chain in reversed(list(descriptions(n, damped=True)))}
+        offered = sum(found["offered"] for _, found in _described(tab, list(first.values())))
+        assert offered == len(list(descriptions(n, damped=True)))
+        assert tab.locator('[name="gap"] option').count() == n
+
+
+def test_the_drawing_is_that_of_the_chain(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html")
+    for chain, found in _described(tab, [*descriptions(4, damped=True), *descriptions(5, damped=False)]):
+        assert found["uses"] == [f"#{part_name(chain, layer)}" for layer in draw(chain).layers]
+        assert found["missing"] == []
+    box = tab.get_attribute("#machine svg", "viewBox")
+    assert box == f"0 0 {draw(Chain(5)).width:g} {draw(Chain(5)).height:g}"
+    assert found["label"] == (
+        "5 masses, undamped; gap: between mass 4 and mass 5; force on mass 5, against mass 4; sensor of mass 5, against mass 4."
+    )
+
+
+def test_a_part_shows_the_same_wherever_it_is_used() -> None:
+    held = {part.name: part.layer for part in parts(catalog(n, damped=damped) for n, damped in KINDS)}
+    for n, damped in KINDS:
+        for chain in descriptions(n, damped=damped):
+            for layer in draw(chain).layers:
+                assert held[part_name(chain, layer)] == layer
+
+
+def test_the_keyboard_describes_and_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html")
+    tab.focus('[name="masses"]')
+    for key in ("3", "Tab", "Tab", "ArrowDown", "Tab", "ArrowDown", "Tab", "ArrowDown"):
+        tab.keyboard.press(key)
+    chain = Chain(3, 1, 1, 3, 1, 3, damped=True)
+    number = catalog(3, damped=True).family.number(replace(chain, act_plus=2, meas_plus=2))
+    assert tab.inner_text('[data-slot="typed"]') == f"3:{number}"
+    assert "masses 2 to 3 counted from the other end" in tab.inner_text('[data-slot="remark"]')
+
+
+def test_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html")
+    tab.select_option('[name="masses"]', "2")
+    tab.select_option('[name="sensor"]', "0,2")
+    tab.wait_for_url("**/index.html#machine=2,damped,0,0,1,0,2")
+    tab.click("text=Its column in the matrix")
+    assert tab.inner_text("#detail h3") == "A2"
+    tab.go_back()
+    tab.click("text=Model page of A2")
+    assert tab.inner_text("h1").startswith("Model A2")
+
+
+def test_the_address_holds_the_description(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html#machine=5,undamped,2,2,5,1,3")
+    assert [tab.input_value(f'[name="{name}"]') for name in CHOICES] == _asked(Chain(5, 2, 2, 5, 1, 3))
+    assert tab.inner_text('[data-slot="remark"]')
+    tab.select_option('[name="gap"]', "1")
+    tab.wait_for_url("**/index.html#machine=5,undamped,1,1,5,1,3")
+    for wrong in ("#machine=9,damped,9,9,9,9,9", "#machine=1", "#describe"):
+        tab.evaluate("(hash) => { location.hash = hash }", wrong)
+        assert tab.input_value('[name="masses"]') == "5"
+
+
+def test_undecided_pairs_are_said(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
+    shipped = catalog(3, damped=True)
+    blank = [
+        {"left": r["left"], "right": r["right"]} if (r.get("left"), r.get("right")) == (1, 3) else r for r in shipped.records
+    ]
+    opened = replace(shipped, records=blank)
+    assert machines([opened])[0]["open"] == {1: 1, 3: 1}
+    (site / "opened.html").write_text(index([opened]), encoding="utf-8")
+    tab = visit("opened.html")
+    for _, found in _described(tab, [shipped.family[3]]):
+        assert found["said"] == "No other model is known that cannot be told apart from it."
+    assert tab.inner_text('[data-slot="open"]') == "With 1 model this is undecided."
+
+
+def test_a_size_with_one_kind_offers_that_kind(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
+    (site / "few.html").write_text(index([catalog(2), catalog(3, damped=True)]), encoding="utf-8")
+    tab = visit("few.html")
+    assert tab.locator('[name="dampers"] option').all_inner_texts() == ["at each spring"]
+    tab.select_option('[name="masses"]', "2")
+    assert tab.locator('[name="dampers"] option').all_inner_texts() == ["none"]
+    assert tab.inner_text('[data-slot="number"]') == "A1 of 2 masses, undamped"
+
+
+def test_without_catalogues_nothing_is_asked(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
+    (site / "empty.html").write_text(index([]), encoding="utf-8")
+    assert visit("empty.html").locator("#machine").count() == 0
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
+def test_it_is_legible_everywhere(visit, site: Path, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    tab = visit("index.html", width, scheme)
+    list(_described(tab, [Chain(5, 2, 2, 5, 1, 4)]))
+    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
+    box = tab.locator("#machine svg").bounding_box()
+    assert box["width"] > 300 and box["height"] > 70
+    found = axe.Axe().run(tab, context="#machine", options={"preload": False}).response["violations"]
+    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")] == []
+
+
+def test_the_page_stays_small(site: Path) -> None:
+    assert (site / "index.html").stat().st_size < 150_000
+
+
+def test_the_data_of_a_catalogue() -> None:
+    shipped: Catalog = catalog(2, damped=True)
+    (found,) = machines([shipped])
+    assert found["models"] == [(0, 0, 1, 0, 1), (0, 0, 1, 0, 2), (1, 1, 2, 1, 2)]
+    assert (found["groups"], found["open"]) == (shipped.classes(), {})
