@@ -24,8 +24,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         status: int = options.run(options)
         sys.stdout.flush()
         return status
-    except BrokenPipeError:  # the reader of a pipe has seen enough; Python would complain once more at exit
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except BrokenPipeError:  # the reader of a pipe has seen enough
         return 0
     except DistingError as reason:
         print(f"disting: {reason}", file=sys.stderr)
@@ -39,6 +38,16 @@ def _run(arguments: Sequence[str] | None) -> int:
     except KeyboardInterrupt:
         print("disting: interrupted; what was finished is kept in the cache", file=sys.stderr)
         return 130
+    finally:
+        _drop_what_cannot_be_written()
+
+
+def _drop_what_cannot_be_written() -> None:
+    """Python would try once more at exit, complain, and replace the exit status."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _warned(message: Warning | str, *_: object, **__: object) -> None:
