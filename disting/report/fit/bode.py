@@ -95,7 +95,7 @@ def bode(
         _marks(panels[0], panels[1], line, marks(results, line.omega), figure.get_figwidth() - FRAME)
         panels[-1].set_xlabel("Frequency [Hz]")
         heading(figure, f"Measured response and model: {name(candidate.chain)}")
-        figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 4, columnspacing=2)
+        figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3, columnspacing=2)
 
     found = marks(results, line.omega)
     said = ", ".join(f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}" for m in found)
@@ -213,7 +213,7 @@ def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark], width:
     for kind, marker in MARKERS.items():
         at = [m.frequency for m in found if m.kind == kind]
         heights = np.interp(np.array(at), line.omega / (2 * pi), np.abs(line.G))
-        said = f"{kind}, ζ damping ratio" if at else ""
+        said = f"{kind}, ζ: damping ratio" if at else ""
         top.plot(at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=said)
     for mark, place, label in zip(found, places, labels, strict=True):
         for panel in (top, below):

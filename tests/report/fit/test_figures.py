@@ -2,6 +2,7 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from io import BytesIO
 
 import matplotlib
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from disting.fit.modes import Result, physical
-from disting.fit.select import Selection
+from disting.fit.select import Selection, select
 from disting.fit.sweep import profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit import bode, collinearity_dots, importance_bars, profile_panels, waterfall
@@ -37,6 +38,17 @@ def test_files_are_what_they_claim(figure: Drawn) -> None:
     assert Image.open(BytesIO(figure.png)).width > 1500
     assert figure.pdf.startswith(b"%PDF-") and b"CreationDate" not in figure.pdf
     assert b"atplotlib" not in figure.png and b"<dc:date>" not in figure.svg
+
+
+def test_nothing_is_cut_off_where_units_are_not_known(train: FrequencyResponse) -> None:
+    """The legend then says "input per acceleration", its longest, behind inertias of seven characters."""
+    nameless = {"input": train.input._replace(unit=""), "output": train.output._replace(unit="")}
+    found = select(replace(train, G=train.G / 0.3177, **nameless), [DRIVE])
+    assert found.selected is not None
+    drawing = bode(found.selected, found.task, physical(found.selected, found.task), found.test, found.test)
+    pixels = np.asarray(Image.open(BytesIO(drawing.png)).convert("L"))
+    assert pixels.min() < 100
+    assert min(edge.min() for edge in (pixels[:3], pixels[-3:], pixels[:, :3], pixels[:, -3:])) == pixels.max()
 
 
 def test_settings_of_the_user_neither_enter_nor_change(selection: Selection) -> None:
