@@ -1,9 +1,12 @@
 """disting report: pages, figures and tables of whole catalogues, and of the paper."""
 
 import argparse
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
+from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
+from disting.catalogs.combined import combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
@@ -12,6 +15,8 @@ from disting.cli.work import engine_for
 from disting.engine import Engine, Progress
 from disting.errors import InputError
 from disting.verdict import View
+
+MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 
 
 def run(options: argparse.Namespace) -> int:
@@ -27,12 +32,24 @@ def run(options: argparse.Namespace) -> int:
     choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
     with engine_for(options) as (engine, pool, progress):
         catalogs = [_catalog(n, damped, engine, pool, progress) for n in options.masses for damped in choices]
+    paths = list(_together(options, choices))
     with_dampers = [damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices]
-    paths = write_report(catalogs, options.out, with_dampers)
+    paths += write_report(catalogs, options.out, with_dampers)
     for c in catalogs:
         print(f"{c.name}: {counted(c.counts(View.EXACT))}, {len(c.classes(View.EXACT))} indistinguishable groups")
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
     return 0
+
+
+def _together(options: argparse.Namespace, choices: Sequence[bool]) -> Iterator[Path]:
+    """Write the pages of several sizes, and yield their paths."""
+    from disting.report.sizes import write_sizes
+
+    sizes = sorted({n for n in options.masses if n <= MOST_TOGETHER})
+    for damped in choices if len(sizes) > 1 else []:
+        with engine_for(options) as (engine, pool, progress):
+            decided = combined(sizes, damped=damped, engine=engine, executor=pool, progress=progress)
+        yield write_sizes(decided, options.out)
 
 
 def _paper(options: argparse.Namespace) -> None:

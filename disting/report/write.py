@@ -20,6 +20,8 @@ from disting.report.svg import svg
 
 STYLE = "models/style.css"
 LINKS: tuple[Link, ...] = (
+    ("sizes-undamped.html", "Different sizes, undamped", "which smaller models are limits of larger ones"),
+    ("sizes-damped.html", "Different sizes, damped", "which smaller models are limits of larger ones"),
     ("paper/index.html", "The paper, claim by claim", "what the paper prints, and what is found here, side by side"),
     ("fit.html", "A fit", "which structure a measured frequency response supports"),
     ("fit/index.html", "A fit", "which structure a measured frequency response supports"),

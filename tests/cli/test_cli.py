@@ -45,6 +45,14 @@ def test_report_writes_the_families_with_dampers_too(tmp_path):
     assert (tmp_path / "dampers-3-damped.html").is_file() and not (tmp_path / "dampers-3-undamped.html").exists()
     assert "dampers-3-damped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
     assert "chains-3-damped" in told
+    assert not (tmp_path / "sizes-damped.html").exists()
+
+
+def test_report_compares_several_sizes(tmp_path):
+    assert disting("report", "1", "2", "--undamped", "--out", tmp_path).returncode == 0
+    assert "2 in 1" not in (text := (tmp_path / "sizes-undamped.html").read_text(encoding="utf-8"))
+    assert "Of <strong>3</strong> pairs" in text and "1 in 2" in text
+    assert "sizes-undamped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
 def test_verdicts_csv_contract_and_subsets():

@@ -3,13 +3,16 @@
 import io
 from pathlib import Path
 
+import pytest
 from PIL import Image, ImageChops
 
 from disting.catalogs import catalog
+from disting.catalogs.combined import combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.report import write_report
+from disting.report.sizes import write_sizes
 from disting.report.write import LINKS
 
 REPORTS = Path(__file__).parents[2] / "reports"
@@ -30,6 +33,12 @@ def written_anew(folder: Path) -> dict[str, Path]:
     dampers = [damper_catalog(n, damped=damped) for n, damped in kinds if n in DAMPER_SIZES]
     paths = write_report([catalog(n, damped=damped) for n, damped in kinds], folder, dampers)
     return {p.relative_to(folder).as_posix(): p for p in paths}
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_the_page_of_several_sizes_is_current(tmp_path: Path, damped: bool) -> None:
+    path = write_sizes(combined((1, 2, 3, 4), damped=damped), tmp_path)
+    assert is_current(path, REPORTS / path.name), REMEDY
 
 
 def is_current(new: Path, stored: Path) -> bool:
