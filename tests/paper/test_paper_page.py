@@ -18,7 +18,7 @@ from disting.report.paper.triangles import of_decisions, triangles
 from disting.report.scene import Text
 from disting.report.svg import svg
 from disting.verdict import Relation, View
-from tests.report.fit.test_page import Outline
+from tests.report.outline import Outline
 
 NAMES = ["figures-3-4", "figures-5-6", "figures-7-8", "figure-10", "figure-11", "figure-12", "figure-13", "figure-14"]
 

@@ -8,7 +8,7 @@ from disting.catalogs import Catalog, catalog
 from disting.inclusion import Inclusion
 from disting.report.model import limits, model_page, told_apart
 from disting.verdict import Relation, View
-from tests.report.test_page import Outline
+from tests.report.outline import Outline
 
 
 @pytest.fixture(scope="module", params=[(1, True), (3, False), (3, True)], ids=str)

@@ -2,7 +2,6 @@
 
 import json
 import re
-from html.parser import HTMLParser
 
 import pytest
 from hypothesis import given
@@ -13,39 +12,9 @@ from disting.report import index, page
 from disting.report.payload import packed, script_json
 from disting.report.words import VIEW_TITLES
 from disting.verdict import View
+from tests.report.outline import Outline
 
 HOSTILE = """</script><script>alert("1")</script><img src=x onerror='alert(2)'>&amp;{{ 7*7 }}"""
-VOID = {"meta", "input", "br", "link", "img"}
-
-
-class Outline(HTMLParser):
-    """Elements with their attributes; fails where an end tag does not match."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__(convert_charrefs=True)
-        self.elements: list[tuple[str, dict[str, str | None]]] = []
-        self.texts: dict[str, list[str]] = {}
-        self.open: list[str] = []
-        self.feed(text)
-        self.close()
-        assert self.open == []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append((tag, dict(attrs)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append((tag, dict(attrs)))
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        self.texts.setdefault(self.open[-1] if self.open else "", []).append(data)
-
-    def count(self, tag: str, **attributes: str) -> int:
-        return sum(t == tag and all(a.get(k) == v for k, v in attributes.items()) for t, a in self.elements)
 
 
 def _data(text: str) -> dict[str, object]:

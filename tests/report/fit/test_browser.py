@@ -1,6 +1,5 @@
 """The page of a fit in a real browser: sort, scroll, print; nothing is fetched and nothing goes wrong."""
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,19 +10,7 @@ from disting.measurement import FrequencyResponse
 from disting.report.fit import fit_page, waterfall
 from disting.report.fit.criteria import shown
 
-playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.xdist_group("browser")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[object]:
-    with playwright.sync_playwright() as p:
-        if not CHROMIUM and not Path(p.chromium.executable_path).exists():
-            pytest.skip("no Chromium found, neither the system's nor Playwright's own")
-        chromium = p.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 import csv
 import json
 import re
-from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
@@ -18,39 +17,11 @@ from disting.model.chain import Chain, Sensor
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.criteria import limits, nearest, shown, weakest
 from disting.report.fit.page import reasoning
+from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
 
 FIGURES = ["bode", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
-VOID = {"meta", "br", "link", "img"}
-
-
-class Outline(HTMLParser):
-    """Elements with attributes, and all text; fails where an end tag does not match."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__(convert_charrefs=True)
-        self.elements: list[tuple[str, dict[str, str | None]]] = []
-        self.open: list[str] = []
-        self.text = ""
-        self.feed(text)
-        self.close()
-        assert self.open == []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append((tag, dict(attrs)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.elements.append((tag, dict(attrs)))
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        if not self.open or self.open[-1] not in ("style", "script"):
-            self.text += data
 
 
 @pytest.fixture(scope="module")
