@@ -1,8 +1,8 @@
 """Which code a cached result depends on: a digest of it, found from the imports, with the versions of the libraries it uses.
 
-A key that names too little code serves a stale result after a change; so nothing is listed by hand. The modules are those that one
-imports, directly or not, inside this package. What a package's `__init__` offers to others counts only where the package itself
-is imported from.
+A key that names too little code serves a stale result after a change; so nothing is listed by hand. The modules are those that
+one imports, directly or not, inside this package. What a package's `__init__` offers to others counts only where the package
+itself is imported from.
 """
 
 import re
