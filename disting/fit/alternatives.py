@@ -79,7 +79,7 @@ def _verdict(winner: Subject, other: Subject, engine: Engine) -> Verdict:
     by_conditions = engine.verdict(winner, other, Query(View.COMBINED))
     if by_conditions.relation is not Relation.UNDECIDED:
         return by_conditions
-    return engine.verdict(winner, other, Query(inclusion=False))
+    return engine.verdict(winner, other, Query(View.EXACT, inclusion=False))
 
 
 def _by_size(candidates: Sequence[Chain]) -> list[list[Chain]]:
