@@ -20,6 +20,7 @@ C(N-1, g) C(g-1, a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from disting.certainty import Certainty
 from disting.errors import InputError
@@ -82,11 +83,18 @@ def theorem(given: Chain, other: Chain) -> str:
     >>> theorem(Chain(3), Chain(3, 0, 0, 2, 0, 2))
     'Foster'
     """
-    here, there = canonical(given).chain, canonical(other).chain
+    here, there = (canonical(c).chain for c in _without_common_factors(given, other))
     if here == there:
         return "symmetry"
-    foster = not given.damped and all(is_plain(c) and c.collocated for c in (given, other))
+    foster = not given.damped and all(is_plain(c) and c.collocated for c in (here, there))
     return "Foster" if foster else "duality" if are_dual(here, there) else ""
+
+
+def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
+    """Both without the lag and the dead time that both have: equivalents inherit T1 and Td."""
+    lag, dead_time = given.lag and other.lag, given.dead_time and other.dead_time
+    first, second = (replace(c, lag=c.lag and not lag, dead_time=c.dead_time and not dead_time) for c in (given, other))
+    return first, second
 
 
 def part_words(given: Chain, other: Chain) -> tuple[PartWords, ...]:

@@ -65,7 +65,7 @@ def within_ranges(
     refuse(given, other)
     _known(given, limits.given)
     _known(other, limits.other)
-    inside = next((BoxMap(tuple(m.items())) for m in _renamings(given, other) if _maps(m, limits)), None)
+    inside = next((BoxMap(tuple(m.items())) for m in renamings(given, other) if _maps(m, limits)), None)
     if inside:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=inside)
     if not all(is_plain(c) for c in (given, other)):
@@ -81,7 +81,7 @@ def confirms_within(evidence: BoxMap | Points, given: Chain, other: Chain, limit
     """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by `confirms`."""
     if isinstance(evidence, BoxMap):
         renaming = dict(evidence.pairs)
-        return renaming in list(_renamings(given, other)) and _maps(renaming, limits)
+        return renaming in list(renamings(given, other)) and _maps(renaming, limits)
     with_one, without = read(evidence.with_one), read(evidence.without)
     inside = all(_is_of(point, given, limits) and is_long(point, limits.given) for point in (with_one, without))
     has = inside and _has_piece(given, with_one, other, limits)
@@ -127,7 +127,7 @@ def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
 def _has_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> bool:
     """Whether an open part of the box around the point has equivalents in the box of `other`."""
     box = limits.other
-    if any(_stays(renaming, point, limits) for renaming in _renamings(given, other)):
+    if any(_stays(renaming, point, limits) for renaming in renamings(given, other)):
         return True
     if any(all(_strictly_in(v, box.get(name)) for name, v in image.items()) for image in _images(given, point, other)):
         return True
@@ -136,7 +136,7 @@ def _has_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> bool
 
 
 def _lacks_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> Grade | None:
-    """Whether, and how surely, an open part of the box near the point has none; words are exact, a list of solutions bounded."""
+    """Whether, and how surely, an open part of the box near the point has none: words are exact, listed solutions bounded."""
     if equivalent_within(given, point, other, limits.other) is not Answer.NO:
         return None
     return graded(not other.damped and equivalent(given, point, other) is Answer.NO, FLOOR)
@@ -168,7 +168,7 @@ def _side(value: object, bounds: Range | None) -> Answer:
     return Answer.YES if x > low and x < high else Answer.UNKNOWN
 
 
-def _renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
+def renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
     """All renamings by symmetry that turn the one chain into the other."""
     form = canonical(other)
     back = {here: name for name, here in form.renaming.items()}
@@ -179,12 +179,12 @@ def _renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
 
 def _images(given: Chain, point: Point, other: Chain) -> Iterator[Point]:
     """The point under all exact maps."""
-    for renaming in _renamings(given, other):
+    for renaming in renamings(given, other):
         yield {renaming[name]: value for name, value in point.items()}
     here = canonical(given)
     if is_plain(given) and is_plain(other) and are_dual(here.chain, canonical(other).chain):
         image = dual(here.chain, {here.renaming[name]: value for name, value in point.items()})
-        for renaming in _renamings(canonical(other).chain, other):
+        for renaming in renamings(canonical(other).chain, other):
             yield {renaming[name]: value for name, value in image.items()}
 
 

@@ -13,19 +13,20 @@ fixed free choices; and it stays real, for near p its conjugate belongs to the b
 If each element of f(p) lies strictly inside its interval of C, the same holds near p. An element on the edge is allowed where
 f is a renaming and the whole interval of the renamed parameter lies inside: then it never leaves.
 
-A piece without equivalents (but for a probability). Let n be the number of parameters of `other`, D = max(3 N_B + 2, n + 1), and
-X the set of all (p, q), p in L, of equal transfer functions with all elements of q non-zero, complex ones included: n + 1
+A piece without equivalents (but for a probability). Let n be the number of parameters of `other`, D = max(3 N_B + 2, n + 1),
+and X the set of all (p, q), p in L, of equal transfer functions with all elements of q non-zero, complex ones included: n + 1
 combinations of its equations, of degree D at most, have all components of X that dominate L among theirs (putting constants
-for some of the p raises no degree), so these have a degree of D^(n+1) at most in all (Bezout). Off a hypersurface S of L, of no
-larger degree, their projection to L is proper, and a component with infinite fibres has one over each point (cut it by planes
-until its fibres are finite; Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). Let p lie off
-S, and let the list of its solutions be complete and finite, so that no component has infinite fibres, and let each of them be
-not real or have an element that is not in C. Then so it is near p, but for the images of the components that do not dominate
-L, which lie in a proper algebraic subset. For otherwise there were points p_1, p_2, .. with limit p and solutions q_1, q_2, ..
-over them, in C and on dominating components. As the projection is proper, some of these converge to a q over p. Its
-elements are non-zero, so positive, and lie in the closed intervals: q is a solution over p in C, and there is none.
+for some of the p raises no degree), so these have a degree of D^(n+1) at most in all (Bezout). Off a hypersurface S of L, of
+no larger degree, their projection to L is proper, and a component with infinite fibres has one over each point (cut it by
+planes until its fibres are finite; Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). Let
+p lie off S, and let the list of its solutions be complete and finite, so that no component has infinite fibres, and let each
+of them be not real or have an element that is not in C. Then so it is near p, but for the images of the components that do not
+dominate L, which lie in a proper algebraic subset. For otherwise there were points p_1, p_2, .. with limit p and solutions
+q_1, q_2, .. over them, in C and on dominating components. As the projection is proper, some of these converge to a q over p.
+Its elements are non-zero, so positive, and lie in the closed intervals: q is a solution over p in C, and there is none.
     p is drawn at random, each coordinate but the constants one of 2^bits values of an interval inside the range: it lies on S
-with a probability of at most D^(n+1)/2^bits (Schwartz, Zippel). Small numbers may search for a place to draw it, never testify.
+with a probability of at most D^(n+1)/2^bits (Schwartz, Zippel). Small numbers may search for a place to draw it, never
+testify.
 
 Words (see `words`) are exact without that: poles and zeros that balls show to be real, simple and apart, or one that balls
 show not to be so, stay so near p, and a chain has the degrees of its generic models at p or the word is not asked.
@@ -53,7 +54,7 @@ def bits(other: Chain) -> int:
 
 
 def drawn_near(place: Point, ranges: Mapping[str, Range], length: int, label: str) -> Point:
-    """A random point with 2^length values a coordinate near `place`, strictly inside the ranges but where they are one value."""
+    """A random point with 2^length values a coordinate near `place`, strictly inside the ranges that have an inside."""
     numbers = residues(f"witness:{label}", len(place), 1 << length)
     return {
         name: _between(value, ranges.get(name), fmpq(number, 1 << length))
