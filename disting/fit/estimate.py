@@ -88,6 +88,13 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
         return _best(chain, task, known, starts)
 
 
+def evaluated(chain: Chain, task: Task) -> Estimate:
+    """The cost of a candidate whose parameters are all given: there is nothing to search."""
+    values = [task.fixed[name] for name in chain.parameters]
+    j = float(task.cost.total(task.plant(chain).response(np.array(values))))
+    return Estimate(chain, dict(zip(chain.parameters, values, strict=True)), j, (j,))
+
+
 def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
     names = chain.parameters
     plant, box = task.plant(chain), task.box(names)
@@ -142,7 +149,9 @@ def estimates(
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, stage in groupby(wanted, key=_stage):
-        chains = list(stage)
+        whole = list(stage)
+        known |= {c: evaluated(c, task) for c in whole if set(c.parameters) <= set(task.fixed)}
+        chains = [c for c in whole if c not in known]
         keys = {c: _key(c, task, _helpful(c, known), run.__name__) for c in chains}
         stored = store.get_many(keys.values())
         known |= {c: estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored}
