@@ -23,7 +23,7 @@ larger chain's parts can be, their sum is a limit of its models. So `of_closure`
   prime is a lower bound of the rank, so nothing of this is left to chance.
 * COEFFICIENT: one that vanishes identically in the row and not in what is wanted. RANK: what is wanted has a larger rank than the
   row has parameters, or coefficients. Both are seen modulo a prime: what is not zero there is not zero.
-* RESULTANT: see `end_rows`. EQUATION: see `row_equations`, found with an error bound.
+* RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error bound.
 """
 
 from dataclasses import dataclass, replace
@@ -35,6 +35,7 @@ from disting.ideals.monodromy import poles_are_inseparable
 from disting.ideals.parts import gap, has_relation, is_plain, parts, power, splits
 from disting.ideals.system import terms
 from disting.inclusion.end_rows import end_resultant
+from disting.inclusion.inner_rows import inner_resultant
 from disting.inclusion.meeting import powers
 from disting.inclusion.outside_evidence import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
 from disting.inclusion.row_equations import equation_safety, row_equation
@@ -73,7 +74,9 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsIn
             return PartsInside(True, tuple(_step(p, why) for p, why in told if why is not None)), 0
     if not _covered(given, other, f"{seed}:poles"):
         return None
-    against = [next(((p, why) for p, why in told if why is not None and why[0] not in SUPPORTS), None) for told in found.values()]
+    against = [
+        next(((p, why) for p, why in told if why is not None and why[0] not in SUPPORTS), None) for told in found.values()
+    ]
     if any(one is None for one in against):
         return None
     outside = Outside(True, tuple(_step(*one) for one in against if one is not None))
@@ -158,8 +161,9 @@ def _rank(piece: Piece, label: str) -> tuple[Why, str] | None:
 
 def _resultant(piece: Piece, label: str) -> tuple[Why, str] | None:
     modulus = prime(label)
-    found = end_resultant(piece.row, *_at(piece.wanted, label, modulus), modulus)
-    return (Why.RESULTANT, "") if found else None
+    coefficients = _at(piece.wanted, label, modulus)
+    found = (made(piece.row, *coefficients, modulus) for made in (end_resultant, inner_resultant))
+    return (Why.RESULTANT, "") if any(found) else None
 
 
 def _equation(piece: Piece, label: str) -> tuple[Why, str] | None:

@@ -3,8 +3,8 @@
 Let G = N/D be the receptance of a row of n masses whose force and sensor are at an end, e = deg N = 2n - 2, deg D = e + 2. Seen
 from the port, D/N = m s^2 + (what holds the port's mass at its own side) + W, and W belongs to the chain of the other n - 1
 masses behind its first spring and damper k = d (s - z): W = k Z/(k + Z), where Z = C/A' belongs to the masses themselves, A' is
-monic of degree e - 2 and C = m' s^2 A' + .. of degree e. Hence W = P/A with the monic A = (k A' + C m'^-1 ..): written with
-C = m' Y, Y monic, and after division by m', W = P/A, P = k Y, A = k A'/m' + Y. At z: P(z) = 0, A(z) = Y(z), P'(z) = d Y(z):
+monic of degree e - 2, and C = m' Y with a monic Y of degree e. Hence W = P/A, P = k Y, A = k A'/m' + Y, which is monic, and d is
+the leading coefficient of P. At z: P(z) = 0, A(z) = Y(z), P'(z) = d Y(z):
 
     P(z) = 0,   d A(z) = P'(z),   d the leading coefficient of P.                                                    (1)
 
@@ -17,8 +17,14 @@ N is A up to the factor b = b_e; let a = a_(e+2), so that m = a/b. Three kinds o
 * A wall at the other end (port at mass n): U = b D - a s^2 N, of degree e + 1, P = U/b^2, and (1) says u N(z) = b U'(z).
 
 So the resultant of U and u N - b t U', t = s^2 or 1, vanishes for all models of the row, and for all their limits. It also
-does so where b = 0, so something better is taken in the first two cases: from U(z) = 0 follows b E(z) = a N(z), and
-b (u E - a z^2 U')(z) = a (u N - b z^2 U')(z) = 0. The polynomial
+does so where u = 0, which need not be a limit. So something better is taken. In the third case let V = u N - b U', of degree e
+with the leading coefficient -e b u. The coefficients of s^(e+1) and s^e in e b U + s V are e b u - e b u = 0 and
+e b U_e + u N_(e-1) - e b U_e = u N_(e-1), so
+
+    U~ = e b (e b U + s V) + N_(e-1) V
+
+has no larger degree than e - 1, and V and U~ have the root z in common. In the first two cases, from U(z) = 0 follows
+b E(z) = a N(z), and b (u E - a z^2 U')(z) = a (u N - b z^2 U')(z) = 0. The polynomial
 
     V = u E - a s^2 U' + (e - 2) a s U - E_(e-1) U
 
@@ -45,7 +51,9 @@ def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int
     if row.walled and row.act == row.n_masses:
         a, b = int(d[e + 2]), int(n[e])
         u = b * d - a * n.left_shift(2)
-        return resultant(u, int(u[e + 1]) * n - b * u.derivative(), e + 1, e, modulus)
+        v = int(u[e + 1]) * n - b * u.derivative()
+        lower = e * b * (e * b * u + v.left_shift(1)) + int(n[e - 1]) * v
+        return resultant(v, lower, e, e - 1, modulus)
     if row.walled:
         n0, n1, d0, d1 = (int(p[i]) for p in (n, d) for i in (0, 1))
         held = nmod_poly([d0 * n0 % modulus, (d1 * n0 - d0 * n1) % modulus], modulus)

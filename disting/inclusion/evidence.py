@@ -106,7 +106,11 @@ def tells_equivalents(evidence: InclusionEvidence) -> bool:
 def tells_limits(evidence: InclusionEvidence) -> bool:
     """Whether it shows limits; those of `Solved` and `ByParts` may have elements that are zero."""
     by_parts = isinstance(evidence, ByParts) and evidence.is_member
-    return by_parts or isinstance(evidence, Limit | Meeting | LimitFibre | FullImage | PartsInside | Solved) or tells_equivalents(evidence)
+    return (
+        by_parts
+        or isinstance(evidence, Limit | Meeting | LimitFibre | FullImage | PartsInside | Solved)
+        or tells_equivalents(evidence)
+    )
 
 
 def excludes_limits(evidence: InclusionEvidence) -> bool:

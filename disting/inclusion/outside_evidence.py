@@ -114,7 +114,7 @@ _TOLD = {
     Why.MOMENTUM: "{part} can have any coefficients that keep the momentum (a₂ b₁ = a₃ b₀)",
     Why.COEFFICIENT: "coefficient {detail} is zero in {part} and would not be",
     Why.RANK: "{part} has too few determinable parameters ({detail})",
-    Why.RESULTANT: "the first element of {part} at the port would have to be one that none of its possible values is",
+    Why.RESULTANT: "the coefficients of {part} fulfil an equation, a resultant, that would not hold",
     Why.EQUATION: "a polynomial equation between the coefficients of {part} does not hold",
 }
 _FORMULAS = {
