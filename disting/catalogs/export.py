@@ -27,14 +27,15 @@ CSV_COLUMNS = (
 )
 Row = tuple[int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str]
 """left, right (numbers, or names where models of several sizes are compared), relation, decided_by, representation, certainty,
-error bound, domain, image and closure ("" if not known), and which positive models of the left, and of the right, have a positive
-equivalent on the other side ("" where that is not asked)"""
+error bound, domain, image and closure ("" if not known), and which positive models of the left, and of the right, have a
+positive equivalent on the other side ("" where that is not asked)"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, *["neither"] * 2, "", "")]), end="")
+    >>> row = (1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither", "neither", "", "")
+    >>> print(csv_text([row]), end="")
     left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,left_positive,right_positive
     1,2,distinguishable,1,tf,proven,0,complex,neither,neither,,
     """

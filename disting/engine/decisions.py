@@ -36,7 +36,6 @@ from disting.inclusion import (
 )
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
-from disting.model.chain import Chain
 from disting.positivity import PositiveFinding
 from disting.question import Chains, Question
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of

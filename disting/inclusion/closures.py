@@ -1,30 +1,30 @@
 """Limits of chains of as many masses, part by part: whether generic models of one chain are limits of models of another one.
 
-Notation of `disting.ideals.parts`: x, q, a chain with a gap h is a sum H = R + F, R = N_R/D_R, F = N_F/D_F, deg D_R = A = q h,
-x^q divides D_F, deg D_F = B. Let the generic receptance n/d of the smaller chain, in lowest terms, be a limit of models of the
-larger one: pairs (N_k : D_k) of these converge to (n : d), D_k = D_Rk D_Fk, N_k = N_Rk D_Fk + N_Fk D_Rk. (The closure of the
-image of a polynomial map is the same in the topologies of Zariski and of the complex numbers.)
+Notation of `disting.ideals.parts`: x, q, a chain with a gap h is a sum H = R + F, R = N_R/D_R, F = N_F/D_F, deg D_R = A = q
+h, x^q divides D_F, deg D_F = B. Let the generic receptance n/d of the smaller chain, in lowest terms, be a limit of models
+of the larger one: pairs (N_k : D_k) of these converge to (n : d), D_k = D_Rk D_Fk, N_k = N_Rk D_Fk + N_Fk D_Rk. (The
+closure of the image of a polynomial map is the same in the topologies of Zariski and of the complex numbers.)
 
 Theorem. Then n/d = R + F, where (N_R : D_R) and (N_F : D_F) are limits of the parts' pairs and deg D_R = A, deg D_F = B.
 
-Proof. Scale D_Rk and D_Fk so that their largest coefficients have the modulus 1, and go over to a subsequence for which they
-converge, to D_R and D_F, which are not zero. Then D_k converges to D_R D_F, not zero, which thus is d up to a factor, and N_k, in
-the same scale, to n times this factor. d has the degree A + B: so deg D_R = A, deg D_F = B. d has 0 as a root of order q and
-simple roots else, and x^q divides every D_Fk and so D_F: D_R and D_F are coprime. So (u, v) -> u D_F + v D_R is injective where
-deg u < A, deg v < B, and so are the maps with D_Fk and D_Rk, with inverses that converge: N_Rk and N_Fk converge too.
+Proof. Scale D_Rk and D_Fk so that their largest coefficients have the modulus 1, and go over to a subsequence for which
+they converge, to D_R and D_F, which are not zero. Then D_k converges to D_R D_F, not zero, which thus is d up to a factor,
+and N_k, in the same scale, to n times this factor. d has the degree A + B: so deg D_R = A, deg D_F = B. d has 0 as a root
+of order q and simple roots else, and x^q divides every D_Fk and so D_F: D_R and D_F are coprime. So (u, v) -> u D_F + v D_R
+is injective where deg u < A, deg v < B, and so are the maps with D_Fk and D_Rk, with inverses that converge: N_Rk and N_Fk
+converge too.
 
-The theorem of `parts` uses nothing of the larger chain but that numerators have at most certain degrees, which limits keep. So
-if it applies, the parts of n/d are among its three splits. Conversely, where in a split both parts are limits of what the
-larger chain's parts can be, their sum is a limit of its models. So `of_closure` looks at each part, a row of masses:
+The theorem of `parts` uses nothing of the larger chain but that numerators have at most certain degrees, which limits keep.
+So if it applies, the parts of n/d are among its three splits. Conversely, where in a split both parts are limits of what
+the larger chain's parts can be, their sum is a limit of its models. So `of_closure` looks at each part, a row of masses:
 
-* INSIDE: it is the very same map. FULL: its rank is the number of its coefficients, up to a common factor, that do not vanish
-  identically, so its closure is the linear space of all such. MOMENTUM: a free damped row has a_2 b_1 = a_3 b_0 (see
-  `meeting`), an irreducible quadric; where the rank is one less than in FULL, its closure is this quadric. A rank seen modulo a
-  prime is a lower bound of the rank, so nothing of this is left to chance.
-* COEFFICIENT: one that vanishes identically in the row and not in what is wanted. RANK: what is wanted has a larger rank than the
-  row has parameters, or coefficients. Both are seen modulo a prime: what is not zero there is not zero.
-* RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error bound.
-"""
+* INSIDE: it is the very same map. FULL: its rank is the number of its coefficients, up to a common factor, that do not
+  vanish identically, so its closure is the linear space of all such. MOMENTUM: a free damped row has a_2 b_1 = a_3 b_0 (see
+  `meeting`), an irreducible quadric; where the rank is one less than in FULL, its closure is this quadric. A rank seen
+  modulo a prime is a lower bound of the rank, so nothing of this is left to chance.
+* COEFFICIENT: one that vanishes identically in the row and not in what is wanted. RANK: what is wanted has a larger rank
+  than the row has parameters, or coefficients. Both are seen modulo a prime: what is not zero there is not zero.
+* RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error bound."""
 
 from dataclasses import dataclass, replace
 

@@ -138,7 +138,7 @@ def inclusion_from_dict(data: dict[str, object]) -> InclusionFinding:
 
 
 def inclusions_to_dict(found: Inclusions) -> dict[str, object]:
-    """Plain data: `closure`, and `image` where it is told otherwise (what is no limit has no equivalent, for the same reason)."""
+    """Plain data: `closure`, and `image` where it has another finding (what is no limit has no equivalent either)."""
     same = {} if found.image == found.closure else {Sense.IMAGE.value: inclusion_to_dict(found.image)}
     return {Sense.CLOSURE.value: inclusion_to_dict(found.closure), **same}
 

@@ -1,13 +1,13 @@
 """Equivalents with finite elements other than zero: whether generic models of a chain of smaller rank have any in another one.
 
 What one fibre proves. Let a rational point p0 of the given model have an equivalent in the other one, all elements q of it
-finite and not zero (see `disting.synthesis`). The triples (p, q, t) with Phi2(q) = t Phi1(p) and all elements of q non-zero (one
-more unknown and equation say so) are given by c + 1 equations of degree D at most, c the number of coefficients that do not
-vanish identically in both, D as in `disting.conditions.exact`. The degrees of all components of the set add up to D^(c + 1) at
-most (Bezout, J. Heintz, Definability and fast quantifier elimination in algebraically closed fields, Theoret. Comput. Sci. 24,
-1983), and projections have no larger degrees. So if no component dominates the points p, those with an equivalent lie on a
-hypersurface of degree D^(c + 1), which p0 meets by accident only. Otherwise generic p have equivalents, for what is dense
-and constructible holds a dense open set.
+finite and not zero (see `disting.synthesis`). The triples (p, q, t) with Phi2(q) = t Phi1(p) and all elements of q non-zero
+(one more unknown and equation say so) are given by c + 1 equations of degree D at most, c the number of coefficients that
+do not vanish identically in both, D as in `disting.conditions.exact`. The degrees of all components of the set add up to
+D^(c + 1) at most (Bezout, J. Heintz, Definability and fast quantifier elimination in algebraically closed fields, Theoret.
+Comput. Sci. 24, 1983), and projections have no larger degrees. So if no component dominates the points p, those with an
+equivalent lie on a hypersurface of degree D^(c + 1), which p0 meets by accident only. Otherwise generic p have equivalents,
+for what is dense and constructible holds a dense open set.
 
 An empty fibre proves the opposite, as in `disting.conditions.exact`, whose argument does not use equal ranks.
 """

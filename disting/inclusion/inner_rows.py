@@ -1,8 +1,9 @@
 """An equation of all damped rows with force and sensor on one mass that has a single mass beyond it: a resultant of resultants.
 
-Let G = N/D, e = deg N = 2n - 2. Cut at the port's mass, the row falls into two sides, so D/N = m s^2 + W_L + W_R and N is, up to a
-factor, the product of the denominators of W_L and W_R. Let the right side have a free end and be one mass m' behind a spring and
-damper k: W = k m' s^2/(m' s^2 + k), so W/s^2 = m' (1 + m' s^2/k)^-1 = m' + O(s^2). With rho_z = D(z)/N'(z), the residues of D/N,
+Let G = N/D, e = deg N = 2n - 2. Cut at the port's mass, the row falls into two sides, so D/N = m s^2 + W_L + W_R and N is,
+up to a factor, the product of the denominators of W_L and W_R. Let the right side have a free end and be one mass m' behind
+a spring and damper k: W = k m' s^2/(m' s^2 + k), so W/s^2 = m' (1 + m' s^2/k)^-1 = m' + O(s^2). With rho_z = D(z)/N'(z),
+the residues of D/N,
 
     W/s^2 = sum rho_z/(z^2 (s - z))  over the two zeros z of m' s^2 + k,
 
@@ -10,18 +11,18 @@ as W = O(s^2) is a linear polynomial plus sum rho_z/(s - z). The derivative at 0
 
     x_z = D(z)/(z^4 N'(z)),    R(x) = Res_s(N, x s^4 N' - D),
 
-R has two roots x_z that add up to 0, in general not zero themselves. Let R(x) = P(x^2) + x Q(x^2): P and Q have a common root, so
-their resultant vanishes for generic models of the row, thus for all, and for all their limits.
+R has two roots x_z that add up to 0, in general not zero themselves. Let R(x) = P(x^2) + x Q(x^2): P and Q have a common
+root, so their resultant vanishes for generic models of the row, thus for all, and for all their limits.
 
-So that this says something where N has a smaller degree, s^4 N' is replaced by T = s^4 N' - e s^3 N, which is the same at the
-zeros of N and has no larger degree, e + 2, than D; R is the resultant for the formal degrees e and e + 2. In a free row D = s^2 E:
-there R(x) = Res(N, x (s^2 N' - e s N) - E), formal degrees e and e. W_L/s^2 = m'' + O(s^2) holds for its other side as well (a row
-without a wall keeps its momentum), so all x_z add up to 0: R_(e-1) = 0, and the formal degree of Q is e/2 - 2, else e/2 - 1.
-"""
+So that this says something where N has a smaller degree, s^4 N' is replaced by T = s^4 N' - e s^3 N, which is the same at
+the zeros of N and has no larger degree, e + 2, than D; R is the resultant for the formal degrees e and e + 2. In a free row
+D = s^2 E: there R(x) = Res(N, x (s^2 N' - e s N) - E), formal degrees e and e. W_L/s^2 = m'' + O(s^2) holds for its other
+side as well (a row without a wall keeps its momentum), so all x_z add up to 0: R_(e-1) = 0, and the formal degree of Q is
+e/2 - 2, else e/2 - 1."""
 
-from flint import nmod_mat, nmod_poly
+from typing import Any
 
-from disting.inclusion.end_rows import resultant
+from disting.algebra.resultant import interpolated, polynomial, resultant
 from disting.inclusion.rows import Row
 
 
@@ -36,20 +37,17 @@ def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> i
         return 0
     if len(num) > e + 1 or len(den) != e + 3 or not (row.walled or den[0] == den[1] == 0):
         return 0
-    numerator, denominator = nmod_poly(num, modulus), nmod_poly(den if row.walled else den[2:], modulus)
+    numerator, denominator = polynomial(num, modulus), polynomial(den if row.walled else den[2:], modulus)
     r = _in_x(numerator, denominator, e, 4 if row.walled else 2, modulus)
     if row.walled:
-        return resultant(nmod_poly(r[::2], modulus), nmod_poly(r[1::2], modulus), e // 2, e // 2 - 1, modulus)
+        return resultant(polynomial(r[::2], modulus), polynomial(r[1::2], modulus), e // 2, e // 2 - 1)
     if r[e - 1]:
         return r[e - 1]
-    return resultant(nmod_poly(r[::2], modulus), nmod_poly(r[1 : e - 1 : 2], modulus), e // 2, e // 2 - 2, modulus)
+    return resultant(polynomial(r[::2], modulus), polynomial(r[1 : e - 1 : 2], modulus), e // 2, e // 2 - 2)
 
 
-def _in_x(n: nmod_poly, d: nmod_poly, e: int, power: int, modulus: int) -> list[int]:
+def _in_x(n: Any, d: Any, e: int, power: int, modulus: int) -> list[int]:
     """Coefficients of R, interpolated."""
     t = n.derivative().left_shift(power) - e * n.left_shift(power - 1)
     top = e + power - 2
-    values = [resultant(n, x * t - d, e, top, modulus) for x in range(e + 1)]
-    powers = nmod_mat(e + 1, e + 1, [pow(x, j, modulus) for x in range(e + 1) for j in range(e + 1)], modulus)
-    found = powers.solve(nmod_mat(e + 1, 1, values, modulus))
-    return [int(found[j, 0]) for j in range(e + 1)]
+    return interpolated([resultant(n, x * t - d, e, top) for x in range(e + 1)], modulus)

@@ -47,8 +47,8 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
             return evidence.left_is_larger != left_is_smaller and _fall_apart(smaller, larger, here, there)
         case Outside() | PartsInside():
-            small, large = ordered(a, b, left_is_smaller)
-            return evidence.left_given == left_is_smaller and confirms_parts(evidence, small, large)
+            given, other = (a, b) if left_is_smaller else (b, a)
+            return evidence.left_given == left_is_smaller and confirms_parts(evidence, given, other)
         case ByParts():
             parts = (rational_part(a), rational_part(b))
             return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)

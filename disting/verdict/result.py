@@ -37,8 +37,9 @@ class Verdict:
     `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
     or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned. `image`
     tells, over complex parameters, whose generic models have equivalents on the other side, elements finite and not zero;
-    `closure` whose are limits of models there; for models of unequal rank `inclusions` says why. `left_positive`: which positive left models have a positive equivalent on the right, where
-    generic left ones have equivalents there; `right_positive`: the reverse.
+    `closure` whose are limits of models there; for models of unequal rank `inclusions` says why. `left_positive`: which
+    positive left models have a positive equivalent on the right, where generic left ones have equivalents there;
+    `right_positive`: the reverse.
     """
 
     left: str
