@@ -117,9 +117,9 @@ def _by_parts(small: Chain, large: Chain, settings: Settings) -> InclusionFindin
 
 def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
     found = member(small, large, settings.seed)
-    safety = safety_of_point(small.n_masses, len(large.parameters))
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION) or safety <= 0:
+    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
         return None
+    safety = safety_of_point(large)
     if found.membership is Membership.EXCLUDED:
         return InclusionFinding(Inclusion.NEITHER, Sense.IMAGE, Certainty.BOUNDED, safety, _evidence(found))
     return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE, Certainty.BOUNDED, safety, _evidence(found))

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any, ClassVar
 
-from disting.certainty import Certainty
+from disting.certainty import Certainty, shortfall
 from disting.conditions.evidence import Counts, FibreAt, Labels, from_dict, spelled, to_dict
 from disting.ideals import ByParts, PartStep, Refuted, Solved, Vanishing
 from disting.inclusion.across_sizes_evidence import (
@@ -108,7 +108,10 @@ _SHOWN = {c.kind: c for c in (Vanishing, Solved, Refuted)}
 
 @dataclass(frozen=True, slots=True)
 class InclusionFinding:
-    """Inclusion with its evidence; `reason` says why it is unknown."""
+    """Inclusion with its evidence; `reason` says why it is unknown.
+
+    A bound that does not reach 2**-LEAST_SAFETY leaves it unknown.
+    """
 
     inclusion: Inclusion
     sense: Sense = Sense.BOTH
@@ -120,8 +123,11 @@ class InclusionFinding:
     def __post_init__(self) -> None:
         if len({self.inclusion is not Inclusion.UNKNOWN, self.evidence is not None, self.certainty is not None}) > 1:
             raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
-        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
-            raise ValueError("exactly a bounded finding carries an error bound")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {"inclusion": Inclusion.UNKNOWN, "certainty": None, "safety": 0, "evidence": None, "reason": lacking}
+            for name, value in given_up.items():
+                object.__setattr__(self, name, value)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its inclusion")
