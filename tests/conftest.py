@@ -7,3 +7,13 @@ from hypothesis import settings
 os.environ["DISTING_CACHE"] = "off"
 settings.register_profile("repeatable", derandomize=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+
+
+def pytest_terminal_summary(terminalreporter):
+    """What the tests against independent programs compared is said whether they pass or fail."""
+    reports = [report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])]
+    lines = [(r.nodeid, text) for r in reports if r.when == "call" for name, text in r.user_properties if name == "oracle"]
+    if lines:
+        terminalreporter.section("compared with independent programs")
+    for nodeid, text in lines:
+        terminalreporter.write_line(f"{nodeid}: {text}")
