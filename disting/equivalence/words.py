@@ -9,7 +9,6 @@ from disting.model.chain import Chain
 from disting.synthesis.result import Fibre, Status
 from disting.synthesis.target import target
 
-
 NONE = "none exists, with positive parameters or any others: proven"
 
 
