@@ -1,5 +1,6 @@
 """Equivalents of models with dampers to the ground, lag and dead time: judged by plain numerical mechanics."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
