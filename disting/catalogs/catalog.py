@@ -8,12 +8,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from disting.catalogs.export import Row, csv_text, share_text
+from disting.catalogs.export import Row, csv_text, inclusion_text, share_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.errors import CatalogError, InputError
 from disting.identifiability import Identifiability
-from disting.inclusion import Inclusion
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.verdict import Relation, Verdict, View
@@ -206,9 +205,9 @@ _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
 def _csv_row(left: int, right: int, v: Verdict) -> Row:
-    inclusion = "" if v.inclusion is Inclusion.UNKNOWN else v.inclusion.value
+    image, closure = (inclusion_text(inclusion) for inclusion in (v.image, v.closure))
     graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)
-    return left, right, *graded, v.domain, inclusion, share_text(v.left_positive), share_text(v.right_positive)
+    return left, right, *graded, v.domain, image, closure, share_text(v.left_positive), share_text(v.right_positive)
 
 
 def _software() -> dict[str, str]:

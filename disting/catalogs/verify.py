@@ -46,12 +46,20 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
             chains = stored.family[left], stored.family[right]
             if v.evidence and not witness.confirms(v.evidence, v.representation, *chains):
                 yield f"{stored.name}, {left}:{right}, {view}: the evidence of condition {v.decided_by} does not hold"
-        included = stored.verdict(left, right, View.EXACT).inclusion_finding
-        evidence = None if included is None else included.evidence
-        if evidence is not None and not confirms(evidence, subjects[left], subjects[right]):
-            yield f"{stored.name}, {left}:{right}: the evidence of the inclusion does not hold"
+        yield from _false_inclusions(stored, subjects[left], subjects[right], (left, right))
         yield from _false_shares(stored, left, right)
         progress("evidence", done, total)
+
+
+def _false_inclusions(stored: Catalog, left: Subject, right: Subject, numbers: tuple[int, int]) -> Iterator[str]:
+    """Of what is known of finite elements, and of limits; that evidence is of the right kind was seen when it was read."""
+    both = stored.verdict(*numbers, View.EXACT).inclusions
+    if both is None:
+        return
+    told = {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
+    for evidence, what in told.items():
+        if evidence is not None and not confirms(evidence, left, right):
+            yield f"{stored.name}, {numbers[0]}:{numbers[1]}: the evidence of the inclusion ({what}) does not hold"
 
 
 def _false_shares(stored: Catalog, left: int, right: int) -> Iterator[str]:

@@ -70,10 +70,13 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
     if where == "-":
         sys.stdout.writelines(lines)
         return
+    partial = Path(f"{where}.partial")  # renamed at the end: a full disk or a kill leaves an older file as it was
     try:
-        with Path(where).open("w", encoding="utf-8") as file:
+        with partial.open("w", encoding="utf-8") as file:
             file.writelines(lines)
+        partial.replace(where)
     except OSError as reason:
+        partial.unlink(missing_ok=True)
         raise InputError(
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
         ) from None

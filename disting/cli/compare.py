@@ -13,7 +13,7 @@ from disting.conditions.ways import BothWays
 from disting.domain import Domain
 from disting.equivalence import chain_of
 from disting.errors import InputError
-from disting.inclusion import Inclusion
+from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
@@ -95,22 +95,27 @@ def _explained(verdict: Verdict, chains: list[Chain]) -> str:
 
 def _over_complex(verdict: Verdict) -> str:
     """Beside a verdict over real or positive parameters, that over complex ones, where it is known."""
-    if verdict.domain is Domain.COMPLEX or verdict.inclusion is Inclusion.UNKNOWN:
+    if verdict.domain is Domain.COMPLEX or (verdict.closure is Inclusion.UNKNOWN and verdict.inclusions is None):
         return ""
-    complex_relation = Relation.INDISTINGUISHABLE if verdict.inclusion is Inclusion.EQUAL else Relation.DISTINGUISHABLE
+    complex_relation = Relation.INDISTINGUISHABLE if verdict.closure is Inclusion.EQUAL else Relation.DISTINGUISHABLE
     also = "too" if verdict.relation is complex_relation else f"they are {complex_relation} (--domain complex)"
     return f"; over complex ones {also}"
 
 
 def _inclusion(verdict: Verdict) -> list[str]:
     """What is said of models of unequal rank."""
-    found = verdict.inclusion_finding
-    if found is None:
+    both = verdict.inclusions
+    if both is None:
         return []
-    says = {
-        Inclusion.LEFT_IN_RIGHT: f"generic {verdict.left} lie in {verdict.right}, not the reverse",
-        Inclusion.RIGHT_IN_LEFT: f"generic {verdict.right} lie in {verdict.left}, not the reverse",
-        Inclusion.NEITHER: "neither lies in the other",
-    }.get(found.inclusion, f"not known: {found.reason}")
-    why = f" ({found.certainty}): {found.evidence.sentence(verdict.left, verdict.right)}" if found.evidence else ""
-    return [f"inclusion  {says}{why}"]
+    lines = [f"inclusion  {both.sentence(verdict.left, verdict.right)}"]
+    if both.image == both.closure:
+        return [*lines, f"why        {_why(both.closure, verdict)}"]
+    return [*lines, f"image      {_why(both.image, verdict)}", f"closure    {_why(both.closure, verdict)}"]
+
+
+def _why(found: InclusionFinding, verdict: Verdict) -> str:
+    """Grade and evidence of one statement, or why it is not known."""
+    if found.evidence is None:
+        return f"not known: {found.reason}"
+    bound = f", probability of error at most 2^-{found.safety}" if found.safety else ""
+    return f"{found.inclusion} ({found.certainty}{bound}): {found.evidence.sentence(verdict.left, verdict.right)}"

@@ -9,7 +9,7 @@ from disting.cli.common import VIEWS, emitted, query, relations_in_words, rules_
 from disting.cli.work import engine_for
 from disting.engine import Decisions
 from disting.errors import InputError
-from disting.inclusion import Inclusion
+from disting.inclusion import ONE_SIDED, Sense
 from disting.model.chain import Sensor
 from disting.proof import prove_all
 
@@ -49,4 +49,4 @@ def _summary(decided: Decisions) -> str:
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:
     """Whether the smaller model lies in the one with more masses."""
     sizes = {decided.subjects[k].chain.n_masses for k in (i, j)}
-    return len(sizes) == 2 and decided.inclusion(i, j) in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+    return len(sizes) == 2 and decided.inclusion(i, j, Sense.CLOSURE) in ONE_SIDED

@@ -169,7 +169,7 @@ def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
         """Models that this one lies in (`larger`), or that lie in it."""
         for other, v in verdicts.items():
             inside = Inclusion.LEFT_IN_RIGHT if (number < other) == larger else Inclusion.RIGHT_IN_LEFT
-            if v.inclusion is inside:
+            if v.closure is inside:
                 yield other
 
     return Limits(tuple(others(True)), tuple(others(False)))

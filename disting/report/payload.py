@@ -13,7 +13,6 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog
 from disting.conditions.admissible import ADMISSIBLE
-from disting.inclusion import Inclusion
 from disting.positivity import Share
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
@@ -28,10 +27,6 @@ CERTAINTIES = {
     "": "",
 }
 
-SAID = {
-    Inclusion.LEFT_IN_RIGHT: "Over complex parameters, every generic {L} is a limit of models {R}, not the reverse.",
-    Inclusion.RIGHT_IN_LEFT: "Over complex parameters, every generic {R} is a limit of models {L}, not the reverse.",
-}
 SHARES = {
     Share.ALWAYS: "Every generic {0} with positive parameters has a positive equivalent {1}",
     Share.SOMETIMES: "Some {0} with positive parameters have a positive equivalent {1}, others have none",
@@ -108,8 +103,8 @@ def _entry(verdict: Verdict) -> Entry:
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
     certainty = CERTAINTIES[verdict.certainty or ""].format(bound=probability(verdict.error_bound))
     formula = evidence.formula if evidence else ""
-    if verdict.inclusion_finding is not None and verdict.inclusion in SAID:
-        why = f"{why} {SAID[verdict.inclusion]}"
+    if verdict.inclusions is not None:
+        why = f"{why} {verdict.inclusions.sentence('{L}', '{R}')}"
     why = " ".join([why, *_shares(verdict)])
     graded = (verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain)
     return *graded, why, formula, verdict.rule

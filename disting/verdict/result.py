@@ -9,7 +9,7 @@ from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
 from disting.conditions.exact import EXACT
 from disting.domain import Domain
-from disting.inclusion import Inclusion, InclusionFinding, inclusion_from_dict, inclusion_to_dict
+from disting.inclusion import Inclusion, Inclusions, inclusions_from_dict, inclusions_to_dict
 from disting.positivity import PositiveFinding
 from disting.verdict.query import RULE_NAMES
 
@@ -51,9 +51,10 @@ class Verdict:
 
     `decided_by`: the condition's number, "exact", "admissible", or "" if undecided; `representation`: "tf", "markov",
     "structure", "fibre", "parameters" or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes`
-    names what was abandoned. `inclusion` tells, over complex parameters, whose generic models have equivalents on the other
-    side; for models of unequal rank `inclusion_finding` says why. `left_positive`: which positive left models have a positive
-    equivalent on the right, where generic left ones have equivalents there; `right_positive`: the reverse.
+    names what was abandoned. `image` tells, over complex parameters, whose generic models have equivalents on the other side,
+    elements finite and not zero; `closure` whose are limits of models there; for models of unequal rank `inclusions` says why.
+    `left_positive`: which positive left models have a positive equivalent on the right, where generic left ones have
+    equivalents there; `right_positive`: the reverse.
     """
 
     left: str
@@ -66,8 +67,9 @@ class Verdict:
     evidence: Evidence | None = None
     domain: Domain = Domain.COMPLEX
     notes: tuple[str, ...] = ()
-    inclusion: Inclusion = Inclusion.UNKNOWN
-    inclusion_finding: InclusionFinding | None = None
+    image: Inclusion = Inclusion.UNKNOWN
+    closure: Inclusion = Inclusion.UNKNOWN
+    inclusions: Inclusions | None = None
     left_positive: PositiveFinding | None = None
     right_positive: PositiveFinding | None = None
 
@@ -118,8 +120,9 @@ class Verdict:
             "certainty": self.certainty.value if self.certainty else "",
             "safety": self.safety,
             "domain": self.domain.value,
-            "inclusion": self.inclusion.value,
-            "inclusion_finding": {} if self.inclusion_finding is None else inclusion_to_dict(self.inclusion_finding),
+            "image": self.image.value,
+            "closure": self.closure.value,
+            "inclusions": {} if self.inclusions is None else inclusions_to_dict(self.inclusions),
             "left_positive": {} if self.left_positive is None else self.left_positive.to_dict(),
             "right_positive": {} if self.right_positive is None else self.right_positive.to_dict(),
             "error_bound": self.error_bound,
@@ -131,7 +134,7 @@ class Verdict:
     @staticmethod
     def from_dict(data: dict[str, object]) -> "Verdict":
         """Inverse of to_dict; raises ValueError, KeyError or TypeError for what is none."""
-        certainty, evidence, inclusion = data["certainty"], data["evidence"], data["inclusion_finding"]
+        certainty, evidence, inclusion = data["certainty"], data["evidence"], data["inclusions"]
         return Verdict(
             str(data["left"]),
             str(data["right"]),
@@ -143,8 +146,9 @@ class Verdict:
             evidence_from(evidence) if isinstance(evidence, dict) and evidence else None,
             Domain(str(data["domain"])),
             tuple(map(str, data["notes"])) if isinstance(data["notes"], list) else (),
-            Inclusion(str(data["inclusion"])),
-            inclusion_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
+            Inclusion(str(data["image"])),
+            Inclusion(str(data["closure"])),
+            inclusions_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
             *(_positive_from(data[side]) for side in ("left_positive", "right_positive")),
         )
 
