@@ -1,9 +1,9 @@
 """Where catalogue files are and what is in them: one JSON record a line, so that a change shows as changed lines.
 
 First line: header. Then a line a model, in order; then a line a pair (left < right), with the deciding step in each
-representation, absent where nothing decides, the inclusion of models of unequal rank, and which positive models of either side
-have a positive equivalent on the other (`left_positive`, `right_positive`), where generic ones have equivalents.
-"""
+representation, absent where nothing decides, the `inclusions` of models of unequal rank (`closure`: limits; `image`: finite
+elements other than zero, absent where both have one reason), and which positive models of either side have a positive
+equivalent on the other (`left_positive`, `right_positive`), where generic ones have equivalents."""
 
 import hashlib
 import json
@@ -13,10 +13,11 @@ from typing import Any
 
 from disting.errors import CatalogError
 
-SCHEMA = 3
+SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
 PROVENANCE = "provenance.json"
 LEFT_POSITIVE, RIGHT_POSITIVE = "left_positive", "right_positive"  # of a pair's record
+INCLUSIONS = "inclusions"
 Record = dict[str, Any]
 
 

@@ -3,9 +3,11 @@
 Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality, Foster (ALWAYS); decay,
 residues, own poles, signs, swapped parts (NEVER, see `parts`); the arrangement of poles and zeros of each part (ALWAYS or
 SOMETIMES, see `words`). Then a rational point without any equivalent (NEVER, but for a probability that is bounded). Then
-random points: one proven to have a positive equivalent and one proven to have none (SOMETIMES).
+random points: one with a positive equivalent and one without (SOMETIMES).
 
-ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic subset.
+ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic subset. SOMETIMES speaks of two
+open sets. A word is the same for all models near one where balls tell it (see `witness`), so points of undamped models testify
+however short they are; damped ones, whose solutions are listed, are never called SOMETIMES by points.
 
 Foster: undamped, both chains with force and sensor at one place. H = sum r_j/(x + l_j) with l_j >= 0, r_j > 0. Any g of the
 non-zero poles serve for the grounded part R, the others for F. For a part R = sum r_j/(x + l_j) with n poles the n - 1 zeros
@@ -18,6 +20,7 @@ C(N-1, g) C(g-1, a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from disting.algebra.sampling import about
 from disting.certainty import Certainty
@@ -81,11 +84,18 @@ def theorem(given: Chain, other: Chain) -> str:
     >>> theorem(Chain(3), Chain(3, 0, 0, 2, 0, 2))
     'Foster'
     """
-    here, there = canonical(given).chain, canonical(other).chain
+    here, there = (canonical(c).chain for c in _without_common_factors(given, other))
     if here == there:
         return "symmetry"
-    foster = not given.damped and all(is_plain(c) and c.collocated for c in (given, other))
+    foster = not given.damped and all(is_plain(c) and c.collocated for c in (here, there))
     return "Foster" if foster else "duality" if are_dual(here, there) else ""
+
+
+def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
+    """Both without the lag and the dead time that both have: equivalents inherit T1 and Td."""
+    lag, dead_time = given.lag and other.lag, given.dead_time and other.dead_time
+    first, second = (replace(c, lag=c.lag and not lag, dead_time=c.dead_time and not dead_time) for c in (given, other))
+    return first, second
 
 
 def part_words(given: Chain, other: Chain) -> tuple[PartWords, ...]:

@@ -112,7 +112,7 @@ def test_tables_agree_with_the_verdicts():
 def test_csv_and_json_hold_every_pair():
     c = catalog(3)
     rows = c.to_csv().splitlines()
-    assert rows[0].startswith("left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion,")
+    assert rows[0].startswith("left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,")
     assert rows[0].endswith(",left_positive,right_positive")
     assert len(rows) == 1 + 55
     data = json.loads(c.to_json(View.TF))

@@ -51,7 +51,7 @@ def test_limits_look_the_same_from_both_sides() -> None:
     for number, of in found.items():
         assert all(number in found[other].holds for other in of.inside)
         assert all(number in found[other].inside for other in of.holds)
-    one_sided = [v for _, _, v in shipped.pairs() if v.inclusion in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)]
+    one_sided = [v for _, _, v in shipped.pairs() if v.closure in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)]
     assert sum(len(of.inside) for of in found.values()) == len(one_sided) == 32
 
 
