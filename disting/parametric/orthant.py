@@ -17,6 +17,7 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.domain import Domain
 from disting.parametric.model import Model, Terms
+from disting.parametric.ratio import Ratio
 
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign of a polynomial, or is zero."""
@@ -67,10 +68,19 @@ class Orthant:
         return self.context.from_dict({(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms})
 
     def equations(self, given: Model, other: Model) -> list[fmpz_mpoly]:
-        """c_i(q) lead(p) = c_i(p) lead(q) for all coefficients c_i: the same transfer function, for generic p (see `cases`)."""
-        here = [self.lifted(c, 0) for c in (*given.numerator_terms, *given.denominator_terms)]
-        there = [self.lifted(c, self.n_given) for c in (*other.numerator_terms, *other.denominator_terms)]
-        return [b * here[-1] - a * there[-1] for a, b in zip(here[:-1], there[:-1], strict=True)]
+        """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for generic p (see `cases`)."""
+        here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
+        return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
+
+    def _invariants(self, model: Model, first: int) -> list[Ratio]:
+        """Coefficients of G over the leading one, the numerator without the multiple of the denominator that G is at s = oo."""
+        top, bottom = ([self.lifted(c, first) for c in side] for side in (model.numerator_terms, model.denominator_terms))
+        lead = bottom[-1]
+        monic = [Ratio(c, lead) for c in bottom[:-1]]
+        if len(top) < len(bottom):
+            return [*(Ratio(c, lead) for c in top), *monic]
+        rest = [b * lead - top[-1] * a for a, b in zip(bottom[:-1], top[:-1], strict=True)]
+        return [Ratio(top[-1], lead), *(Ratio(c, lead * lead) for c in rest), *monic]
 
     def lead(self, other: Model) -> fmpz_mpoly:
         """Leading denominator coefficient of the searched model."""
