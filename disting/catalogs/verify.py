@@ -40,7 +40,7 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
     witness = Witness()
     subjects = {number: Subject(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)}
     total = len(stored.family) * (len(stored.family) - 1) // 2
-    for done, (left, right, _) in enumerate(stored.pairs(), 1):
+    for done, (left, right, _) in enumerate(stored.pairs(View.EXACT), 1):
         for view in View:
             v = stored.verdict(left, right, view)
             chains = stored.family[left], stored.family[right]
@@ -53,7 +53,7 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
 
 def _false_inclusions(stored: Catalog, left: Subject, right: Subject, numbers: tuple[int, int]) -> Iterator[str]:
     """Of what is known of finite elements, and of limits; that evidence is of the right kind was seen when it was read."""
-    both = stored.verdict(*numbers).inclusions
+    both = stored.verdict(*numbers, View.EXACT).inclusions
     if both is None:
         return
     told = {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
@@ -64,7 +64,7 @@ def _false_inclusions(stored: Catalog, left: Subject, right: Subject, numbers: t
 
 def _false_shares(stored: Catalog, left: int, right: int) -> Iterator[str]:
     """Of what is known of positive equivalents."""
-    v = stored.verdict(left, right)
+    v = stored.verdict(left, right, View.EXACT)
     for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         chains = (canonical(stored.family[number]).chain for number in (given, other))
         if found is not None and found.evidence is not None and not proves(found, *chains):

@@ -15,7 +15,7 @@ An empty fibre proves the opposite, as in `disting.conditions.exact`, whose argu
 from dataclasses import replace
 from math import ceil, log2
 
-from disting.certainty import Certainty
+from disting.certainty import LEAST_SAFETY, Certainty
 from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
 from disting.ideals import Limits, Refuted, decide, normalised, refuted_by_parts
@@ -24,10 +24,9 @@ from disting.inclusion.meeting import powers
 from disting.inclusion.profiles import by_relative_degrees
 from disting.model.chain import Chain
 from disting.settings import Settings
-from disting.synthesis.decide import DRAWS, POINT_BITS, Exact, Grounds, Membership, member, safety_of_point
+from disting.synthesis.decide import DRAWS, Exact, Grounds, Membership, member, point_bits, safety_of_point
 
-LEAST = 100  # bits of an error bound that are asked for
-LIMITS = Limits(seconds=5.0, entries=20_000, safety=LEAST)  # of the ideal of one fibre
+LIMITS = Limits(seconds=5.0, entries=20_000, safety=LEAST_SAFETY)  # of the ideal of one fibre
 
 
 def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
@@ -50,11 +49,9 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
     if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
         return unknown
     if found.membership is Membership.EXCLUDED:
-        safety, inclusion = safety_of_point(small.n_masses, len(large.parameters)), Inclusion.NEITHER
+        safety, inclusion = safety_of_point(large), Inclusion.NEITHER
     else:
         safety, inclusion = safety_of_equivalent(small, large), Inclusion.LEFT_IN_RIGHT
-    if safety < LEAST:
-        return InclusionFinding(Inclusion.UNKNOWN, reason=f"one fibre tells it with 2^-{max(safety, 0)} only")
     return InclusionFinding(inclusion, Certainty.BOUNDED, safety, _evidence(found))
 
 
@@ -62,18 +59,18 @@ def _by_ideal(small: Chain, large: Chain, settings: Settings, otherwise: Inclusi
     """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
     maps = (normalised(rational_part(c)) for c in (small, large))
     found = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
-    if not isinstance(found.evidence, Refuted) or found.safety < LEAST:
+    if not isinstance(found.evidence, Refuted) or found.safety < LEAST_SAFETY:
         return otherwise
     evidence = replace(found.evidence, is_normalised=True)
     return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, found.safety, evidence)
 
 
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
-    """Largest b with DRAWS D^(c + 1) / 2^POINT_BITS <= 2^-b (Schwartz, Zippel): one equivalent tells of generic ones."""
+    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B = `point_bits` (Schwartz, Zippel): one tells of generic ones."""
     here, there = (powers(rational_part(c)) for c in (small, large))
     coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)
-    return POINT_BITS - ceil((coefficients + 1) * log2(degree) + log2(DRAWS))
+    return point_bits(large) - ceil((coefficients + 1) * log2(degree) + log2(DRAWS)) - 1
 
 
 def _evidence(found: Exact) -> FibreAt:

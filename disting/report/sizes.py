@@ -1,7 +1,7 @@
 """Models of several sizes in one triangle of fields: what condition decides, and which smaller models lie in which larger ones.
 
-A field of two sizes shows ⊂ where the smaller model is a limit of the larger one, so that the larger one fits whatever the
-smaller one does; else the condition by which the two are distinguishable.
+A field of two sizes shows ⊂ where the smaller model is, over complex parameters, a limit of the larger one; else the condition
+by which the two are distinguishable. Verdicts are over positive parameters.
 """
 
 from collections import Counter

@@ -15,12 +15,27 @@ from disting.verdict.query import RULE_NAMES
 
 
 class Relation(StrEnum):
-    """What is known of a pair; SOMETIMES: for some admissible parameters there is an equivalent, for others there is none."""
+    """What is known of a pair over a domain of parameters.
+
+    INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other. DISTINGUISHABLE: those of one of
+    them, at least, have none; the verdict's inclusion and its two shares tell of the other one. SOMETIMES: some parameters
+    have an equivalent and others have none, of two models that are indistinguishable over complex parameters.
+    """
 
     DISTINGUISHABLE = "distinguishable"
     INDISTINGUISHABLE = "indistinguishable"
     SOMETIMES = "sometimes"
     UNDECIDED = "undecided"
+
+
+GROUNDS = {
+    "theorem": "a theorem",
+    "dead time": "dead time",
+    "fibre": "one fibre",
+    "solved": "the ideal of one fibre",
+    "refuted": "the ideal of one fibre",
+    "full-parts": "parts that can have any receptance",
+}  # on which the exact decision rests, by the kind of its evidence
 
 
 def error_bound(certainty: str, safety: int) -> str:
@@ -34,12 +49,12 @@ def error_bound(certainty: str, safety: int) -> str:
 class Verdict:
     """Relation of a pair with its proof.
 
-    `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
-    or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned. `image`
-    tells, over complex parameters, whose generic models have equivalents on the other side, elements finite and not zero;
-    `closure` whose are limits of models there; for models of unequal rank `inclusions` says why. `left_positive`: which
-    positive left models have a positive equivalent on the right, where generic left ones have equivalents there;
-    `right_positive`: the reverse.
+    `decided_by`: the condition's number, "exact", "admissible", or "" if undecided; `representation`: "tf", "markov",
+    "structure", "fibre", "parameters" or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes`
+    names what was abandoned. `image` tells, over complex parameters, whose generic models have equivalents on the other side,
+    elements finite and not zero; `closure` whose are limits of models there; for models of unequal rank `inclusions` says why.
+    `left_positive`: which positive left models have a positive equivalent on the right, where generic left ones have
+    equivalents there; `right_positive`: the reverse.
     """
 
     left: str
@@ -74,11 +89,12 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """The verdict in words an engineer understands."""
-        over = "" if self.domain is Domain.COMPLEX else f" over {self.domain} parameters"
+        over = f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
             return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
-        says = "agree for some parameters only" if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
+        sometimes = f"are sometimes indistinguishable{over}, depending on their values"
+        says = sometimes if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
         return f"{self.left} and {self.right} {says} ({self.rule}): {self.evidence.sentence(self.left, self.right)}"
 
     @property
@@ -87,7 +103,10 @@ class Verdict:
         if self.decided_by.isdigit():
             where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
             return f"condition {self.decided_by}, {where}"
-        return {"": "", RULE_NAMES[EXACT]: "exact decision"}.get(self.decided_by, f"equivalents with {self.domain} parameters")
+        if self.decided_by == RULE_NAMES[EXACT]:
+            grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence else ""
+            return f"exact decision, {grounds}" if grounds else "exact decision"
+        return f"equivalents with {self.domain} parameters" if self.decided_by else ""
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""
