@@ -133,7 +133,9 @@ def zeros_are_free(row: DampedRow, label: str = "zeros") -> bool:
         if not wanted:
             return True
         point = residues(f"{label}:{draw}", len(found.parameters), modulus)
-        both = [polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus) for side in (found.left, found.right)]
+        both = [
+            polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus) for side in (found.left, found.right)
+        ]
         _, factors = (both[0] * both[1]).factor()
         if all(e == 1 for _, e in factors):
             seen = [tuple(sorted(int(f.degree()) for f, _ in p.factor()[1])) for p in both]
@@ -225,7 +227,10 @@ def _relations(
 def _functionals(zeros: Sequence[int], modulus: int) -> list[list[int]]:
     """Of a monic factor f with these zeros: the weights of df -> df(z)/f'(z), for each z."""
     return [
-        [pow(z, i, modulus) * pow(reduce(mul, (z - y for y in zeros if y != z), 1), -1, modulus) % modulus for i in range(len(zeros))]
+        [
+            pow(z, i, modulus) * pow(reduce(mul, (z - y for y in zeros if y != z), 1), -1, modulus) % modulus
+            for i in range(len(zeros))
+        ]
         for z in zeros
     ]
 
