@@ -107,7 +107,7 @@ def _inclusion(verdict: Verdict) -> list[str]:
     both = verdict.inclusions
     if both is None:
         return []
-    lines = [f"inclusion  {both.sentence(verdict.left, verdict.right)}"]
+    lines = [f"inclusion  over complex parameters: {both.sentence(verdict.left, verdict.right)}"]
     if both.image == both.closure:
         return [*lines, f"why        {_why(both.closure, verdict)}"]
     return [*lines, f"image      {_why(both.image, verdict)}", f"closure    {_why(both.closure, verdict)}"]

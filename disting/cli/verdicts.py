@@ -43,7 +43,7 @@ def _summary(decided: Decisions) -> str:
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
     told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts())}"
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
-    return told + (f"; {inside} smaller models lie in larger ones, as limits" if inside else "")
+    return told + (f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else "")
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:

@@ -19,12 +19,15 @@ from disting.conditions.evidence_of_conditions import spelled as spelled
 from disting.conditions.evidence_of_decision import DeadTime as DeadTime
 from disting.conditions.evidence_of_decision import FibreAt as FibreAt
 from disting.conditions.evidence_of_decision import Theorem as Theorem
+from disting.conditions.explicit import Constants as Constants
+from disting.conditions.explicit import Explicit as Explicit
+from disting.conditions.explicit import NoEquivalent as NoEquivalent
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import ByRow, FullParts, Refuted, Solved
 
 ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted
-Evidence = ByConditions | ByDecision | BothWays | OddFibres | Witnesses
+Evidence = ByConditions | ByDecision | BothWays | OddFibres | Witnesses | Explicit | NoEquivalent | Constants
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 

@@ -10,8 +10,8 @@ equations of degree D at most, so a component that dominates the points p has a 
 there is one, and the points p without an equivalent lie where its projection is not proper: on a hypersurface of no larger
 degree (Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). If V1 is not V2, the points with
 an equivalent lie on the pull-back of an equation of V2, of degree D^(n+1) at most too. Coordinates are fractions whose
-numerators have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a probability of at most D^(n+1) /
-2^POINT_BITS; up to DRAWS points are drawn.
+numerators have B random bits, B so large that the bound is small enough for this n (`synthesis.decide.point_bits`); by Schwartz
+and Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
 some neighbouring ports) or finds only numbers, what is known of the rows of both chains decides (`ideals.by_rows`), then the
@@ -70,9 +70,9 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     if a.damped != b.damped:
         return None
     found = decide(a, b, settings.seed)
-    safety = safety_of_point(a.n_masses, len(found.point))
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION) or safety <= 0:
+    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
         return None
+    safety = safety_of_point(b if found.direction is Direction.LEFT_IN_RIGHT else a)
     outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
     return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
 

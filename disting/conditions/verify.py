@@ -5,13 +5,16 @@ from math import comb
 
 from disting.conditions.evidence import (
     ByConditions,
+    Constants,
     Counts,
     DeadTime,
     Embedding,
     Evidence,
+    Explicit,
     FibreAt,
     Forms,
     FreeChoice,
+    NoEquivalent,
     Ranks,
     Renaming,
     Supermodel,
@@ -78,8 +81,8 @@ class Witness:
                 return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
             case OddFibres():
                 return _odd(evidence, left, right)
-            case Witnesses():
-                return False  # it speaks of general models, see `parametric.confirms`
+            case Witnesses() | Explicit() | NoEquivalent() | Constants():
+                return False  # these speak of general models, see `parametric.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)
 
     def _by_condition(self, evidence: ByConditions, representation: str, a: Structure, b: Structure) -> bool:

@@ -24,6 +24,7 @@ from operator import mul
 
 from flint import fmpz_mpoly, fmpz_mpoly_ctx
 
+from disting.algebra.sampling import digest
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.errors import InputError
 from disting.invariants.expanded import expanded
@@ -69,6 +70,11 @@ class CoefficientMap:
         """Terms of b_0, b_1, .. and a_0, a_1, .., the last a left out where it is 1."""
         kept = self.denominator[:-1] if self.is_monic else self.denominator
         return tuple(terms(p) for p in (*self.numerator, *kept))
+
+    @cached_property
+    def content(self) -> str:
+        """A digest of all that tells two maps apart, for the labels of their points and primes."""
+        return digest(self.parameters, self.degrees, self.coordinates)
 
     def with_scale(self) -> "CoefficientMap":
         """All coefficients times one more parameter: then equal functions have equal coefficients, monic or not."""

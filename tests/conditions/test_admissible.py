@@ -22,6 +22,7 @@ from disting.inclusion import Inclusion
 from disting.model.symmetry import canonical
 from disting.positivity import PositiveFinding, Share, positive_finding, proves
 from disting.positivity.evidence import NoEquivalent
+from disting.report.domains import VIEWS, over
 from disting.report.payload import payload
 from disting.settings import Settings
 from disting.synthesis.fibre import fibre
@@ -108,7 +109,8 @@ def test_nothing_is_asked_of_the_papers_views(small):
     header, *rows = small[True].to_csv(View.COMBINED).splitlines()
     assert header.endswith(",domain,image,closure,left_positive,right_positive")
     assert all(row.endswith(",complex,,,,") for row in rows)
-    assert sum(row.endswith(",complex,,right-in-left,,never") for row in small[True].to_csv().splitlines()) == 1
+    assert sum(row.endswith(",complex,,right-in-left,,never") for row in small[True].to_csv(View.EXACT).splitlines()) == 1
+    assert sum(row.endswith(",positive,,right-in-left,,never") for row in small[True].to_csv().splitlines()) == 1
 
 
 def test_altered_shares_are_found_out(small):
@@ -200,7 +202,7 @@ def test_over_real_parameters(small):
 
 
 def test_the_page_says_which_positive_models_have_equivalents(small):
-    text = str(payload(small[True]))
+    text = str(payload(small[True], [over(small[True], view) for view in VIEWS]))
     assert "No generic {R} with positive parameters has a positive equivalent {L}." in text
     assert "Every generic {L} with positive parameters has a positive equivalent {R}." in text
 
@@ -223,7 +225,7 @@ def test_odd_fibres_rest_on_the_finding_over_complex_parameters():
     family = Family(3)
     engine = Engine()
     finding = engine.subject("a", family[1]).admissible(engine.subject("b", family[11]), Domain.REAL)
-    equal = compare(family[1], family[11])
+    equal = compare(family[1], family[11], query=Query(View.EXACT))
     grade = weakest((finding.certainty, finding.safety), (equal.certainty, equal.safety))
     over = compare(family[1], family[11], query=REAL)
     assert (over.certainty, over.safety) == grade
