@@ -134,12 +134,10 @@ def zeros_are_free(row: DampedRow, label: str = "zeros") -> bool:
         if not wanted:
             return True
         point = residues(f"{label}:{draw}", len(found.parameters), modulus)
-        both = [
-            polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus) for side in (found.left, found.right)
-        ]
-        _, factors = (both[0] * both[1]).factor()
-        if all(e == 1 for _, e in factors):
-            seen = [tuple(sorted(int(f.degree()) for f, _ in p.factor()[1])) for p in both]
+        both = [_at(side, point, modulus).factor()[1] for side in (found.left, found.right)]
+        factors = [(str(f), e) for side in both for f, e in side]
+        if all(e == 1 for _, e in factors) and len(set(factors)) == len(factors):  # the product is squarefree
+            seen = [tuple(sorted(int(f.degree()) for f, _ in side)) for side in both]
             wanted -= {(i, c) for i, c in enumerate(seen) if max(c, default=0) != 2 or max(seen[1 - i], default=1) == 1}
     return not wanted
 
