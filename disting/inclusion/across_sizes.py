@@ -18,6 +18,7 @@ from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
 
+from disting.algebra.sampling import about
 from disting.certainty import Certainty
 from disting.conditions.evidence import Counts
 from disting.conditions.exact import rational_part, theorem
@@ -55,7 +56,7 @@ def by_sizes(left: Subject, right: Subject) -> InclusionFinding | None:
 
 def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
     """What takes longer, for a chain with fewer masses on the left: its poles against inclusion, a fibre of limits for it."""
-    label = f"{settings.seed}:poles"
+    label = about(f"{settings.seed}:poles", small, large)
     points = excluding_points(small, large, label) if fewer_poles(small, large) else ()
     if points:
         safety = exclusion_safety(large) if len(points) > 1 else 0

@@ -9,7 +9,7 @@ import json
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.certainty import Certainty
+from disting.certainty import Certainty, shortfall
 from disting.inclusion.evidence import (
     InclusionEvidence,
     evidence_from_dict,
@@ -49,7 +49,10 @@ ONE_SIDED = (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
 
 @dataclass(frozen=True, slots=True)
 class InclusionFinding:
-    """One statement with its evidence; `reason` says why it is unknown."""
+    """One statement with its evidence; `reason` says why it is unknown.
+
+    A bound that does not reach 2**-LEAST_SAFETY leaves it unknown.
+    """
 
     inclusion: Inclusion
     certainty: Certainty | None = None
@@ -60,8 +63,11 @@ class InclusionFinding:
     def __post_init__(self) -> None:
         if len({self.inclusion is not Inclusion.UNKNOWN, self.evidence is not None, self.certainty is not None}) > 1:
             raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
-        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
-            raise ValueError("exactly a bounded finding carries an error bound")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {"inclusion": Inclusion.UNKNOWN, "certainty": None, "safety": 0, "evidence": None, "reason": lacking}
+            for name, value in given_up.items():
+                object.__setattr__(self, name, value)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its inclusion")

@@ -23,9 +23,7 @@ from disting.inclusion.meeting import powers
 from disting.inclusion.profiles import by_relative_degrees
 from disting.model.chain import Chain
 from disting.settings import Settings
-from disting.synthesis.decide import DRAWS, POINT_BITS, Exact, Grounds, Membership, member, safety_of_point
-
-LEAST = 100  # bits of an error bound that are asked for
+from disting.synthesis.decide import DRAWS, Exact, Grounds, Membership, member, point_bits, safety_of_point
 
 
 def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
@@ -43,20 +41,18 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
     if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
         return unknown
     if found.membership is Membership.EXCLUDED:
-        safety, inclusion = safety_of_point(small.n_masses, len(large.parameters)), Inclusion.NEITHER
+        safety, inclusion = safety_of_point(large), Inclusion.NEITHER
     else:
         safety, inclusion = safety_of_equivalent(small, large), Inclusion.LEFT_IN_RIGHT
-    if safety < LEAST:
-        return InclusionFinding(Inclusion.UNKNOWN, reason=f"one fibre tells it with 2^-{max(safety, 0)} only")
     return InclusionFinding(inclusion, Certainty.BOUNDED, safety, _evidence(found))
 
 
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
-    """Largest b with DRAWS D^(c + 1) / 2^POINT_BITS <= 2^-b (Schwartz, Zippel): one equivalent tells of generic ones."""
+    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B = `point_bits` (Schwartz, Zippel): one equivalent tells of generic ones."""
     here, there = (powers(rational_part(c)) for c in (small, large))
     coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)
-    return POINT_BITS - ceil((coefficients + 1) * log2(degree) + log2(DRAWS))
+    return point_bits(large) - ceil((coefficients + 1) * log2(degree) + log2(DRAWS)) - 1
 
 
 def _evidence(found: Exact) -> FibreAt:

@@ -37,7 +37,7 @@ def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
     evidence = finding.evidence
     if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
         return False
-    bounded = finding.safety <= max(0, safety_of_point(given.n_masses, len(without_dead_time(other).parameters)))
+    bounded = finding.safety <= safety_of_point(without_dead_time(other))
     return bounded and confirms(evidence, given, other)
 
 

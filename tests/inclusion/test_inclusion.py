@@ -19,9 +19,9 @@ from disting.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
+from disting.inclusion.decide import CLOSURE_LIMITS
 from disting.inclusion.evidence import FullImage, LargerProjection, RelativeDegrees
 from disting.inclusion.outside_evidence import Outside, PartsInside, Why
-from disting.inclusion.decide import CLOSURE_LIMITS
 from disting.inclusion.profiles import by_relative_degrees, part_falls
 from disting.model.chain import Chain, Sensor
 

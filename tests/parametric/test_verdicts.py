@@ -141,10 +141,13 @@ def test_local_identifiability():
     assert found.certainty is Certainty.BOUNDED and found.safety > 100
 
 
-def test_constant_transfer_functions_are_the_same_or_left_open():
+def test_constant_transfer_functions_are_compared_exactly():
     one, same, other = (Model.from_transfer_function(f"{n}*k", f"{d}*k") for n, d in ((2, 1), (4, 2), (3, 1)))
     assert compare(one, same, query=COMPLEX).relation is SAME
-    assert compare(one, other).relation is Relation.UNDECIDED
+    verdict = compare(one, other, query=COMPLEX)
+    assert (verdict.relation, verdict.certainty, verdict.decided_by) == (DIFFERENT, Certainty.PROVEN, "exact")
+    one, other = Model.from_transfer_function(["2*a"], ["a", "3*a"]), Model.from_transfer_function(["5*b"], ["b", "3*b"])
+    assert "b0 is 2 in model 1 and 5 in model 2" in compare(one, other, query=COMPLEX, audit=True).sentence
 
 
 def test_any_name_may_be_a_parameter():
