@@ -35,6 +35,8 @@ GROUNDS = {
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
     "full-parts": "parts that can have any receptance",
+    "row": "a row of masses",
+    "constants": "constants",
 }  # on which the exact decision rests, by the kind of its evidence
 
 
