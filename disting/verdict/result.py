@@ -36,7 +36,6 @@ GROUNDS = {
     "refuted": "the ideal of one fibre",
     "row": "a row of masses decided once for all",
     "full-parts": "parts that can have any receptance",
-    "row": "a row of masses",
     "constants": "constants",
 }  # on which the exact decision rests, by the kind of its evidence
 

@@ -73,7 +73,9 @@ def test_a_decided_verdict_lacks_nothing(missing):
 def test_an_undecided_verdict_has_no_proof():
     with pytest.raises(ValueError, match="exactly a decided verdict"):
         Verdict("a", "b", Relation.UNDECIDED, **DECIDED)
-    assert Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided over complex parameters: nothing settles them."
+    assert (
+        Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided over complex parameters: nothing settles them."
+    )
 
 
 def test_verdicts_are_values():
