@@ -16,18 +16,21 @@ from disting.conditions.evidence_of_conditions import Ranks as Ranks
 from disting.conditions.evidence_of_conditions import Renaming as Renaming
 from disting.conditions.evidence_of_conditions import Supermodel as Supermodel
 from disting.conditions.evidence_of_conditions import spelled as spelled
-from disting.conditions.evidence_of_decision import ByProgram as ByProgram
 from disting.conditions.evidence_of_decision import DeadTime as DeadTime
 from disting.conditions.evidence_of_decision import FibreAt as FibreAt
 from disting.conditions.evidence_of_decision import Theorem as Theorem
+from disting.conditions.explicit import Constants as Constants
+from disting.conditions.explicit import Explicit as Explicit
+from disting.conditions.explicit import NoEquivalent as NoEquivalent
 from disting.conditions.reality import RealFactors, RealWitnesses
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
-from disting.ideals import FullParts, Refuted, Solved
+from disting.ideals import ByRow, FullParts, Refuted, Solved
 
-ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | Refuted | ByProgram
+ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted
+OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
 Nested = BothWays | RealFactors | RealWitnesses
-Evidence = ByConditions | ByDecision | Nested | OddFibres | Witnesses
+Evidence = ByConditions | ByDecision | Nested | OddFibres | OfGeneralModels
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 
@@ -38,6 +41,8 @@ def to_dict(evidence: Evidence) -> dict[str, object]:
 
 def from_dict(data: dict[str, object]) -> Evidence:
     """Evidence from plain data; lists become tuples. Raises KeyError, TypeError or ValueError for what is none."""
+    if data["kind"] == "program":
+        raise ValueError("this verdict rests on an external program, which decides nothing now; ask for it again")
     kind = _KINDS[str(data["kind"])]
     if issubclass(kind, Nested):
         return kind.from_dict(data)

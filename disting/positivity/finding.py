@@ -22,6 +22,7 @@ C(N-1, g) C(g-1, a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 from collections.abc import Iterator
 from dataclasses import replace
 
+from disting.algebra.sampling import about
 from disting.certainty import Certainty
 from disting.errors import InputError
 from disting.model.chain import Chain
@@ -32,7 +33,7 @@ from disting.positivity.points import equivalent, random_point, spelled
 from disting.positivity.result import Empirical, PositiveFinding, Share
 from disting.positivity.words import Words, words
 from disting.settings import Settings
-from disting.synthesis.decide import Membership, member, rational_point, safety_of_point
+from disting.synthesis.decide import Membership, member, point_bits, rational_point, safety_of_point
 from disting.synthesis.duality import are_dual
 from disting.synthesis.result import Answer
 from disting.synthesis.segment import Segment
@@ -52,12 +53,13 @@ def positive_finding(given: Chain, other: Chain, settings: Settings | None = Non
     'sometimes'
     """
     refuse(given, other)
+    given, other = without_dead_time(given), without_dead_time(other)
     seed = (settings or Settings()).seed
     named = theorem(given, other)
     if named:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=SameByTheorem(named))
     if not all(is_plain(c) for c in (given, other)):
-        return PositiveFinding(Share.UNKNOWN, reason="ground dampers, a lag and dead time are not covered")
+        return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
     against = obstacle(given, other)
     if against:
         return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
@@ -70,6 +72,11 @@ def refuse(given: Chain, other: Chain) -> None:
     kinds = [(c.n_masses, c.damped, c.sensor, c.dead_time) for c in (given, other)]
     if kinds[0] != kinds[1]:
         raise InputError("chains of one size, damping, sensor quantity and dead time are compared")
+
+
+def without_dead_time(chain: Chain) -> Chain:
+    """The rational part. Dead times of equal behaviours are equal (see `conditions.exact`), so the rational parts decide."""
+    return replace(chain, dead_time=False)
 
 
 def is_plain(chain: Chain) -> bool:
@@ -144,13 +151,12 @@ def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
 
 def _never(given: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
     """Proofs that there is no equivalent, found at one rational point."""
-    point = rational_point(given, f"positivity:{seed}")
+    point = rational_point(given, about(f"positivity:{seed}", given, other), point_bits(other))
     if swap_fails(given, other) and only_parts_sum_to_zero(given, point, 2 * other.gap):
         yield PositiveFinding(Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point)))
     found = member(given, other, seed)
-    safety = safety_of_point(given.n_masses, len(other.parameters))
-    if found.membership is Membership.EXCLUDED and safety > 0:
-        yield PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety, NoEquivalent(spelled(found.point)))
+    if found.membership is Membership.EXCLUDED:
+        yield PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety_of_point(other), NoEquivalent(spelled(found.point)))
 
 
 def _sampled(given: Chain, other: Chain, seed: str, tries: int) -> tuple[dict[Answer, tuple[tuple[str, str], ...]], Empirical]:
