@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import CatalogError
+from disting.shipped import shipped_folder as shipped_folder
 
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
@@ -24,13 +25,6 @@ Record = dict[str, Any]
 def name_of(n_masses: int, damped: bool) -> str:
     """Name of a catalogue, such as chains-3-damped."""
     return f"chains-{n_masses}-{'damped' if damped else 'undamped'}"
-
-
-def shipped_folder() -> Path:
-    """Folder of the shipped catalogues: inside the installed package, or at the top of a checkout."""
-    package = Path(__file__).parents[1]
-    inside = package / "shipped"
-    return inside if inside.is_dir() else package.parent / "catalog"
 
 
 def lines(records: list[Record]) -> str:

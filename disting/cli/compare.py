@@ -32,6 +32,8 @@ def run(options: argparse.Namespace) -> int:
     asked = query(options.conditions, View.EXACT, options.domain)
     plain = sensor is Sensor.ACCELERATION and "+" not in "".join(texts)
     verdict = _shipped(references, options.damped, asked) if plain else None
+    if verdict is not None and references[0] > references[1]:
+        chains.reverse()  # a stored verdict names the model of the lower number first
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
             verdict = compare(*chains, query=asked, engine=engine)
@@ -107,7 +109,7 @@ def _inclusion(verdict: Verdict) -> list[str]:
     both = verdict.inclusions
     if both is None:
         return []
-    lines = [f"inclusion  {both.sentence(verdict.left, verdict.right)}"]
+    lines = [f"inclusion  over complex parameters: {both.sentence(verdict.left, verdict.right)}"]
     if both.image == both.closure:
         return [*lines, f"why        {_why(both.closure, verdict)}"]
     return [*lines, f"image      {_why(both.image, verdict)}", f"closure    {_why(both.closure, verdict)}"]

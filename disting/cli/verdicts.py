@@ -43,7 +43,7 @@ def _summary(decided: Decisions) -> str:
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
     told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts())}"
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
-    limits = f"; {inside} smaller models lie in larger ones, as limits" if inside else ""
+    limits = f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else ""
     return f"{told}{limits}\n{joint_in_words(family_safety(decided))}"
 
 

@@ -1,4 +1,4 @@
-"""Evidence of the exact decision of chains: a theorem, a dead time, a fibre, what an external program found."""
+"""Evidence of the exact decision of chains: a theorem, a dead time, a fibre."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -6,6 +6,7 @@ from typing import ClassVar
 from disting.conditions.evidence_of_conditions import TRANSCENDENTAL
 
 _THEOREMS = {
+    "Foster and Cauer": "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such impedance",
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
     "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
     "Foster": "{left} and {right} are undamped, each with force and sensor at one place: both give any such resonances",
@@ -84,26 +85,3 @@ class FibreAt:
         if self.grounds == "refuted":
             return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
         return f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
-
-
-@dataclass(frozen=True, slots=True)
-class ByProgram:
-    """Exact decision: an external program found the fibre's equations contradictory, modulo one small prime."""
-
-    kind: ClassVar[str] = "program"
-    program: str
-    left_given: bool
-    label: str
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found, and why it proves nothing."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        return (
-            f"{self.program} finds no parameters of {searched} with the transfer function of {given} at one random point "
-            "modulo one prime of 31 bits, too small for an error bound."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The ideal is everything, modulo the prime."""
-        return "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩ mod p"

@@ -13,6 +13,8 @@ from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
 
+from disting.ideals.row_answers import rows_text
+
 PACKAGE = Path(__file__).parents[1]
 LIBRARIES = ("numpy", "scipy", "python-flint")  # whose numbers may change with a version
 IMPORT = re.compile(rf"^[ ]*from ({PACKAGE.name}[\w.]*) import (\([^)]*\)|.*)", re.MULTILINE)
@@ -21,7 +23,8 @@ NAME = re.compile(r"\w+")
 
 @cache
 def digest(module: str) -> str:
-    """SHA-256 of the source of a module and of all that it imports here, and of the versions of Python and the libraries.
+    """SHA-256 of the source of a module and of all that it imports here, of the shipped answers about rows, and of the versions
+    of Python and the libraries.
 
     >>> digest("disting.fit.estimate") == digest("disting.engine.engine")
     False
@@ -29,7 +32,7 @@ def digest(module: str) -> str:
     sources = _sources()
     versions = [sys.version.split()[0], *(f"{name} {version(name)}" for name in LIBRARIES)]
     texts = [text for name in modules_of(module) for text in (name, sources[name])]
-    return sha256("\0".join([*versions, *texts]).encode()).hexdigest()
+    return sha256("\0".join([*versions, *texts, rows_text()]).encode()).hexdigest()
 
 
 @cache

@@ -49,7 +49,7 @@ def fibre_ideal(given: CoefficientMap, other: CoefficientMap, label: str, equal_
         equations += _tangents(given, other, point, modulus)
     kept = [i for i, name in enumerate(other.parameters) if name not in fixed]
     values = [fixed.get(name, 0) for name in other.parameters]
-    reduced = (_restricted(e, kept, values, modulus) for e in equations)
+    reduced = (restricted(e, kept, values, modulus) for e in equations)
     return FibreIdeal(modulus, point, tuple(other.parameters[i] for i in kept), fixed, tuple(e for e in reduced if e))
 
 
@@ -135,7 +135,7 @@ def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulu
     return {e: c for e, c in total.items() if c}
 
 
-def _restricted(polynomial: Polynomial, kept: list[int], values: list[int], modulus: int) -> Polynomial:
+def restricted(polynomial: Polynomial, kept: list[int], values: list[int], modulus: int) -> Polynomial:
     """The fixed parameters replaced by their values."""
     total: Polynomial = {}
     for exponents, number in polynomial.items():

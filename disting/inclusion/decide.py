@@ -6,7 +6,7 @@ kept. Chains of different sizes are compared in `across_sizes`: there CLOSURE is
 1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
 2. CLOSURE by parts: `closures` proves or refutes it; small ideals of both parts (`disting.ideals.by_parts`) prove it.
 3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of the parts refute it without any
-   chance; one fibre by the synthesis refutes or proves it (`image`), and with IMAGE CLOSURE is proven.
+   chance; one fibre by the synthesis refutes or proves it (`image`), and with it CLOSURE is proven; a small ideal refutes it.
 4. Where neither is known: the parts, then the whole model, as ideals of fibres, with the bounds of `disting.ideals.bounds`. An
    empty fibre refutes IMAGE, a solution, whose elements may be zero, proves CLOSURE.
 """

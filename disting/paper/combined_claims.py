@@ -133,9 +133,9 @@ COMBINED_CLAIMS = (
     Claim(
         "2-and-8", "Section 6", "“Conditions 2 and 8 never appeared to be pivotal.”", "never",
         conditions_2_and_8, Outcome.DIFFERS,
-        "Within one family, the setting that the paper gives as the reason, it is so. But the dampers of Fig. 14 are the paper's "
-        "own comparison, and there condition 8 decides: a base damper that only adds to what is there makes a submodel of equal "
-        "rank. Between undamped models of different sizes condition 2 decides too.",
+        "Within one family, the setting that the paper gives as the reason, it is so. But the dampers of Fig. 14 are its own "
+        "comparison too, and there condition 8 decides: a base damper that adds to what is there makes a submodel of equal "
+        "rank. Between undamped models of different sizes condition 2 decides as well.",
     ),
     Claim(
         "superior", "Section 7", "“The transfer function approach is mostly superior over the Markov parameter approach …”",

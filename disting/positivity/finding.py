@@ -53,12 +53,13 @@ def positive_finding(given: Chain, other: Chain, settings: Settings | None = Non
     'sometimes'
     """
     refuse(given, other)
+    given, other = without_dead_time(given), without_dead_time(other)
     seed = (settings or Settings()).seed
     named = theorem(given, other)
     if named:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=SameByTheorem(named))
     if not all(is_plain(c) for c in (given, other)):
-        return PositiveFinding(Share.UNKNOWN, reason="ground dampers, a lag and dead time are not covered")
+        return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
     against = obstacle(given, other)
     if against:
         return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
@@ -71,6 +72,11 @@ def refuse(given: Chain, other: Chain) -> None:
     kinds = [(c.n_masses, c.damped, c.sensor, c.dead_time) for c in (given, other)]
     if kinds[0] != kinds[1]:
         raise InputError("chains of one size, damping, sensor quantity and dead time are compared")
+
+
+def without_dead_time(chain: Chain) -> Chain:
+    """The rational part. Dead times of equal behaviours are equal (see `conditions.exact`), so the rational parts decide."""
+    return replace(chain, dead_time=False)
 
 
 def is_plain(chain: Chain) -> bool:

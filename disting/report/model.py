@@ -105,10 +105,11 @@ class Twin:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The models whose closure holds this one, and those that this one's closure holds."""
+    """The models whose closure holds this one, those that this one's closure holds, and those of which neither is known."""
 
     inside: tuple[int, ...]
     holds: tuple[int, ...]
+    unknown: tuple[int, ...]
 
 
 def model_of(catalog: Catalog, number: int) -> Model:
@@ -172,7 +173,8 @@ def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
             if v.closure is inside:
                 yield other
 
-    return Limits(tuple(others(True)), tuple(others(False)))
+    unknown = (o for o, v in verdicts.items() if v.closure is Inclusion.UNKNOWN and v.relation is Relation.DISTINGUISHABLE)
+    return Limits(tuple(others(True)), tuple(others(False)), tuple(unknown))
 
 
 def standing(number: int, other: int, verdict: Verdict) -> Relation:

@@ -104,7 +104,7 @@ def _entry(verdict: Verdict) -> Entry:
     certainty = CERTAINTIES[verdict.certainty or ""].format(bound=probability(verdict.error_bound))
     formula = evidence.formula if evidence else ""
     if verdict.inclusions is not None:
-        why = f"{why} {verdict.inclusions.sentence('{L}', '{R}')}"
+        why = f"{why} Over complex parameters: {verdict.inclusions.sentence('{L}', '{R}')}"
     why = " ".join([why, *_shares(verdict)])
     graded = (verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain)
     return *graded, why, formula, verdict.rule

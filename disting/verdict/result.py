@@ -34,7 +34,9 @@ GROUNDS = {
     "fibre": "one fibre",
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
+    "row": "a row of masses decided once for all",
     "full-parts": "parts that can have any receptance",
+    "constants": "constants",
 }  # on which the exact decision rests, by the kind of its evidence
 
 
@@ -93,7 +95,7 @@ class Verdict:
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
             return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
-        sometimes = f"are indistinguishable for some {self.domain} parameters only"
+        sometimes = f"are sometimes indistinguishable{over}, depending on their values"
         says = sometimes if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
         return f"{self.left} and {self.right} {says} ({self.rule}): {self.evidence.sentence(self.left, self.right)}"
 

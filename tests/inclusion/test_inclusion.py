@@ -19,9 +19,9 @@ from disting.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
+from disting.inclusion.decide import CLOSURE_LIMITS
 from disting.inclusion.evidence import FullImage, LargerProjection, RelativeDegrees
 from disting.inclusion.outside_evidence import Outside, PartsInside, Why
-from disting.inclusion.decide import CLOSURE_LIMITS
 from disting.inclusion.profiles import by_relative_degrees, part_falls
 from disting.model.chain import Chain, Sensor
 
@@ -89,7 +89,7 @@ def test_evidence_on_finite_elements_says_nothing_of_limits():
         (unknown, falls),
         (unknown, replace(falls, evidence=Outside(True, ()))),
     ):
-        with pytest.raises(ValueError):
+        with pytest.raises(ValueError, match=r"does not prove|equivalents are limits|no equivalent"):
             Inclusions(image, closure)
 
 
