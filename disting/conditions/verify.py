@@ -5,7 +5,6 @@ from math import comb
 
 from disting.conditions.evidence import (
     ByConditions,
-    ByProgram,
     Constants,
     Counts,
     DeadTime,
@@ -21,10 +20,11 @@ from disting.conditions.evidence import (
     Supermodel,
     Theorem,
 )
-from disting.conditions.exact import program_refutes, rational_part, theorem
+from disting.conditions.exact import rational_part, theorem
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import (
+    ByRow,
     FullParts,
     Limits,
     Membership,
@@ -32,6 +32,7 @@ from disting.ideals import (
     Solved,
     coefficient_map,
     confirms,
+    confirms_row,
     decide,
     normalised,
     same_by_full_parts,
@@ -74,8 +75,8 @@ class Witness:
                 return _full_parts(evidence, left, right)
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
-            case ByProgram():
-                return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
+            case ByRow():
+                return confirms_row(evidence, *(rational_part(canonical(chain).chain) for chain in (left, right)))
             case BothWays():
                 return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
             case OddFibres():

@@ -1,20 +1,35 @@
 """Checks the evidence of an inclusion again, from itself alone."""
 
 from dataclasses import replace
+from math import comb
 
 from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
 from disting.conditions.verify import POINTS, Witness
-from disting.ideals import ByParts, Refuted, Solved, coefficient_map, confirms_by_parts
+from disting.ideals import (
+    ByParts,
+    Limits,
+    Membership,
+    Refuted,
+    Solved,
+    coefficient_map,
+    confirms_by_parts,
+    decide,
+    normalised,
+)
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
-from disting.inclusion.finding import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.inclusion.closures import confirms_parts
+from disting.inclusion.evidence import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.inclusion.outside_evidence import Outside, PartsInside
 from disting.inclusion.profiles import degrees_refute, ordered
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
+
+PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 
 
 def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool:
@@ -44,14 +59,35 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
             here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
             return evidence.left_is_larger != left_is_smaller and _fall_apart(smaller, larger, here, there)
+        case Outside() | PartsInside():
+            given, other = (a, b) if left_is_smaller else (b, a)
+            return evidence.left_given == left_is_smaller and confirms_parts(evidence, given, other)
         case ByParts():
             parts = (rational_part(a), rational_part(b))
             return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)
         case FibreAt():
             return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
-        case Solved() | Refuted():
-            plain = isinstance(evidence, Solved) or not evidence.tangent
-            return evidence.left_given == left_is_smaller and plain and fresh.confirms(evidence, "tf", a, b)
+        case Solved():
+            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
+        case Refuted():
+            told = evidence.left_given == left_is_smaller and not evidence.tangent
+            return told and (
+                _refuted_again(a, b, evidence) if _is_large(evidence, a, b) else fresh.confirms(evidence, "tf", a, b)
+            )
+
+
+def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:
+    """Whether plain elimination has too many monomials to bear."""
+    unknowns = max(len(coefficient_map(rational_part(c)).parameters) for c in (a, b))
+    return comb(unknowns + 1 + evidence.degree, evidence.degree) > PLAIN_MONOMIALS
+
+
+def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
+    """Whether the decision is the same at fresh points and primes."""
+    coordinates = normalised if evidence.is_normalised else coefficient_map
+    given, other = (coordinates(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a)))
+    again = decide(given, other, equal_rank=False, seed="verify", limits=Limits(seconds=600, entries=10**9, safety=1))
+    return again.membership is Membership.EXCLUDED
 
 
 def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
