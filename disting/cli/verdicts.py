@@ -43,10 +43,8 @@ def _summary(decided: Decisions) -> str:
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
     told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts())}"
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
-    limits = f"
-over complex parameters: {inside} smaller models are limits of larger ones" if inside else ""
-    return f"{told}{limits}
-{joint_in_words(family_safety(decided))}"
+    limits = f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else ""
+    return f"{told}{limits}\n{joint_in_words(family_safety(decided))}"
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, rational_map, resting_on
+from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, needs_counts, resting_on
 from disting.conditions.exact import EXACT
 from disting.conditions.finding import Finding
 from disting.conditions.subject import EXACTLY, Subject
@@ -218,7 +218,7 @@ def _admissible(result: Decisions, ask: Ask) -> None:
     for i, j in combinations(range(n), 2):
         same[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
     if domain is Domain.REAL:
-        pairs = [pair for pair in _pairs(result, same) if not rational_map(*(s.chain for s in pair))]
+        pairs = [pair for pair in _pairs(result, same) if needs_counts(*(s.canonical.chain for s in pair))]
         ask(IDENTIFIABILITY, [(s.canonical.chain,) for pair in pairs for s in pair])
     for i, j in zip(*np.nonzero(same), strict=True):
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
