@@ -75,6 +75,12 @@ def degree_of(segment: Segment) -> int:
 def inner_neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
     """Yield every damped segment with b = a + 1 and this receptance."""
     zeros, gain = roots(data.numerator, segment.numerator_degree), data.gain(segment)
+    if data.conjugate and not is_boundary(zeros[0]):
+        size = 1 + 2 * (segment.a - 1)
+        first = list(_branches([Branch(segment, data, -zeros[0], zeros[1:size], zeros[size:], gain)]))
+        if first and all(leaf == NONZERO for leaf in first):  # and so in all branches
+            yield NONZERO
+            return
     for (z,), others in splits(zeros, 1):
         shared_out = splits(others, 2 * (segment.a - 1))
         branches = [Branch(segment, data, -z, left, right, gain) for left, right in shared_out]

@@ -55,10 +55,14 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Data:
-    """Receptance of a segment: numerator over monic denominator, in s (damped) or x = s^2 (undamped)."""
+    """Receptance of a segment: numerator over monic denominator, in s (damped) or x = s^2 (undamped).
+
+    `conjugate`: both have rational coefficients, and the zeros are conjugate under all permutations (see `conjugate`).
+    """
 
     numerator: Poly
     denominator: Poly
+    conjugate: bool = False
 
     def gain(self, segment: Segment) -> Ball:
         """Leading coefficient of the numerator."""
@@ -67,7 +71,7 @@ class Data:
     @property
     def even(self) -> "Data":
         """In x = s^2, of a function of s^2."""
-        return Data(*(acb_poly(p.coeffs()[::2]) for p in (self.numerator, self.denominator)))
+        return Data(acb_poly(self.numerator.coeffs()[::2]), acb_poly(self.denominator.coeffs()[::2]))
 
 
 def mirrored(leaf: Leaf) -> Leaf:
