@@ -2,8 +2,6 @@
 
 import argparse
 
-from disting.catalogs import catalog
-from disting.catalogs.files import shipped_folder
 from disting.cli.work import engine_for
 from disting.engine import Engine
 
@@ -11,12 +9,10 @@ from disting.engine import Engine
 def build(options: argparse.Namespace) -> int:
     """Compute catalogues."""
     from disting.catalogs.build import build, write
-    from disting.catalogs.settle import read_settled
 
-    settled = read_settled(shipped_folder())
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses:
-            pair = [build(n, damped=d, engine=engine, settled=settled, executor=pool, progress=progress) for d in (False, True)]
+            pair = [build(n, damped=d, engine=engine, executor=pool, progress=progress) for d in (False, True)]
             for path in write(pair, options.out)[:-1]:
                 print(path)
     return 0
@@ -35,14 +31,12 @@ def candidates(options: argparse.Namespace) -> int:
 
 
 def settle(options: argparse.Namespace) -> int:
-    """Settle what catalogues leave open."""
+    """Decide the rows of masses that leave pairs open."""
     from disting.catalogs.settle import settle
 
-    for n in options.masses:
-        for damped in (False, True):
-            found = catalog(n, damped=damped, folder=options.catalog)
-            count = settle(found, options.catalog, options.seconds, print)
-            print(f"{found.name}: {count} settled")
+    with engine_for(options) as (engine, _, _):
+        for n in options.masses:
+            print(f"{n} masses, damped: {settle(n, options.catalog, engine, print)} pairs of rows settled")
     return 0
 
 

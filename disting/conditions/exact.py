@@ -14,7 +14,7 @@ numerators have B random bits, B so large that the bound is small enough for thi
 and Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
-some neighbouring ports) or finds only numbers, what is known of the rows of both chains decides (`ideals.by_rows`), and then the
+some neighbouring ports) or finds only numbers, what is known of the rows of both chains decides (`ideals.by_rows`), then the
 fibre's ideal, modulo random primes and with bounds of its own (see `disting.ideals`). No other program is asked: the answer
 depends on the question alone.
 
@@ -85,7 +85,7 @@ def by_full_parts(a: Chain, b: Chain) -> Finding | None:
 
 def by_row(a: Chain, b: Chain) -> Finding | None:
     """What is known once for all of rows of masses; a dead time that both have is a factor of its own."""
-    evidence = differ_by_row(*map(rational_part, (a, b)), "rows")
+    evidence = differ_by_row(rational_part(a), rational_part(b))
     if evidence is None:
         return None
     given, searched = (DampedRow(evidence.wall, evidence.masses, ports) for ports in (evidence.given, evidence.searched))

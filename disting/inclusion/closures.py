@@ -28,7 +28,7 @@ the larger chain's parts can be, their sum is a limit of its models. So `of_clos
 
 from dataclasses import dataclass, replace
 
-from disting.algebra.sampling import prime, residues
+from disting.algebra.sampling import about, prime, residues
 from disting.certainty import LEAST_SAFETY
 from disting.ideals import CoefficientMap, normalised
 from disting.ideals.fibre_ideal import evaluated, generic_rank
@@ -69,7 +69,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsIn
     given, other = (replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large))
     if not _alike(given, other):
         return None
-    label = f"{seed}:{small}"
+    label = about(seed, small)
     found = {name: [(p, _shown(p, label)) for p in some] for name, some in _by_split(given, other, large).items()}
     for told in found.values():
         if all(why is not None and why[0] in SUPPORTS for _, why in told):

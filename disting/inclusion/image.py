@@ -66,7 +66,7 @@ def _by_ideal(small: Chain, large: Chain, settings: Settings, otherwise: Inclusi
 
 
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
-    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B = `point_bits` (Schwartz, Zippel): one tells of generic ones."""
+    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B bits a coordinate: one equivalent tells of generic ones."""
     here, there = (powers(rational_part(c)) for c in (small, large))
     coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)
