@@ -97,7 +97,8 @@ def real_finding(left: Chain, right: Chain, asked: Asked, settings: Settings) ->
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
     if real_factors(left, right):
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
-    return _by_witnesses(left, right, asked, settings) or by_counts(asked.counted(left), asked.counted(right))
+    found = _by_witnesses(left, right, asked, settings)
+    return by_counts(asked.counted(left), asked.counted(right)) if found is None else found
 
 
 def _by_witnesses(left: Chain, right: Chain, asked: Asked, settings: Settings) -> Finding | None:
