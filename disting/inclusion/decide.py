@@ -41,9 +41,9 @@ from disting.model.chain import Chain
 from disting.question import Question
 from disting.settings import Settings
 
-INCLUSION_LIMITS = Limits(seconds=20.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
-CLOSURE_LIMITS = Limits(seconds=5.0, entries=30_000, safety=100)  # of the ideal of one part, tried for every pair
-PART_LIMITS = Limits(seconds=20.0, entries=1_000_000, safety=100)  # of the ideal of one part
+INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
+CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)  # of the ideal of one part, tried for every pair
+PART_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one part
 NOT_ASKED = "of chains of different sizes only limits are asked for"
 
 

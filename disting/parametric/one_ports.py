@@ -36,6 +36,7 @@ from disting.parametric.sections import cover, sections
 Polynomial = list[fmpz_mpoly]
 """Coefficients of s^0, s^1, .. in the parameters."""
 ORDER = 5
+TERMS = 150  # of a coefficient: quotients of larger ones would take seconds
 
 
 def same_one_ports(left: Model, right: Model) -> bool:
@@ -109,13 +110,14 @@ def _cauer(ring: Orthant, num: Polynomial, den: Polynomial) -> list[Ratio] | Non
         found.append(top[-1] / bottom[-1])
         top = _less(top, found[-1], bottom)[:-1]
     while top:
-        if top[-1].num.is_zero() or len(top) != len(bottom) - 1:
+        large = any(len(side) > TERMS for c in (*top, *bottom) for side in (c.num, c.den))
+        if large or top[-1].num.is_zero() or len(top) != len(bottom) - 1:
             return None
         found.append(bottom[-1] / top[-1])
         bottom = _less(bottom, found[-1], [zero, *top])[:-1]
         if len(bottom) == 1 and bottom[0].num.is_zero():
             break
-        if bottom[-1].num.is_zero() or any(len(c.num) > ring.terms for c in bottom):
+        if bottom[-1].num.is_zero():
             return None
         found.append(top[-1] / bottom[-1])
         top = _less(top, found[-1], bottom)[:-1]

@@ -2,8 +2,8 @@
 
 Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere. Over real numbers the same is
 said of one in which all exponents are even, coefficients have one sign and some term contains no unknown: it has this sign for
-all q and all p without zeros. Polynomials in the p alone that are not zero vanish on no open set; they are passed over and
-listed by whoever rests on that.
+all q and all p without zeros. Over complex numbers only constants have a sign, which then says that they are not zero.
+Polynomials in the p alone that are not zero vanish on no open set; they are passed over and listed by whoever rests on that.
 """
 
 from collections.abc import Iterable
@@ -72,6 +72,11 @@ class Orthant:
         here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
         return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
 
+    def monic(self, model: Model) -> list[Ratio]:
+        """All coefficients over the leading one, in the p."""
+        sides = [self.lifted(c, 0) for c in (*model.numerator_terms, *model.denominator_terms)]
+        return [Ratio(c, sides[-1]) for c in sides[:-1]]
+
     def _invariants(self, model: Model, first: int) -> list[Ratio]:
         """Coefficients of G over the leading one, the numerator without the multiple of the denominator that G is at s = oo."""
         top, bottom = ([self.lifted(c, first) for c in side] for side in (model.numerator_terms, model.denominator_terms))
@@ -93,11 +98,13 @@ class Orthant:
 
     def sign(self, polynomial: fmpz_mpoly) -> int:
         """1 or -1 where it has this sign for all admissible values (see above), 0 where that is not seen."""
+        if self.domain is Domain.COMPLEX and not polynomial.is_constant():
+            return 0
         terms = polynomial.to_dict()
         signs = {1 if c > 0 else -1 for c in terms.values()}
         if len(signs) != 1:
             return 0
-        if self.domain is not Domain.POSITIVE:
+        if self.domain is Domain.REAL:
             even = all(e % 2 == 0 for exponents in terms for e in exponents)
             if not even or all(any(exponents[i] for i in self.unknowns) for exponents in terms):
                 return 0

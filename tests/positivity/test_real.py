@@ -13,9 +13,11 @@ from disting.model.symmetry import canonical
 from disting.positivity import always_real, confirms_real, real_witness
 from disting.positivity.points import random_point, read
 from disting.positivity.real import lacks_real
+from disting.synthesis import Answer, Status, fibre, target
 from tests.oracles.real_equivalents import is_real, solutions
 
 OPEN_OF_3 = [(1, 4), (1, 6), (4, 6), (4, 8), (4, 11), (6, 8), (6, 11)]
+FOUND_WHOLLY = [(1, 4), (1, 6), (4, 6)]  # Newton's method reaches all solutions at the witness of one way at least
 TOWARDS_END = [(14, 20), (22, 26), (22, 28), (24, 26), (24, 28)]  # 4 masses, families of solutions
 
 
@@ -34,6 +36,7 @@ def seen(given, point, other):
     return solutions(given, {name: float(v.p) / float(v.q) for name, v in point.items()}, other, foster_count(other))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("i", "j"), OPEN_OF_3)
 def test_a_witness_has_complex_equivalents_alone(i, j):
     found = 0
@@ -44,9 +47,10 @@ def test_a_witness_has_complex_equivalents_alone(i, j):
             listed = seen(given, read(values), other)
             assert not any(map(is_real, listed))
             found += len(listed) == foster_count(other)
-    assert found  # at least one way Newton's method found them all
+    assert found or (i, j) not in FOUND_WHOLLY
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("i", "j"), OPEN_OF_3)
 def test_points_of_mixed_signs_against_newtons_method(i, j):
     given, other = pair(3, i, j)
@@ -76,6 +80,15 @@ def test_a_numerator_without_real_zeros_cannot_be_shared_out():
     assert not confirms_real(positive, second, first) and not confirms_real((("m1", "0"), *values[1:]), first, second)
 
 
+@pytest.mark.parametrize(("i", "j"), OPEN_OF_3)
+def test_a_witness_has_no_real_solution_in_the_list_of_the_synthesis(i, j):
+    """By another way: all solutions, each with an imaginary part that its ball leaves no doubt of."""
+    ways = [(a, b, real_witness(a, b, "disting")) for a, b in (pair(3, i, j), pair(3, j, i)) if not always_real(a, b)]
+    found = [(fibre(b, target(a.structure, read(values))), b) for a, b, values in ways if values]
+    assert found and all(f.status is Status.COMPLETE and len(f.solutions) == foster_count(b) for f, b in found)
+    assert all(s.real is Answer.NO for f, _ in found for s in f.solutions)
+
+
 def test_no_factor_is_claimed_where_nothing_is_covered():
     damped = Chain(3, damped=True), Chain(3, 0, 0, 2, 0, 2, damped=True)
     assert not always_real(*damped) and not lacks_real(damped[0], random_point(damped[0], "x"), damped[1])
@@ -87,7 +100,7 @@ def test_no_factor_is_claimed_where_nothing_is_covered():
 def test_altered_real_evidence_is_refused():
     a, b = (Family(4)[k] for k in (2, 6))
     found = compare(a, b, query=Query(View.REAL))
-    assert (found.relation, found.certainty) == (Relation.SOMETIMES, "theorem")
+    assert (found.relation, found.certainty) == (Relation.SOMETIMES, "proven")
     assert compare(b, a, query=Query(View.REAL)).relation is Relation.SOMETIMES
     evidence, witness = found.evidence, Witness()
     assert witness.confirms(evidence, "parameters", a, b) and from_dict(to_dict(evidence)) == evidence
