@@ -47,8 +47,8 @@ class ByRow:
         rest = "" if self.part == "whole" else " An equivalent model would have the same poles in each of its parts."
         return (
             f"{left} and {right} {where} of {self.masses} masses{' with the wall' if self.wall else ''}.{rest} For random "
-            f"elements modulo a random prime, a row with {next(ports)} is none with {next(ports)}: of the ways to "
-            f"give the zeros to the factors of its numerator, all {self.branches} that need be tried are contradictory."
+            f"elements modulo a random prime, a row with {next(ports)} has no equivalent with {next(ports)}: of the "
+            f"ways to give the zeros to the factors of its numerator, all {self.branches} that need be tried are contradictory."
         )
 
     @property
