@@ -22,9 +22,9 @@ from disting.conditions.evidence_of_decision import FibreAt as FibreAt
 from disting.conditions.evidence_of_decision import Theorem as Theorem
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
-from disting.ideals import FullParts, Refuted, Solved
+from disting.ideals import FullParts, Refuted, Shared, Solved
 
-ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | Refuted | ByProgram
+ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | Refuted | Shared | ByProgram
 Evidence = ByConditions | ByDecision | BothWays | OddFibres | Witnesses
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 

@@ -15,7 +15,7 @@ numerators have POINT_BITS random bits, so by Schwartz and Zippel a point lies t
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
 some neighbouring ports) or finds only numbers, the fibre's ideal decides, modulo random primes and with bounds of its own (see
-`disting.ideals`).
+`disting.ideals`); with dampers to the ground the ways to share out the numerator's roots come first (see `ideals.shares`).
 
 Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero, exp(-Td s) is one as well. It has neither
 zeros nor poles, and a rational function without any is a constant: Td = 0. So models with and without dead time are
@@ -29,7 +29,7 @@ from disting import ideals
 from disting.certainty import Certainty
 from disting.conditions.evidence import ByProgram, DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
-from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised, programs
+from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised, programs
 from disting.ideals.fibre_ideal import fibre_ideal
 from disting.ideals.full_parts import same_by_full_parts
 from disting.ideals.rational import Emptiness
@@ -59,6 +59,8 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     found = by_synthesis(a, b, settings)
     if found is None:
         found = by_full_parts(a, b)
+    if found is None and (a.ground_dampers or b.ground_dampers):  # they make the ideals of whole fibres too large
+        found = by_shares(a, b, settings)
     if found is None:
         found = by_ideals(a, b, settings, LIMITS)
     if found.outcome is Outcome.ABANDONED:
@@ -83,6 +85,14 @@ def by_full_parts(a: Chain, b: Chain) -> Finding | None:
     """What parts that can have any receptance prove; a dead time that both have is a factor of its own."""
     evidence = same_by_full_parts(a.structure, b.structure)
     return None if evidence is None else Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
+
+
+def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the shares of the numerator's roots refute; a dead time that both have is a factor of its own."""
+    found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
+    if found is None or found[1] < LIMITS.safety:
+        return None
+    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, found[1], found[0])
 
 
 def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:
@@ -125,7 +135,7 @@ def rational_part(chain: Chain) -> Structure:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | ByProgram | DeadTime):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | Shared | ByProgram | DeadTime):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 
