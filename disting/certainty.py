@@ -1,6 +1,11 @@
-"""How sure a statement is."""
+"""How sure a statement is, and how surely a bounded one must be known to be made at all."""
 
+from collections import Counter
+from collections.abc import Iterable
 from enum import StrEnum
+from fractions import Fraction
+
+LEAST_SAFETY = 100  # bits: what is wrong with a larger probability than 2**-100, or could be, is not said
 
 
 class Certainty(StrEnum):
@@ -22,3 +27,31 @@ Grade = tuple[Certainty, int]
 def graded(proven: bool, safety: int) -> Grade:
     """Certainty and error bits: none needed where the finding is proven."""
     return (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, safety)
+
+
+def shortfall(certainty: Certainty | None, safety: int) -> str:
+    """Why a statement may not be made with this grade, "" if it may: asked wherever a finding is made.
+
+    Raises ValueError for an error bound of what is not BOUNDED.
+
+    >>> shortfall(Certainty.BOUNDED, 99)
+    'its error bound would be 2^-99, and more than 2^-100 is not accepted'
+    """
+    if certainty is Certainty.BOUNDED:
+        bound = f"2^-{safety}" if safety > 0 else "1"
+        return "" if safety >= LEAST_SAFETY else f"its error bound would be {bound}, and more than 2^-100 is not accepted"
+    if safety:
+        raise ValueError("only a bounded finding carries an error bound")
+    return ""
+
+
+def joint_safety(safeties: Iterable[int]) -> int:
+    """Largest b with sum 2^-s <= 2^-b: the probability that any of these statements is wrong is at most 2**-b.
+
+    No independence is needed: it is the sum that bounds a union. 0 for no statement at all: nothing can be wrong.
+
+    >>> joint_safety([120] * 1000), joint_safety([100, 140])
+    (110, 99)
+    """
+    total = sum((Fraction(count, 1 << s) for s, count in Counter(safeties).items()), Fraction(0))
+    return int(1 / total).bit_length() - 1 if total else 0

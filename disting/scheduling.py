@@ -1,10 +1,11 @@
 """Where tasks run: in this process, in worker processes, or on a dask.distributed cluster; all by concurrent.futures."""
 
+import os
 import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, InvalidStateError, ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing import active_children, get_context
+from multiprocessing import active_children, get_context, parent_process
 from signal import SIG_DFL, SIGINT, signal
 
 from disting.errors import InputError
@@ -26,15 +27,28 @@ def executor(jobs: int, scheduler: str = "") -> Iterator[Executor | None]:
 def _processes(jobs: int) -> Iterator[Executor]:
     """Spawned workers: they share nothing with this process, so no lock or connection can be inherited half-way.
 
-    Ctrl-C ends them at once and without a word; this process tells of it.
+    Ctrl-C ends them at once and without a word; this process tells of it. However this process ends, they end with it.
     """
-    with _quiet_about_cancelled_work(), ProcessPoolExecutor(jobs, get_context("spawn"), signal, (SIGINT, SIG_DFL)) as pool:
+    with _quiet_about_cancelled_work(), ProcessPoolExecutor(jobs, get_context("spawn"), _prepare_worker) as pool:
         try:
             yield pool
         except KeyboardInterrupt:
             for worker in active_children():
                 worker.terminate()
             raise
+
+
+def _prepare_worker() -> None:
+    signal(SIGINT, SIG_DFL)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """A killed parent cannot tell its workers to stop; they would wait for tasks for ever. Its end is seen on a pipe."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 @contextmanager

@@ -5,18 +5,24 @@ non-zero there is non-zero generically: a proof. What is zero there is generical
 here, and independent points multiply their bounds.
 
 Everything is drawn from SHAKE-256 of a label, so that a result depends on the label alone: not on the order of the work, on
-the process or on the version of a random generator.
+the process or on the version of a random generator. The label holds a digest of the models that are looked at (`about`): the
+same question has the same points in whatever order it is asked, and nobody can write a model for which its own points or primes
+are special, since they change with every sign of it. Probabilities are those over the choice of a label's numbers.
 """
 
 import hashlib
 from dataclasses import dataclass
 from functools import cache
-from math import log2
+from math import ceil, log2
 
 from flint import fmpz
 
+from disting.certainty import LEAST_SAFETY
+
 SEARCH_BITS = 31  # products of two residues fit into 64 bits: the vectorised searches use such primes
 PROOF_BITS = 61
+SHARED = 20  # bits of a bound that many statements share, about a million of them
+REDRAWN = 2.0**-19  # bits: -log2(1 - 2^-20) is smaller
 _PRIMES = 3 * 2.0**60 / (5 * 61 * 0.6932)  # of 61 bits, at least: pi(2x) - pi(x) > 3x/(5 ln x), Rosser and Schoenfeld 1962
 
 
@@ -26,6 +32,20 @@ class Size:
 
     degree: int
     bits: int
+
+
+def about(label: str, *content: object) -> str:
+    """The label of a question about models: with a digest of their content, which `repr` must tell completely.
+
+    >>> about("doc", "a model") == about("doc", "a model") != about("doc", "another one")
+    True
+    """
+    return f"{label}:{digest(*content)}"
+
+
+def digest(*content: object) -> str:
+    """128 bits of SHA-256 of the content, as text."""
+    return hashlib.sha256("\0".join(map(repr, content)).encode()).hexdigest()[:32]
 
 
 def residues(label: str, count: int, modulus: int) -> list[int]:
@@ -58,10 +78,23 @@ def safety(size: Size, points: int) -> int:
     """Largest b with P(a non-zero polynomial of this size vanishes at all points) <= 2^-b.
 
     Per point: degree/2^60 (Schwartz 1980, Zippel 1979) plus the share of primes of 61 bits that divide all coefficients, at
-    most bits/60 of them.
+    most bits/60 of them. A point may have been drawn again where another polynomial vanished, with a probability of at most
+    2^-20: the bound is then divided by 1 - 2^-20, which costs REDRAWN bits at most.
 
     >>> safety(Size(degree=200, bits=500), points=3)
     150
     """
     miss = size.degree / 2.0 ** (PROOF_BITS - 1) + (1 + size.bits / (PROOF_BITS - 1)) / _PRIMES
-    return int(-log2(miss) * points)
+    return int((-log2(miss) - REDRAWN) * points)
+
+
+def enough(size: Size, asked: int) -> int:
+    """How many points to take: as many as asked, or more where an error below 2^-LEAST_SAFETY needs them.
+
+    SHARED bits are left for statements that share the bound.
+
+    >>> enough(Size(degree=200, bits=500), asked=1), enough(Size(degree=200, bits=500), asked=5)
+    (3, 5)
+    """
+    each = safety(size, 1)
+    return max(asked, ceil((LEAST_SAFETY + SHARED) / each)) if each > 0 else asked

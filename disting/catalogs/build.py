@@ -9,14 +9,14 @@ from pathlib import Path
 
 import disting
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.files import LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
+from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
 from disting.catalogs.settle import Settled, preload
 from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.identifiability import Identifiability
-from disting.inclusion import inclusion_to_dict
+from disting.inclusion import inclusions_to_dict
 from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
@@ -104,8 +104,8 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
     size = len(found["tf"].subjects)
     for i in range(size):
         for j in range(i + 1, size):
-            inclusion = found[FIBRE].inclusions.get((i, j))
-            told = {} if inclusion is None else {"inclusion": inclusion_to_dict(inclusion)}
+            both = found[FIBRE].inclusions.get((i, j))
+            told = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             yield (
                 {"left": i + 1, "right": j + 1}
                 | told

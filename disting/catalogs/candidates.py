@@ -19,7 +19,7 @@ from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
-from disting.verdict import RULE_NAMES, Query, Relation
+from disting.verdict import RULE_NAMES, Query, Relation, View
 
 SCHEMA = 1
 FILE = "candidates.jsonl"
@@ -97,7 +97,7 @@ def matrix(
         raise InputError("a matrix of verdicts holds models of one sensor quantity")
     engine = engine or Engine()
     subjects = [engine.subject(name_of(c, short=False), c) for c in chains]
-    decided = engine.decisions(subjects, Query(inclusion=False), executor=executor, progress=progress)
+    decided = engine.decisions(subjects, Query(View.EXACT, inclusion=False), executor=executor, progress=progress)
     models: list[Record] = [_model(number, s.chain, s.rank) for number, s in enumerate(subjects, 1)]
     rows, safety = _rows(decided)
     header: Record = {"schema": SCHEMA, "catalog": name, "models": len(chains), "sensor": chains[0].sensor.value}

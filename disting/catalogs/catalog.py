@@ -8,12 +8,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from disting.catalogs.export import Row, csv_text, share_text
+from disting.catalogs.export import Row, csv_text, inclusion_text, share_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.errors import CatalogError, InputError
 from disting.identifiability import Identifiability
-from disting.inclusion import Inclusion
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.verdict import Relation, Verdict, View
@@ -77,7 +76,7 @@ class Catalog:
         header = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self.records[0].items()}
         return header | {f"software {k}": v for k, v in _software().items()}
 
-    def verdict(self, left: int, right: int, view: View = View.EXACT) -> Verdict:
+    def verdict(self, left: int, right: int, view: View = View.POSITIVE) -> Verdict:
         """The stored verdict on two different models, numbered from 1; `left` and `right` as asked, evidence in order.
 
         Raises InputError for other numbers, CatalogError for a damaged record.
@@ -87,12 +86,12 @@ class Catalog:
             raise InputError(f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not {left}:{right}")
         return self._verdict(self._pair(low, high), view)
 
-    def pairs(self, view: View = View.EXACT) -> Iterator[tuple[int, int, Verdict]]:
+    def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """Yield (left, right, verdict) for all pairs left < right."""
         for record in self.records[1 + len(self.family) :]:
             yield record["left"], record["right"], self._verdict(record, view)
 
-    def relation(self, left: int, right: int, view: View = View.EXACT) -> Relation:
+    def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
         """Relation of two models, without building the verdict."""
         low, high = sorted((left, right))
         return relation_of(deciding(self._pair(low, high), view)[1])
@@ -103,11 +102,12 @@ class Catalog:
         group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
         return tuple(self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)])
 
-    def classes(self, view: View = View.EXACT) -> tuple[tuple[int, ...], ...]:
-        """Groups of two or more mutually indistinguishable models.
+    def classes(self, view: View = View.POSITIVE) -> tuple[tuple[int, ...], ...]:
+        """Groups of two or more mutually indistinguishable models, for all parameters of the view's domain.
 
-        Indistinguishability is transitive, so the groups are the connected components; raises CatalogError where the
-        verdicts contradict that.
+        That is transitive over every domain (where generic parameters of A have equivalents in B, and those of B in C, those of
+        A have some in C), so the groups are the connected components; raises CatalogError where the verdicts contradict that.
+        Pairs that agree for some parameters only belong to no group for that (see `depending`).
         """
         import networkx as nx
 
@@ -117,16 +117,26 @@ class Catalog:
         graph.add_edges_from(pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE)
         groups = sorted(tuple(sorted(c)) for c in nx.connected_components(graph))
         for members in groups:
-            if any(relations[a, b] is Relation.DISTINGUISHABLE for a in members for b in members if a < b):
-                raise CatalogError(f"{self.name} is inconsistent: the group {members} holds a distinguishable pair")
+            apart = (Relation.DISTINGUISHABLE, Relation.SOMETIMES)
+            if any(relations[a, b] in apart for a in members for b in members if a < b):
+                raise CatalogError(f"{self.name} is inconsistent: the group {members} holds a pair that can be told apart")
         return tuple(groups)
 
-    def counts(self, view: View = View.EXACT) -> dict[str, int]:
+    def depending(self, view: View = View.POSITIVE) -> tuple[tuple[int, int], ...]:
+        """The pairs that are indistinguishable for some parameters only; over complex parameters there are none.
+
+        >>> catalog(4).depending()
+        ((2, 6),)
+        """
+        pairs = self.records[1 + len(self.family) :]
+        return tuple((r["left"], r["right"]) for r in pairs if relation_of(deciding(r, view)[1]) is Relation.SOMETIMES)
+
+    def counts(self, view: View = View.POSITIVE) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
         found = Counter(deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
         return {"": 0} | dict(sorted(found.items()))
 
-    def matrix(self, view: View = View.EXACT) -> "pd.DataFrame":
+    def matrix(self, view: View = View.POSITIVE) -> "pd.DataFrame":
         """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the diagonal."""
         import pandas as pd
 
@@ -152,11 +162,11 @@ class Catalog:
         ]
         return pd.DataFrame(rows).set_index("model")
 
-    def to_csv(self, view: View = View.EXACT) -> str:
+    def to_csv(self, view: View = View.POSITIVE) -> str:
         """All verdicts as CSV text."""
         return csv_text(_csv_row(i, j, v) for i, j, v in self.pairs(view))
 
-    def to_json(self, view: View = View.EXACT) -> str:
+    def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
         verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
         return json.dumps({"header": self.records[0], "view": view.value, "verdicts": verdicts}, ensure_ascii=False) + "\n"
@@ -195,9 +205,9 @@ _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
 def _csv_row(left: int, right: int, v: Verdict) -> Row:
-    inclusion = "" if v.inclusion is Inclusion.UNKNOWN else v.inclusion.value
+    image, closure = (inclusion_text(inclusion) for inclusion in (v.image, v.closure))
     graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)
-    return left, right, *graded, v.domain, inclusion, share_text(v.left_positive), share_text(v.right_positive)
+    return left, right, *graded, v.domain, image, closure, share_text(v.left_positive), share_text(v.right_positive)
 
 
 def _software() -> dict[str, str]:

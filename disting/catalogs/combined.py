@@ -44,7 +44,7 @@ def combined(
     441 with dampers; in the others it does not.
 
     >>> found = combined((1, 2))
-    >>> found.subjects[2].name, found.relation(0, 2).value, found.inclusion(0, 2).value
+    >>> found.subjects[2].name, found.relation(0, 2).value, found.verdict(0, 2).closure.value
     ('2:2', 'distinguishable', 'left-in-right')
     """
     engine = engine or Engine()

@@ -52,11 +52,14 @@ class DamperFamily:
         return tuple(tuple(map(self.name, members)) for members in self.found.classes())
 
     def csv_lines(self) -> Iterator[str]:
-        """Yield left, right, relation, decided_by of all pairs, models written 3:4+b1+b3, a line at a time."""
-        yield "left,right,relation,decided_by\n"
+        """Yield left, right, relation, decided_by, domain of all pairs, models written 3:4+b1+b3, a line at a time.
+
+        The domain is complex: over positive parameters, families are not asked.
+        """
+        yield "left,right,relation,decided_by,domain\n"
         names = [self.text(i) for i in range(len(self))]
         for i, j, relation, rule in self.found.pairs():
-            yield f"{names[i]},{names[j]},{relation.value},{rule}\n"
+            yield f"{names[i]},{names[j]},{relation.value},{rule},complex\n"
 
     def text(self, place: int) -> str:
         """A model as `compare` names it."""

@@ -1,7 +1,7 @@
 """Sets of dampers to the ground of one model, all against each other (Fig. 14 of the paper).
 
 The paper compares one at a time: no damper, then one at mass 1, 2, .., N. `DamperSets.ALL` takes all 2^N sets. Where two sets
-are indistinguishable, no experiment with this force and sensor can tell where the friction is.
+are indistinguishable over positive parameters, no experiment with this force and sensor can tell where the friction is.
 """
 
 import csv
@@ -12,13 +12,14 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
 
+from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.verdict import RULE_NAMES, Query, Relation, Verdict
+from disting.verdict import RULE_NAMES, Query, Relation, Verdict, View
 
 Masses = tuple[int, ...]
-COLUMNS = ("left", "right", "relation", "decided_by")
+COLUMNS = ("left", "right", "relation", "decided_by", "domain")
 
 
 class DamperSets(StrEnum):
@@ -54,6 +55,11 @@ class DamperTable:
     sets: tuple[Masses, ...]
     decided: Decisions
 
+    @property
+    def domain(self) -> Domain:
+        """Which parameters the verdicts are about."""
+        return self.decided.query.view.domain
+
     def relation(self, left: Masses, right: Masses) -> Relation:
         """Relation of two different sets; raises InputError for a set that is not in the table."""
         return self.decided.relation(*self._places(left, right))
@@ -77,11 +83,12 @@ class DamperTable:
         return tuple(tuple(self.sets[i] for i in group) for group in groups)
 
     def to_csv(self) -> str:
-        """All pairs as CSV text: left, right, relation, decided_by ("" if undecided)."""
+        """All pairs as CSV text: left, right, relation, decided_by ("" if undecided), domain."""
         out = io.StringIO()
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(COLUMNS)
-        writer.writerows((spelled(a), spelled(b), relation.value, rule) for a, b, relation, rule in self.rows())
+        rows = self.rows()
+        writer.writerows((spelled(a), spelled(b), relation.value, rule, self.domain.value) for a, b, relation, rule in rows)
         return out.getvalue()
 
     def _places(self, left: Masses, right: Masses) -> tuple[int, int]:
@@ -94,18 +101,22 @@ def dampers(
     chain: Chain,
     which: DamperSets = DamperSets.SINGLE,
     *,
+    domain: Domain = Domain.POSITIVE,
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> DamperTable:
-    """The table of a chain; ground dampers that it has already are replaced by each set in turn.
+    """The table of a chain over a domain of parameters; ground dampers that it has already are replaced by each set in turn.
+
+    Over positive parameters sets are undecided where they are indistinguishable over complex ones and no theorem says more.
 
     >>> from disting.model.family import Family
-    >>> dampers(Family(3, damped=True)[3]).classes()
+    >>> dampers(Family(3, damped=True)[3], domain=Domain.COMPLEX).classes()
     (((),), ((1,), (2,), (3,)))
     """
     engine = engine or Engine()
     sets = which.of(chain.n_masses)
     subjects = [engine.subject(spelled(s), replace(chain, ground_dampers=s)) for s in sets]
-    decided = engine.decisions(subjects, Query(inclusion=False), executor=executor, progress=progress)
+    view = View.EXACT if domain is Domain.COMPLEX else View(domain.value)
+    decided = engine.decisions(subjects, Query(view, inclusion=False), executor=executor, progress=progress)
     return DamperTable(chain, sets, decided)

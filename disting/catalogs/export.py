@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from disting.domain import Domain
 from disting.engine import Decisions
-from disting.inclusion import Inclusion
+from disting.inclusion import Inclusion, Sense
 from disting.positivity import PositiveFinding
 from disting.verdict import RULE_NAMES, Relation, error_bound
 
@@ -20,22 +20,24 @@ CSV_COLUMNS = (
     "certainty",
     "error_bound",
     "domain",
-    "inclusion",
+    "image",
+    "closure",
     "left_positive",
     "right_positive",
 )
-Row = tuple[int | str, int | str, Relation, str, str, str, str, Domain, str, str, str]
+Row = tuple[int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str]
 """left, right (numbers, or names where models of several sizes are compared), relation, decided_by, representation, certainty,
-error bound, domain, inclusion ("" if not known), and which positive models of the left, and of the right, have a positive
-equivalent on the other side ("" where that is not asked)"""
+error bound, domain, image and closure ("" if not known), and which positive models of the left, and of the right, have a
+positive equivalent on the other side ("" where that is not asked)"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> print(csv_text([(1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither", "", "")]), end="")
-    left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion,left_positive,right_positive
-    1,2,distinguishable,1,tf,proven,0,complex,neither,,
+    >>> row = (1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither", "neither", "", "")
+    >>> print(csv_text([row]), end="")
+    left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,left_positive,right_positive
+    1,2,distinguishable,1,tf,proven,0,complex,neither,neither,,
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -49,10 +51,11 @@ def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1, or named N:I where they are of several sizes."""
     names = _names(decided)
 
-    def rest(i: int, j: int) -> tuple[Domain, str, str, str]:
-        """Domain, inclusion and the positive equivalents of both sides."""
+    def rest(i: int, j: int) -> tuple[Domain, str, str, str, str]:
+        """Domain, image, closure and the positive equivalents of both sides."""
         here, there = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
-        return decided.query.view.domain, _told(decided.inclusion(i, j)), here, there
+        image, closure = (inclusion_text(decided.inclusion(i, j, sense)) for sense in Sense)
+        return decided.query.view.domain, image, closure, here, there
 
     graded = (
         (
@@ -81,7 +84,8 @@ def _names(decided: Decisions) -> Sequence[int | str]:
     return range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
 
 
-def _told(inclusion: Inclusion) -> str:
+def inclusion_text(inclusion: Inclusion) -> str:
+    """Text of a column, "" where it is not known."""
     return "" if inclusion is Inclusion.UNKNOWN else inclusion.value
 
 

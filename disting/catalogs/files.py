@@ -1,9 +1,9 @@
 """Where catalogue files are and what is in them: one JSON record a line, so that a change shows as changed lines.
 
 First line: header. Then a line a model, in order; then a line a pair (left < right), with the deciding step in each
-representation, absent where nothing decides, the inclusion of models of unequal rank, and which positive models of either side
-have a positive equivalent on the other (`left_positive`, `right_positive`), where generic ones have equivalents.
-"""
+representation, absent where nothing decides, the `inclusions` of models of unequal rank (`closure`: limits; `image`: finite
+elements other than zero, absent where both have one reason), and which positive models of either side have a positive
+equivalent on the other (`left_positive`, `right_positive`), where generic ones have equivalents."""
 
 import hashlib
 import json
@@ -12,24 +12,19 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import CatalogError
+from disting.shipped import shipped_folder as shipped_folder
 
-SCHEMA = 3
+SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
 PROVENANCE = "provenance.json"
 LEFT_POSITIVE, RIGHT_POSITIVE = "left_positive", "right_positive"  # of a pair's record
+INCLUSIONS = "inclusions"
 Record = dict[str, Any]
 
 
 def name_of(n_masses: int, damped: bool) -> str:
     """Name of a catalogue, such as chains-3-damped."""
     return f"chains-{n_masses}-{'damped' if damped else 'undamped'}"
-
-
-def shipped_folder() -> Path:
-    """Folder of the shipped catalogues: inside the installed package, or at the top of a checkout."""
-    package = Path(__file__).parents[1]
-    inside = package / "shipped"
-    return inside if inside.is_dir() else package.parent / "catalog"
 
 
 def lines(records: list[Record]) -> str:

@@ -6,13 +6,13 @@ Over positive parameters nothing is stored but the shares of both sides, from wh
 from dataclasses import replace
 from typing import Any
 
-from disting.catalogs.files import LEFT_POSITIVE, RIGHT_POSITIVE, Record
+from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
 from disting.certainty import Certainty
 from disting.conditions.admissible import NOT_REAL, positive_ways
 from disting.conditions.evidence import from_dict, to_dict
 from disting.conditions.table import NECESSARY
 from disting.domain import Domain
-from disting.inclusion import Inclusion, inclusion_from_dict
+from disting.inclusion import Inclusion, inclusions_from_dict
 from disting.positivity import PositiveFinding
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Relation, Step, Verdict, View, open_note
 
@@ -24,11 +24,11 @@ def stored_verdict(record: Record, view: View) -> Verdict:
         return found
     here, there = _shares(record)
     found = replace(found, left_positive=here, right_positive=there)
-    if "inclusion" in record:
-        finding = inclusion_from_dict(record["inclusion"])
-        return replace(found, inclusion=finding.inclusion, inclusion_finding=finding)
-    same = settled is Relation.INDISTINGUISHABLE
-    return replace(found, inclusion=Inclusion.EQUAL if same else Inclusion.NEITHER)
+    if INCLUSIONS in record:
+        both = inclusions_from_dict(record[INCLUSIONS])
+        return replace(found, image=both.image.inclusion, closure=both.closure.inclusion, inclusions=both)
+    told = Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
+    return replace(found, image=told, closure=told)
 
 
 def deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:

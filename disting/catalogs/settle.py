@@ -16,7 +16,7 @@ from disting.conditions.subject import EXACTLY, Subject
 from disting.engine import Engine
 from disting.engine.engine import question_key
 from disting.model.chain import Chain
-from disting.verdict import Relation
+from disting.verdict import Relation, View
 
 SETTLED = "settled.jsonl"
 Settled = dict[tuple[str, str], Finding]
@@ -42,7 +42,8 @@ def preload(engine: Engine, known: Settled, subjects: Sequence[Subject]) -> None
 def settle(catalog: Catalog, folder: Path, seconds: float, told: Callable[[str], None]) -> int:
     """Settle what a catalogue leaves open, each pair within `seconds`; every finding is kept at once. The number of them."""
     subjects = {number: Subject(f"A{number}", chain) for number, chain in enumerate(catalog.family, 1)}
-    open_pairs = [subjects[i].in_order(subjects[j]) for i, j, v in catalog.pairs() if v.relation is Relation.UNDECIDED]
+    stored = catalog.pairs(View.EXACT)
+    open_pairs = [subjects[i].in_order(subjects[j]) for i, j, v in stored if v.relation is Relation.UNDECIDED]
     count = 0
     for first, second in dict.fromkeys(open_pairs):
         finding = _settled(first, second, seconds)

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -10,9 +11,9 @@ from disting.conditions.exact import EXACT
 from disting.domain import Domain
 from disting.errors import InputError
 from disting.model.family import MOST_MASSES
-from disting.verdict import RULE_NAMES, Query, View
+from disting.verdict import RULE_NAMES, Query, Relation, View
 
-RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "a look at admissible parameters"}
+RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with such parameters"}
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
 
 
@@ -27,9 +28,14 @@ def reference(text: str) -> tuple[int, int]:
 
 
 def query(conditions: tuple[int, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
-    """Conditions that are named decide alone: the exact decision belongs to the default."""
+    """Over positive parameters where no domain ("") is named, but the paper's view, over complex ones, where it is asked for.
+
+    Conditions that are named decide alone: the exact decision belongs to the default.
+    """
+    paper = conditions is not None or view is not View.EXACT
+    domain = domain or (Domain.COMPLEX if paper else Domain.POSITIVE)
     if domain != Domain.COMPLEX:
-        if conditions is not None or view is not View.EXACT:
+        if paper:
             raise InputError(f"--domain {domain} comes after the exact decision: leave --conditions and --representation away")
         return Query(View(domain), markov=markov)
     if conditions is None:
@@ -37,11 +43,21 @@ def query(conditions: tuple[int, ...] | None, view: View, domain: str, markov: i
     return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
 
 
-def counted(counts: dict[str, int]) -> str:
-    """How many pairs each rule decides, and how many are open."""
+def relations_in_words(found: Iterable[Relation]) -> str:
+    """How many pairs are what; SOMETIMES only where there are any.
+
+    >>> relations_in_words([Relation.DISTINGUISHABLE, Relation.SOMETIMES])
+    '1 distinguishable, 0 indistinguishable, 1 sometimes, 0 undecided'
+    """
+    counts = Counter(found)
+    return ", ".join(f"{counts[r]} {r}" for r in Relation if counts[r] or r is not Relation.SOMETIMES)
+
+
+def rules_in_words(counts: dict[str, int]) -> str:
+    """How many pairs each rule decides."""
     parts = [f"{n} by condition {number}" for number, n in counts.items() if number.isdigit()]
     parts += [f"{counts[rule]} by {text}" for rule, text in RULES.items() if counts.get(rule)]
-    return ", ".join([*parts, f"{counts.get('', 0)} undecided"])
+    return ", ".join(parts) or "none"
 
 
 def emitted(where: str, text: str) -> None:
@@ -54,10 +70,13 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
     if where == "-":
         sys.stdout.writelines(lines)
         return
+    partial = Path(f"{where}.partial")  # renamed at the end: a full disk or a kill leaves an older file as it was
     try:
-        with Path(where).open("w", encoding="utf-8") as file:
+        with partial.open("w", encoding="utf-8") as file:
             file.writelines(lines)
+        partial.replace(where)
     except OSError as reason:
+        partial.unlink(missing_ok=True)
         raise InputError(
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
         ) from None

@@ -13,12 +13,12 @@ from disting.conditions.ways import BothWays
 from disting.domain import Domain
 from disting.equivalence import chain_of
 from disting.errors import InputError
-from disting.inclusion import Inclusion
+from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
 from disting.proof import prove
-from disting.verdict import Query, Verdict, View
+from disting.verdict import Query, Relation, Verdict, View
 
 
 def run(options: argparse.Namespace) -> int:
@@ -54,17 +54,16 @@ def _shipped(references: list[tuple[int, int]], damped: bool, asked: Query) -> V
 
 def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
     """Whether there is something to tell of positive equivalents that the verdict's evidence does not say."""
-    if options.range or isinstance(verdict.evidence, BothWays):
-        return bool(options.range)
-    return options.domain == Domain.POSITIVE or verdict.inclusion in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+    known = verdict.left_positive is not None or verdict.right_positive is not None
+    return bool(options.range) or (known and not isinstance(verdict.evidence, BothWays))
 
 
 def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]) -> Iterator[str]:
     """Which positive models of each side, within ranges if there are any, have an equivalent on the other side.
 
-    Without ranges and over complex parameters that is told only where the verdict tells it.
+    Without ranges that is told where the verdict tells it.
     """
-    from disting.positivity import positive_finding, ranges, within_ranges
+    from disting.positivity import ranges, within_ranges
 
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:
@@ -73,9 +72,8 @@ def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[st
     for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
         boxes = ({n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other))
         found = within_ranges(given, other, ranges(*boxes)) if limits else known
-        if found is None and verdict.domain is not Domain.POSITIVE:
+        if found is None:
             continue
-        found = positive_finding(given, other) if found is None else found
         where = "within the ranges" if limits else "positive"
         why = found.evidence.sentence(name, other_name) if found.evidence else found.reason
         seen = f" ({found.empirical.sentence})" if found.empirical else ""
@@ -91,19 +89,33 @@ def _explained(verdict: Verdict, chains: list[Chain]) -> str:
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]
-    lines.append(f"domain     {verdict.domain} parameters")
+    lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")
     return "\n".join([*lines, *_inclusion(verdict)])
+
+
+def _over_complex(verdict: Verdict) -> str:
+    """Beside a verdict over real or positive parameters, that over complex ones, where it is known."""
+    if verdict.domain is Domain.COMPLEX or (verdict.closure is Inclusion.UNKNOWN and verdict.inclusions is None):
+        return ""
+    complex_relation = Relation.INDISTINGUISHABLE if verdict.closure is Inclusion.EQUAL else Relation.DISTINGUISHABLE
+    also = "too" if verdict.relation is complex_relation else f"they are {complex_relation} (--domain complex)"
+    return f"; over complex ones {also}"
 
 
 def _inclusion(verdict: Verdict) -> list[str]:
     """What is said of models of unequal rank."""
-    found = verdict.inclusion_finding
-    if found is None:
+    both = verdict.inclusions
+    if both is None:
         return []
-    says = {
-        Inclusion.LEFT_IN_RIGHT: f"generic {verdict.left} lie in {verdict.right}, not the reverse",
-        Inclusion.RIGHT_IN_LEFT: f"generic {verdict.right} lie in {verdict.left}, not the reverse",
-        Inclusion.NEITHER: "neither lies in the other",
-    }.get(found.inclusion, f"not known: {found.reason}")
-    why = f" ({found.certainty}): {found.evidence.sentence(verdict.left, verdict.right)}" if found.evidence else ""
-    return [f"inclusion  {says}{why}"]
+    lines = [f"inclusion  over complex parameters: {both.sentence(verdict.left, verdict.right)}"]
+    if both.image == both.closure:
+        return [*lines, f"why        {_why(both.closure, verdict)}"]
+    return [*lines, f"image      {_why(both.image, verdict)}", f"closure    {_why(both.closure, verdict)}"]
+
+
+def _why(found: InclusionFinding, verdict: Verdict) -> str:
+    """Grade and evidence of one statement, or why it is not known."""
+    if found.evidence is None:
+        return f"not known: {found.reason}"
+    bound = f", probability of error at most 2^-{found.safety}" if found.safety else ""
+    return f"{found.inclusion} ({found.certainty}{bound}): {found.evidence.sentence(verdict.left, verdict.right)}"

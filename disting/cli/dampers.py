@@ -2,21 +2,31 @@
 
 import argparse
 import sys
+from functools import partial
 from itertools import combinations
 
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
-from disting.cli.common import emitted, emitted_lines, reference
+from disting.cli.common import emitted, emitted_lines, reference, relations_in_words
 from disting.cli.paths import written_file
 from disting.cli.work import engine_for
+from disting.domain import Domain
 from disting.errors import InputError
 from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
 from disting.verdict import Relation
 
-SIGNS = {Relation.DISTINGUISHABLE: ".", Relation.INDISTINGUISHABLE: "=", Relation.UNDECIDED: "?"}
-LEGEND = ". distinguishable, = indistinguishable, ? undecided; 0 no damper to the ground, 1+3 dampers at masses 1 and 3"
+SIGNS = {
+    Relation.DISTINGUISHABLE: ".",
+    Relation.INDISTINGUISHABLE: "=",
+    Relation.SOMETIMES: "s",
+    Relation.UNDECIDED: "?",
+}
+MEANING = {".": "distinguishable", "=": "indistinguishable", "s": "indistinguishable for some only", "?": "undecided"}
+COMPLEX_ONLY = "c"  # of a pair that is open over positive parameters and indistinguishable over complex ones
+NOT_ASKED = "positive parameters are not asked here: 'disting compare' and 'disting dampers N:I' ask"
+SETS = "0 no damper to the ground, 1+3 dampers at masses 1 and 3"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,6 +36,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     names = [s.value for s in DamperSets]
     text = "one damper at a time (single, as in the paper's Fig. 14) or all 2^N sets (default: single)"
     parser.add_argument("--sets", choices=names, default=DamperSets.SINGLE.value, help=text)
+    names = [Domain.POSITIVE.value, Domain.COMPLEX.value]
+    text = (
+        "which parameters verdicts on one model are about (default: positive); those on a whole family are about complex ones"
+    )
+    parser.add_argument("--domain", choices=names, default="", help=text)
     parser.add_argument("--csv", type=written_file, metavar="FILE", help="write all pairs as CSV; - is standard output")
 
 
@@ -34,13 +49,15 @@ def run(options: argparse.Namespace) -> int:
     if options.model.isdecimal():
         return _whole_family(options)
     n, number = reference(options.model)
-    chain = Family(n, options.damped)[number]
+    chain, domain = Family(n, options.damped)[number], Domain(options.domain or Domain.POSITIVE)
     with engine_for(options) as (engine, pool, progress):
-        table = dampers(chain, DamperSets(options.sets), engine=engine, executor=pool, progress=progress)
+        asked = partial(dampers, chain, DamperSets(options.sets), engine=engine, executor=pool, progress=progress)
+        table, over_complex = asked(domain=domain), asked(domain=Domain.COMPLEX)
     if options.csv:
         emitted(options.csv, table.to_csv())
     if options.csv != "-":
-        sys.stdout.write(f"{options.model}  {text_drawing(chain)}\n\n{matrix(table)}\n{LEGEND}\n\n{summary(table)}\n")
+        shown = f"{matrix(table, over_complex)}\n{legend(domain)}\n\n{summary(table, over_complex)}"
+        sys.stdout.write(f"{options.model}  {text_drawing(chain)}\n\n{shown}\n")
     return 0
 
 
@@ -57,7 +74,11 @@ def build(options: argparse.Namespace) -> int:
 
 
 def _whole_family(options: argparse.Namespace) -> int:
-    """All models of a size with all sets: by classes, pairs only as they are written."""
+    """All models of a size with all sets: by classes, pairs only as they are written; over complex parameters."""
+    if options.domain == Domain.POSITIVE:
+        raise InputError(
+            "whole families are decided over complex parameters; over positive ones ask for one model, such as 3:4"
+        )
     found = _family(int(options.model), options)
     if options.csv:
         emitted_lines(options.csv, found.csv_lines())
@@ -67,6 +88,7 @@ def _whole_family(options: argparse.Namespace) -> int:
     groups = found.classes()
     print(f"{counted(found)}\n{rules}")
     print(f"{len(groups)} classes of indistinguishable models, the largest of {max(map(len, groups), default=0)}")
+    print(NOT_ASKED)
     return 0
 
 
@@ -84,30 +106,46 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
 def counted(found: DamperFamily) -> str:
     """Models and pairs in one line."""
     counts = found.found.counts()
-    return f"{len(found)} models, {sum(counts.values())} pairs: " + ", ".join(
-        f"{n} {relation}" for relation, n in counts.items()
-    )
+    told = ", ".join(f"{n} {relation}" for relation, n in counts.items())
+    return f"{len(found)} models, {sum(counts.values())} pairs, over complex parameters: {told}"
 
 
 def _rule(rule: str) -> str:
     return f"condition {rule}" if rule.isdigit() else "the exact decision"
 
 
-def matrix(table: DamperTable) -> str:
+def matrix(table: DamperTable, over_complex: DamperTable) -> str:
     """A line a set, a column a set, a sign where they meet."""
     names = [spelled(s) for s in table.sets]
     width = max(map(len, names))
     lines = [" " * (width + 1) + " ".join(names)]
     for i, name in enumerate(names):
-        signs = ("\\" if i == j else SIGNS[table.decided.relation(i, j)] for j in range(len(names)))
+        signs = ("\\" if i == j else _sign(table, over_complex, i, j) for j in range(len(names)))
         lines.append(f"{name:>{width}} " + " ".join(f"{s:>{len(n)}}" for s, n in zip(signs, names, strict=True)))
     return "\n".join(lines) + "\n"
 
 
-def summary(table: DamperTable) -> str:
+def _sign(table: DamperTable, over_complex: DamperTable, i: int, j: int) -> str:
+    found = SIGNS[table.decided.relation(i, j)]
+    same = over_complex.decided.relation(i, j) is Relation.INDISTINGUISHABLE
+    return COMPLEX_ONLY if found == "?" and same else found
+
+
+def legend(domain: Domain) -> str:
+    """What the signs mean, over which parameters."""
+    signs = ", ".join(f"{sign} {said}" for sign, said in MEANING.items() if sign != "s" or domain is not Domain.COMPLEX)
+    more = f", {COMPLEX_ONLY} undecided, but indistinguishable over complex ones" if domain is not Domain.COMPLEX else ""
+    return f"over {domain} parameters: {signs}{more}\n{SETS}"
+
+
+def summary(table: DamperTable, over_complex: DamperTable) -> str:
     """How many pairs are what, and the groups that cannot be told apart."""
-    relations = [table.decided.relation(i, j) for i, j in combinations(range(len(table.sets)), 2)]
-    counts = ", ".join(f"{relations.count(r)} {r}" for r in SIGNS)
+    pairs = list(combinations(range(len(table.sets)), 2))
+    counts = relations_in_words(table.decided.relation(i, j) for i, j in pairs)
+    signs = [_sign(table, over_complex, i, j) for i, j in pairs]
+    open_ones = signs.count(COMPLEX_ONLY)
+    more = f" ({open_ones} of them indistinguishable over complex parameters)" if open_ones else ""
     groups = [" ".join(map(spelled, group)) for group in table.classes() if len(group) > 1]
-    same = "".join(f"\nindistinguishable: {group}" for group in groups)
-    return f"{len(table.sets)} sets, {len(relations)} pairs: {counts}{same}"
+    over = f"over {table.domain} parameters"
+    same = "".join(f"\nindistinguishable {over}: {group}" for group in groups)
+    return f"{len(table.sets)} sets, {len(pairs)} pairs, {over}: {counts}{more}{same}"

@@ -7,12 +7,14 @@ from fractions import Fraction
 
 from disting.comparison import name_of
 from disting.equivalence import (
+    NONE,
     Equivalent,
     Equivalents,
     Listing,
     Map,
     Origin,
     Signs,
+    among,
     assignments,
     chain_of,
     chains_of,
@@ -126,7 +128,7 @@ def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
     groups: dict[str, list[str]] = {}
     for listing in listings:
         if not listing.members:
-            said = listing.sentence if len(listings) == 1 or not listing.complete else "none exists: proven"
+            said = listing.sentence if len(listings) == 1 or not listing.complete else NONE
             groups.setdefault(said, []).append(listing.name)
     for said, names in groups.items():
         every = "all" if len(names) == len(listings) else "all other"
@@ -137,6 +139,7 @@ def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
 def _closing(found: Equivalents) -> str:
     """One sentence: what this means for an experiment."""
     others = [listing for listing in found.listings if listing.chain != found.chain]
+    chains = [listing.chain for listing in found.listings]
     physical = [listing.name for listing in others if any(m.signs is Signs.POSITIVE for m in listing.members)]
     own = [m for listing in found.listings if listing.chain == found.chain for m in listing.members]
     twins = sum(m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN for m in own)
@@ -144,9 +147,13 @@ def _closing(found: Equivalents) -> str:
     if physical:
         said.append(f"No experiment with this force and sensor tells it from {_and(physical)} with the positive values above.")
     elif others and all(listing.complete for listing in others):
-        said.append("No other structure looked at gives this transfer function with positive values.")
+        said.append(
+            f"No other of {among(chains)} gives this transfer function with positive values."
+            if len(others) > 1
+            else f"With positive values, {among(chains)} does not give this transfer function."
+        )
     elif others:
-        said.append("No other structure with positive values was found; not all are excluded.")
+        said.append(f"Among {among(chains)}, no other was found that does the same with positive values; not all are excluded.")
     if own and twins:
         said.append("Other positive values of the same structure give the same transfer function too.")
     elif own and all(listing.complete for listing in found.listings if listing.chain == found.chain):

@@ -1,4 +1,4 @@
-"""disting fit: a measured frequency response, the structures that explain it, and which of them nobody can tell apart."""
+"""disting fit: a measured frequency response, the structures that explain it, and which have the same positive models."""
 
 import argparse
 import json
@@ -23,10 +23,15 @@ from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.report.fit.words import name as name_of
 from disting.report.fit.words import percent, result_unit, with_error
+from disting.verdict import Relation
 
 WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
 SHOWN = 8  # candidates of the printed table
+OTHERWISE = {
+    Relation.SOMETIMES: "the same behaviour for some positive parameters only",
+    Relation.UNDECIDED: "whether these have positive parameters with the same behaviour is not known",
+}
 
 
 def run(options: argparse.Namespace) -> int:
@@ -129,7 +134,7 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
 
 
 def _saved(found: Selection) -> str:
-    return f" ({found.saved} more are indistinguishable from one of them)" if found.saved else ""
+    return f" ({found.saved} more have the same positive models as one of them)" if found.saved else ""
 
 
 def _why(found: Selection) -> str:
@@ -163,15 +168,19 @@ def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterat
 
 
 def _alternatives(found: Selection) -> Iterator[str]:
-    same = [a.chain for a in found.alternatives if a.relation == "indistinguishable"]
-    unknown = [a.chain for a in found.alternatives if a.relation != "indistinguishable"]
+    """What has the same positive models, what has some of them, what is open; always with the domain."""
+    by_relation: dict[Relation, list[Chain]] = {}
+    for a in found.alternatives:
+        by_relation.setdefault(a.relation, []).append(a.chain)
+    same = by_relation.get(Relation.INDISTINGUISHABLE, [])
     if same:
-        yield "this data can never tell it apart from:"
+        yield "every positive model of it is one of these too, so no data with this force and sensor tell them apart:"
         yield from (f"  {name_of(chain)}" for chain in same)
-    elif not unknown:
-        yield "no other candidate behaves the same for all its parameters: better data could tell each of them apart"
-    if unknown:
-        yield "not decided: " + "; ".join(map(name_of, unknown))
+    elif not found.alternatives:
+        yield "for generic positive parameters no other candidate with as many masses behaves the same: better data could tell"
+    for relation, said in OTHERWISE.items():
+        if relation in by_relation:
+            yield f"{said}: " + "; ".join(map(name_of, by_relation[relation]))
 
 
 def _write(found: Selection, folder: Path, train: FrequencyResponse, test: FrequencyResponse | None, *, profiles: bool) -> None:

@@ -25,7 +25,7 @@ def run(options: argparse.Namespace) -> int:
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
     print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters")
-    print("sets = parameter sets with the same behaviour: 1 identifiable, ∞ not, ? not known")
+    print("sets = parameter sets, real or complex, with the same behaviour: 1 identifiable, ∞ not, ? not known")
     print(LEGEND)
     if options.identifiability:
         for number, found in enumerate(known, 1):

@@ -17,7 +17,7 @@ from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 
 MODEL = "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the ground; +lag; +delay"
-LIST = "decide by these conditions only, such as 1-5,8; 1-9 is the paper's view (default: all, then the exact decision)"
+LIST = "decide by these conditions only, over complex parameters, such as 1-5,8; 1-9 is the paper's view"
 Groups = Any  # the object that argparse gives for sub-commands has no public type
 DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
 EPILOG = (
@@ -221,8 +221,11 @@ def _add_cache(groups: Groups) -> None:
 
 def _deciding(parser: argparse.ArgumentParser) -> None:
     names = [domain.value for domain in Domain]
-    text = "parameter values that the verdict is about (default: complex, generic values)"
-    parser.add_argument("--domain", choices=names, default=Domain.COMPLEX.value, help=text)
+    text = (
+        "generic parameters that the verdict is about (default: positive; complex, as in the paper, where conditions or a "
+        "representation are named)"
+    )
+    parser.add_argument("--domain", choices=names, default="", help=text)
     text = "prove by exact elimination what was computed at random points, where that ends in time"
     parser.add_argument("--prove", action="store_true", help=text)
 

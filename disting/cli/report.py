@@ -10,11 +10,10 @@ from disting.catalogs.combined import combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.common import counted
+from disting.cli.common import relations_in_words
 from disting.cli.work import engine_for
 from disting.engine import Engine, Progress
 from disting.errors import InputError
-from disting.verdict import View
 
 MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 
@@ -36,7 +35,8 @@ def run(options: argparse.Namespace) -> int:
     with_dampers = [damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices]
     paths += write_report(catalogs, options.out, with_dampers)
     for c in catalogs:
-        print(f"{c.name}: {counted(c.counts(View.EXACT))}, {len(c.classes(View.EXACT))} indistinguishable groups")
+        relations = relations_in_words(v.relation for *_, v in c.pairs())
+        print(f"{c.name}, over positive parameters: {relations}; {len(c.classes())} groups of indistinguishable models")
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
     return 0
 

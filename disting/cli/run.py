@@ -7,11 +7,13 @@ from collections.abc import Sequence
 from contextlib import redirect_stdout
 
 from disting.cli.parser import parser
+from disting.cli.plain import say_what_can_be_said
 from disting.errors import DistingError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
+    say_what_can_be_said()
     with open(os.devnull, "w", encoding="utf-8") as nowhere, warnings.catch_warnings():
         warnings.showwarning = _warned
         with redirect_stdout(sys.stdout or nowhere):  # there is none where the shell closed it

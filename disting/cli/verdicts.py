@@ -1,14 +1,15 @@
 """disting verdicts: all pairs of one size, or of several sizes together."""
 
 import argparse
+from itertools import combinations
 
 from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
-from disting.cli.common import VIEWS, counted, emitted, query
+from disting.cli.common import VIEWS, emitted, query, relations_in_words, rules_in_words
 from disting.cli.work import engine_for
 from disting.engine import Decisions
 from disting.errors import InputError
-from disting.inclusion import Inclusion
+from disting.inclusion import ONE_SIDED, Sense
 from disting.model.chain import Sensor
 from disting.proof import prove_all
 
@@ -36,14 +37,16 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _summary(decided: Decisions) -> str:
-    """How many pairs each rule decides; of several sizes, how many smaller models lie in larger ones."""
-    total = len(decided.subjects) * (len(decided.subjects) - 1) // 2
-    told = f"{len(decided.subjects)} models, {total} pairs: {counted(decided.counts())}"
+    """How many pairs are what, and by which rule; of several sizes, how many smaller models lie in larger ones."""
+    pairs = list(combinations(range(len(decided.subjects)), 2))
+    head = f"{len(decided.subjects)} models, {len(pairs)} pairs, over {decided.query.view.domain} parameters"
+    relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
+    told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts())}"
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
-    return told + (f"; {inside} smaller models lie in larger ones, as limits" if inside else "")
+    return told + (f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else "")
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:
     """Whether the smaller model lies in the one with more masses."""
     sizes = {decided.subjects[k].chain.n_masses for k in (i, j)}
-    return len(sizes) == 2 and decided.inclusion(i, j) in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+    return len(sizes) == 2 and decided.inclusion(i, j, Sense.CLOSURE) in ONE_SIDED

@@ -16,16 +16,18 @@ from disting.conditions.evidence_of_conditions import Ranks as Ranks
 from disting.conditions.evidence_of_conditions import Renaming as Renaming
 from disting.conditions.evidence_of_conditions import Supermodel as Supermodel
 from disting.conditions.evidence_of_conditions import spelled as spelled
-from disting.conditions.evidence_of_decision import ByProgram as ByProgram
 from disting.conditions.evidence_of_decision import DeadTime as DeadTime
 from disting.conditions.evidence_of_decision import FibreAt as FibreAt
 from disting.conditions.evidence_of_decision import Theorem as Theorem
+from disting.conditions.explicit import Constants as Constants
+from disting.conditions.explicit import Explicit as Explicit
+from disting.conditions.explicit import NoEquivalent as NoEquivalent
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
-from disting.ideals import FullParts, Refuted, Shared, Solved
+from disting.ideals import ByRow, FullParts, Refuted, Shared, Solved
 
-ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | Refuted | Shared | ByProgram
-Evidence = ByConditions | ByDecision | BothWays | OddFibres | Witnesses
+ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted | Shared
+Evidence = ByConditions | ByDecision | BothWays | OddFibres | Witnesses | Explicit | NoEquivalent | Constants
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 
@@ -38,6 +40,8 @@ def from_dict(data: dict[str, object]) -> Evidence:
     """Evidence from plain data; lists become tuples. Raises KeyError, TypeError or ValueError for what is none."""
     if data["kind"] == BothWays.kind:
         return BothWays.from_dict(data)
+    if data["kind"] == "program":
+        raise ValueError("this verdict rests on an external program, which decides nothing now; ask for it again")
     fields = {name: _tupled(value) for name, value in data.items() if name != "kind"}
     return _KINDS[str(data["kind"])](**fields)  # type: ignore[arg-type]
 

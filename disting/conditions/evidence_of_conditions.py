@@ -105,7 +105,7 @@ class FreeChoice:
         """The two equal numbers in words."""
         return (
             f"Both have {self.rank} determinable parameters for {len(self.free)} non-constant invariants, "
-            f"so each of {left} and {right} can give them any generic values."
+            f"so each of {left} and {right} can give them any generic values, with complex parameters."
         )
 
     @property
@@ -126,7 +126,8 @@ class Embedding:
     def sentence(self, left: str, right: str) -> str:
         """Which model is part of which."""
         part, whole = (left, right) if self.left_is_submodel else (right, left)
-        return f"{part} is {whole} with some elements missing, and both have {self.rank} determinable parameters."
+        ranks = f"both have {self.rank} determinable parameters, so their behaviours agree over complex parameters"
+        return f"{part} is {whole} with some elements missing, and {ranks}."
 
     @property
     def formula(self) -> str:
@@ -146,7 +147,8 @@ class Supermodel:
         """The third model in words."""
         third = ", ".join(self.parameters)
         return (
-            f"{left} and {right} are submodels of the chain with {third}; all three have {self.rank} determinable parameters."
+            f"{left} and {right} are submodels of the chain with {third}; all three have {self.rank} determinable parameters, "
+            "so their behaviours agree over complex parameters."
         )
 
     @property

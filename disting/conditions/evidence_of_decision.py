@@ -1,4 +1,4 @@
-"""Evidence of the exact decision of chains: a theorem, a dead time, a fibre, what an external program found."""
+"""Evidence of the exact decision of chains: a theorem, a dead time, a fibre."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -84,26 +84,3 @@ class FibreAt:
         if self.grounds == "refuted":
             return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
         return f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
-
-
-@dataclass(frozen=True, slots=True)
-class ByProgram:
-    """Exact decision: an external program found the fibre's equations contradictory, modulo one small prime."""
-
-    kind: ClassVar[str] = "program"
-    program: str
-    left_given: bool
-    label: str
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found, and why it proves nothing."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        return (
-            f"{self.program} finds no parameters of {searched} with the transfer function of {given} at one random point "
-            "modulo one prime of 31 bits, too small for an error bound."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The ideal is everything, modulo the prime."""
-        return "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩ mod p"

@@ -10,12 +10,14 @@ equations of degree D at most, so a component that dominates the points p has a 
 there is one, and the points p without an equivalent lie where its projection is not proper: on a hypersurface of no larger
 degree (Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315, 1999). If V1 is not V2, the points with
 an equivalent lie on the pull-back of an equation of V2, of degree D^(n+1) at most too. Coordinates are fractions whose
-numerators have POINT_BITS random bits, so by Schwartz and Zippel a point lies there with a probability of at most D^(n+1) /
-2^POINT_BITS; up to DRAWS points are drawn.
+numerators have B random bits, B so large that the bound is small enough for this n (`synthesis.decide.point_bits`); by Schwartz
+and Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
-some neighbouring ports) or finds only numbers, the fibre's ideal decides, modulo random primes and with bounds of its own (see
-`disting.ideals`); with dampers to the ground the ways to share out the numerator's roots come first (see `ideals.shares`).
+some neighbouring ports) or finds only numbers, what is known of the rows of both chains decides (`ideals.by_rows`); with dampers
+to the ground the ways to share out the numerator's roots (see `ideals.shares`), and then the
+fibre's ideal, modulo random primes and with bounds of its own (see `disting.ideals`). No other program is asked: the answer
+depends on the question alone.
 
 Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero, exp(-Td s) is one as well. It has neither
 zeros nor poles, and a rational function without any is a constant: Td = 0. So models with and without dead time are
@@ -27,13 +29,13 @@ from dataclasses import replace
 
 from disting import ideals
 from disting.certainty import Certainty
-from disting.conditions.evidence import ByProgram, DeadTime, FibreAt, Theorem
+from disting.conditions.evidence import DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
-from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised, programs
-from disting.ideals.fibre_ideal import fibre_ideal
+from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised
+from disting.ideals.by_rows import differ_by_row
 from disting.ideals.full_parts import same_by_full_parts
-from disting.ideals.rational import Emptiness
-from disting.ideals.system import matched
+from disting.ideals.rows import DampedRow
+from disting.ideals.zeros import safety_of_branches
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
@@ -42,8 +44,7 @@ from disting.synthesis.decide import Direction, Exact, Grounds, Membership, deci
 from disting.synthesis.duality import are_dual
 from disting.synthesis.foster import are_foster, are_same_by_parts
 
-LIMITS = Limits(seconds=60.0, entries=4_000_000, safety=100)  # of one ideal; the work is limited first, so that runs repeat
-PROGRAM_SECONDS = 10.0
+LIMITS = Limits(seconds=3600.0, entries=4_000_000, safety=100)  # of one ideal; work ends long before the time: runs repeat
 EXACT = 10  # number of the exact decision, after the nine conditions
 
 
@@ -59,13 +60,11 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     found = by_synthesis(a, b, settings)
     if found is None:
         found = by_full_parts(a, b)
+    if found is None:
+        found = by_row(a, b)
     if found is None and (a.ground_dampers or b.ground_dampers):  # they make the ideals of whole fibres too large
         found = by_shares(a, b, settings)
-    if found is None:
-        found = by_ideals(a, b, settings, LIMITS)
-    if found.outcome is Outcome.ABANDONED:
-        found = _by_programs(a, b, settings, found)
-    return found
+    return by_ideals(a, b, settings, LIMITS) if found is None else found
 
 
 def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -74,9 +73,9 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     if a.damped != b.damped:
         return None
     found = decide(a, b, settings.seed)
-    safety = safety_of_point(a.n_masses, len(found.point))
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION) or safety <= 0:
+    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
         return None
+    safety = safety_of_point(b if found.direction is Direction.LEFT_IN_RIGHT else a)
     outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
     return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
 
@@ -95,6 +94,16 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, found[1], found[0])
 
 
+def by_row(a: Chain, b: Chain) -> Finding | None:
+    """What is known once for all of rows of masses; a dead time that both have is a factor of its own."""
+    evidence = differ_by_row(*map(rational_part, (a, b)), "rows")
+    if evidence is None:
+        return None
+    given, searched = (DampedRow(evidence.wall, evidence.masses, ports) for ports in (evidence.given, evidence.searched))
+    safety = safety_of_branches(given, searched)
+    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety, evidence) if safety >= LIMITS.safety else None
+
+
 def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:
     """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper, sometimes the other."""
     reasons: list[str] = []
@@ -111,23 +120,6 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     return Finding(EXACT, Outcome.ABANDONED, note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})")
 
 
-def _by_programs(a: Chain, b: Chain, settings: Settings, otherwise: Finding) -> Finding:
-    """What a program for Gröbner bases says where one is installed: a contradiction modulo one prime, without a bound."""
-    for program in programs.PROGRAMS:
-        evidence = ByProgram(program.name, True, f"programs:{settings.seed}")
-        if program.path and program_refutes(evidence, a, b):
-            return Finding(EXACT, Outcome.FAILS, Certainty.NUMERICAL, evidence=evidence)
-    return otherwise
-
-
-def program_refutes(evidence: ByProgram, a: Chain, b: Chain) -> bool:
-    """Whether the program, if it is installed, finds the contradiction between these canonical chains in time."""
-    given, searched = (normalised(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a)))
-    program = next(p for p in programs.PROGRAMS if p.name == evidence.program)
-    ideal = fibre_ideal(*matched(given, searched), evidence.label, True, programs.PROGRAM_BITS)
-    return programs.emptiness(program, ideal, PROGRAM_SECONDS)[0] is Emptiness.EMPTY
-
-
 def rational_part(chain: Chain) -> Structure:
     """The structure without its dead time, a factor of its own that both models share."""
     return replace(chain, dead_time=False).structure
@@ -135,7 +127,7 @@ def rational_part(chain: Chain) -> Structure:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | Shared | ByProgram | DeadTime):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | Shared | DeadTime):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 

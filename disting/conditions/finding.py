@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.certainty import Certainty
+from disting.certainty import Certainty, shortfall
 from disting.conditions.evidence import Evidence
 
 
@@ -22,7 +22,10 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Outcome of condition `number`; with BOUNDED the probability of error is at most 2**-safety. `note` says why not."""
+    """Outcome of condition `number`; with BOUNDED the probability of error is at most 2**-safety. `note` says why not.
+
+    A bounded outcome whose bound does not reach 2**-LEAST_SAFETY becomes ABANDONED, whoever makes the finding.
+    """
 
     number: int
     outcome: Outcome
@@ -32,8 +35,11 @@ class Finding:
     note: str = ""
 
     def __post_init__(self) -> None:
-        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
-            raise ValueError("exactly a bounded finding carries an error bound")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {"outcome": Outcome.ABANDONED, "certainty": Certainty.PROVEN, "safety": 0, "evidence": None}
+            for name, value in (given_up | {"note": lacking}).items():
+                object.__setattr__(self, name, value)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its outcome")

@@ -84,6 +84,10 @@ class Subject:
         return colouring(self.columns, ("",) * len(self.chain.parameters))
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """Values and Jacobian columns of the transfer-function coefficients at a point, modulo a fixed prime."""
+        """Values and Jacobian columns of the transfer-function coefficients at a point, modulo one prime for all chains.
+
+        Colours of many chains are compared, so they share it. Nothing rests on it: colours that differ prove that no renaming
+        exists, modulo any prime, and a renaming that is found is proven exactly.
+        """
         seen = sample(self.chain.structure, Representation.TF, 0, point, prime("renaming"))
         return seen.values, list(zip(*seen.rows, strict=True))

@@ -3,7 +3,7 @@
 from itertools import islice
 
 from disting.algebra.colouring import renamings
-from disting.certainty import Certainty, graded
+from disting.certainty import Certainty
 from disting.conditions.evidence import FreeChoice, Renaming
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.subject import Subject
@@ -31,7 +31,11 @@ def condition_6(left: Subject, right: Subject, exhaustive: bool) -> Finding:
 
 def condition_7(left: Profile, right: Profile) -> Finding:
     """Cond. 7: "The two models have as many determinable parameters as non-constant moment invariants and the constant moment
-    invariants are identical across the two models." Full row rank at one point proves the first part."""
+    invariants are identical across the two models."
+
+    Full row rank at one point proves the first part. Constants are compared as the numbers that they are proven to be, never
+    by residues, so that what holds is proven.
+    """
     if not left.describes_all(right):
         return Finding(7, Outcome.INAPPLICABLE, note=INCOMPLETE)
     if left.form != right.form or _constants(left) != _constants(right):
@@ -42,9 +46,10 @@ def condition_7(left: Profile, right: Profile) -> Finding:
             Outcome.FAILS,
             note=f"{left.rank} and {right.rank} determinable parameters for {len(left.form)} invariants",
         )
-    proven = all(p.proven_zeros >= _constants(p).keys() for p in (left, right))
+    if not all(p.proven_zeros >= _constants(p).keys() for p in (left, right)):
+        return Finding(7, Outcome.INAPPLICABLE, note="not all constant invariants are known exactly")
     free = tuple(label for label in left.labels if label in left.form)
-    return Finding(7, Outcome.HOLDS, *graded(proven, min(left.safety, right.safety) - 1), FreeChoice(left.rank, free))
+    return Finding(7, Outcome.HOLDS, Certainty.PROVEN, evidence=FreeChoice(left.rank, free))
 
 
 def _by_symmetry(left: Subject, right: Subject) -> Renaming:

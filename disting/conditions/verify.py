@@ -5,23 +5,26 @@ from math import comb
 
 from disting.conditions.evidence import (
     ByConditions,
-    ByProgram,
+    Constants,
     Counts,
     DeadTime,
     Embedding,
     Evidence,
+    Explicit,
     FibreAt,
     Forms,
     FreeChoice,
+    NoEquivalent,
     Ranks,
     Renaming,
     Supermodel,
     Theorem,
 )
-from disting.conditions.exact import program_refutes, rational_part, theorem
+from disting.conditions.exact import rational_part, theorem
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import (
+    ByRow,
     FullParts,
     Limits,
     Membership,
@@ -31,6 +34,7 @@ from disting.ideals import (
     chains_told_apart,
     coefficient_map,
     confirms,
+    confirms_row,
     decide,
     normalised,
     same_by_full_parts,
@@ -75,14 +79,14 @@ class Witness:
                 return _shares(evidence, left, right)
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
-            case ByProgram():
-                return program_refutes(evidence, canonical(left).chain, canonical(right).chain)
+            case ByRow():
+                return confirms_row(evidence, *(rational_part(canonical(chain).chain) for chain in (left, right)))
             case BothWays():
                 return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
             case OddFibres():
                 return _odd(evidence, left, right)
-            case Witnesses():
-                return False  # it speaks of general models, see `parametric.confirms`
+            case Witnesses() | Explicit() | NoEquivalent() | Constants():
+                return False  # these speak of general models, see `parametric.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)
 
     def _by_condition(self, evidence: ByConditions, representation: str, a: Structure, b: Structure) -> bool:

@@ -10,8 +10,9 @@ Point = tuple[tuple[str, str], ...]
 class Witnesses:
     """At the rational `point_with` the other model has the `equivalent` (rounded), at `point_without` none in the domain.
 
-    `with_left_given`, `without_left_given`: the point is of the left model and the right one was searched. `solutions`: how
-    many complex ones there are at the point without, -1 for infinitely many.
+    The same is true of all parameters near each point. `with_left_given`, `without_left_given`: the point is of the left model
+    and the right one was searched. `solutions`: how many complex ones there are at the point without, -1 for infinitely
+    many, -2 where they were not counted.
     """
 
     kind: ClassVar[str] = "witnesses"
@@ -27,11 +28,11 @@ class Witnesses:
         """Both points in words."""
         given, searched = (left, right) if self.with_left_given else (right, left)
         without, nowhere = (left, right) if self.without_left_given else (right, left)
-        many = "infinitely many" if self.solutions < 0 else str(self.solutions)
+        many = {-1: " (infinitely many complex)", -2: ""}.get(self.solutions, f" ({self.solutions} complex)")
         return (
             f"{given} at {_spelled(self.point_with)} is {searched} at {_spelled(self.equivalent)}; "
-            f"{without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with {self.domain} parameters "
-            f"({many} complex)."
+            f"{without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with {self.domain} parameters{many}; "
+            "the same is true all around both points."
         )
 
     @property

@@ -19,10 +19,23 @@ from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
 from disting.identifiability import IDENTIFIABILITY
-from disting.inclusion import INCLUDED, Inclusion, InclusionFinding, by_rank, inclusion_finding, quick_inclusion
+from disting.inclusion import (
+    CLOSURE,
+    IDEALS,
+    IMAGE,
+    Inclusion,
+    Inclusions,
+    Sense,
+    asked_closure,
+    asked_image,
+    by_rank,
+    implied_image,
+    joined,
+    needs_ideals,
+    quick_closure,
+)
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
-from disting.model.chain import Chain
 from disting.positivity import PositiveFinding
 from disting.question import Chains, Question
 from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
@@ -50,7 +63,7 @@ class Decisions:
     representation: Numbers
     steps: dict[tuple[int, int], Step] = field(default_factory=dict)
     proven: frozenset[tuple[int, int]] = frozenset()
-    inclusions: dict[tuple[int, int], InclusionFinding] = field(default_factory=dict)
+    inclusions: dict[tuple[int, int], Inclusions] = field(default_factory=dict)
     shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
 
     def relation(self, i: int, j: int) -> Relation:
@@ -79,17 +92,21 @@ class Decisions:
         return self._included(i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain))
 
     def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
-        inclusion = self.inclusion(i, j)
+        image, closure = (self.inclusion(i, j, sense) for sense in Sense)
         here, there = self.shares.get((i, j)), self.shares.get((j, i))
-        finding = self.inclusions.get((i, j))
-        return replace(verdict, inclusion=inclusion, inclusion_finding=finding, left_positive=here, right_positive=there)
+        found = self.inclusions.get((i, j))
+        return replace(verdict, image=image, closure=closure, inclusions=found, left_positive=here, right_positive=there)
 
-    def inclusion(self, i: int, j: int) -> Inclusion:
-        """Whose generic models have equivalents on the other side; not told by the paper's views, nor where it is not asked."""
+    def inclusion(self, i: int, j: int, sense: Sense) -> Inclusion:
+        """Whose generic models have equivalents (IMAGE), or are limits of models (CLOSURE), on the other side, i < j.
+
+        Not told by the paper's views, nor where it is not asked.
+        """
         if not self.query.tells_inclusion:
             return Inclusion.UNKNOWN
         if (i, j) in self.inclusions:
-            return self.inclusions[i, j].inclusion
+            found = self.inclusions[i, j]
+            return (found.image if sense is Sense.IMAGE else found.closure).inclusion
         if {(i, j), (j, i)} <= self.shares.keys():
             return Inclusion.EQUAL
         number, steps = self.decided_by[i, j], self.steps
@@ -157,17 +174,19 @@ def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Subject, S
 
 def _inclusions(result: Decisions, ask: Ask) -> None:
     """Settle by profiles what they settle, and ask about the rest at once; each pair of canonical forms is looked at once."""
-    subjects, known = result.subjects, dict[tuple[Chain, Chain], InclusionFinding | None]()
+    subjects = result.subjects
     pairs = [(i, j) for i, j in combinations(range(len(subjects)), 2) if subjects[i].rank != subjects[j].rank]
-    for i, j in pairs:
-        key = (subjects[i].canonical.chain, subjects[j].canonical.chain)
-        if key not in known:
-            known[key] = quick_inclusion(subjects[i], subjects[j])
     keys = {(i, j): (subjects[i].canonical.chain, subjects[j].canonical.chain) for i, j in pairs}
-    ask(INCLUDED, [by_rank(subjects[i], subjects[j]) for i, j in pairs if known[keys[i, j]] is None])
-    for i, j in pairs:
-        found = known[keys[i, j]]
-        result.inclusions[i, j] = inclusion_finding(subjects[i], subjects[j]) if found is None else found
+    first = {key: (subjects[i], subjects[j]) for (i, j), key in reversed(keys.items())}
+    quick = {key: quick_closure(*pair) for key, pair in first.items()}
+    ask(CLOSURE, [by_rank(*first[key]) for key, found in quick.items() if found is None])
+    closures = {key: asked_closure(*first[key]) if found is None else found for key, found in quick.items()}
+    implied = {key: implied_image(*first[key], closures[key]) for key in first}
+    ask(IMAGE, [by_rank(*first[key]) for key, found in implied.items() if found is None])
+    images = {key: asked_image(*first[key]) if found is None else found for key, found in implied.items()}
+    ask(IDEALS, [by_rank(*first[key]) for key in first if needs_ideals(images[key], closures[key])])
+    found = {key: joined(*first[key], images[key], closures[key]) for key in first}
+    result.inclusions.update({pair: found[key] for pair, key in keys.items()})
 
 
 def _positive(result: Decisions, ask: Ask) -> None:
@@ -180,11 +199,11 @@ def _positive(result: Decisions, ask: Ask) -> None:
 
 
 def _is_asked(result: Decisions, i: int, j: int) -> bool:
-    """Whether generic models i have equivalents j, not only limits."""
+    """Whether generic models i may have equivalents j: whether they are such models, or limits of them, of one size."""
     if result.subjects[i].chain.n_masses != result.subjects[j].chain.n_masses:
         return False
     inside = Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT
-    return result.inclusion(min(i, j), max(i, j)) in (Inclusion.EQUAL, inside)
+    return result.inclusion(min(i, j), max(i, j), Sense.CLOSURE) in (Inclusion.EQUAL, inside)
 
 
 def _admissible(result: Decisions, ask: Ask) -> None:

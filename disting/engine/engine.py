@@ -9,11 +9,10 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future, as_completed
 from dataclasses import dataclass, field
-from functools import cache
-from pathlib import Path
 from typing import Any, TypeVar
 
 from disting.conditions.subject import Subject
+from disting.engine.code import digest
 from disting.engine.decisions import Decisions, decisions
 from disting.engine.store import Store
 from disting.identifiability import IDENTIFIABILITY, Identifiability, as_given
@@ -31,9 +30,6 @@ T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
 BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
-FILES = ("settings.py", "certainty.py", "domain.py", "question.py")
-JUDGING = ("conditions", "inclusion", "verdict")
-FOLDERS = ("algebra", "model", "invariants", "synthesis", "ideals", "identifiability", "positivity", *JUDGING)
 
 
 def silent(what: str, done: int, total: int) -> None:
@@ -172,14 +168,6 @@ def question_key(question: Question[Any], chains: Chains, settings: Settings) ->
     return _key(question.name, *map(repr, chains), repr(settings))
 
 
-@cache
-def code_version() -> str:
-    """Digest of the source text that profiles and verdicts depend on."""
-    root = Path(__file__).parents[1]
-    files = [*(root / name for name in FILES), *(p for name in FOLDERS for p in sorted((root / name).rglob("*.py")))]
-    return hashlib.sha256(b"\0".join(p.read_bytes() for p in files)).hexdigest()
-
-
 def compute(structures: Sequence[Structure], r: Representation, count: int, settings: Settings) -> list[tuple[Structure, str]]:
     """A task for a worker: profiles as JSON text."""
     return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
@@ -204,4 +192,4 @@ def mapped(function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executo
 
 
 def _key(*content: str) -> str:
-    return hashlib.sha256("\0".join((code_version(), *content)).encode()).hexdigest()
+    return hashlib.sha256("\0".join((digest(__name__), *content)).encode()).hexdigest()

@@ -38,7 +38,6 @@ from disting.question import Question
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
 Key = Callable[[int], Hashable]
-LEAST_SAFETY = 100  # bits of a bounded finding; less is not taken
 TESTS = (1, 2, 3, 4, 5, 3, 4, 5, EXACT)  # transfer function, Markov parameters, 1/G
 
 
@@ -208,7 +207,7 @@ def _decide(work: _Work, question: Question[Finding], executor: Executor | None,
     work.engine.answer_all(question, asked, executor=executor, progress=progress)
     for (i, j), chains in zip(pairs, asked, strict=True):
         found = work.engine.answer(question, chains, work.engine.settings)
-        sure = found.certainty is not Certainty.NUMERICAL and (found.safety == 0 or found.safety >= LEAST_SAFETY)
+        sure = found.certainty is not Certainty.NUMERICAL
         if sure and found.outcome is Outcome.HOLDS:
             work.unite(i, j)
         elif sure and found.outcome is Outcome.FAILS:

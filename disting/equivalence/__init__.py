@@ -11,3 +11,5 @@ from disting.equivalence.result import Listing as Listing
 from disting.equivalence.result import Origin as Origin
 from disting.equivalence.result import Signs as Signs
 from disting.equivalence.search import equivalents as equivalents
+from disting.equivalence.words import NONE as NONE
+from disting.equivalence.words import among as among

@@ -1,6 +1,7 @@
 """What a user gives: models as chains or text such as 3:1+b2, values as numbers or text, taken exactly as fractions.
 
 Behind masses and number +b2 stands for a damper from mass 2 to the ground, +lag for a first-order lag, +delay for a dead time.
+A lag and a dead time belong to the actuator and the bench: other structures inherit them from the given model.
 """
 
 import re
@@ -41,14 +42,26 @@ def chain_of(model: Chain | str, family: Family) -> Chain:
 def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
     """The chains to look at: one, or all of a family; text such as 3:11 or 3 means damping and sensor of the given chain.
 
-    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with any set of them.
+    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with any set of them. Families and
+    structures given as text have the lag and the dead time of the given chain too: without them none could do the same. A
+    Chain is taken as it is.
 
     Raises InputError.
+
+    >>> [chain.dead_time for chain in chains_of("2", Chain(2, dead_time=True))]
+    [True, True, True]
     """
+    if isinstance(to, Chain):
+        return (to,)
+    return tuple(replace(c, lag=c.lag or given.lag, dead_time=c.dead_time or given.dead_time) for c in _named(to, given))
+
+
+def _named(to: Family | str, given: Chain) -> tuple[Chain, ...]:
+    """The chains as their text names them."""
     if isinstance(to, Family):
         return to.models
     family = Family(given.n_masses, given.damped, given.sensor)
-    match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", to.strip()) if isinstance(to, str) else None
+    match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
         return (chain_of(to, family),)
     plain = [_extended(chain, match[3]) for chain in _sized(family, match[1]).models]

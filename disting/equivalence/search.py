@@ -35,9 +35,10 @@ def equivalents(
     """All models of the structure `to`, or of all structures of a family, with the transfer function of the given model.
 
     `model` and `to` are chains (or a family), or text: 3:11 is model 11 of the 3-mass family, 3 the family; `damped` says how
-    `model` is meant if it is text, and `to` follows it; 3:11+b1+lag has a damper from mass 1 to the ground and a lag, 3+b* are
-    all structures with any such dampers. `values` by parameter name, numbers or text such as 3/4, positive, any
-    consistent units; they are taken exactly, floats by their decimal text. Raises InputError for wrong names and values.
+    `model` is meant if it is text, and `to` follows it, a lag and a dead time included; 3:11+b1+lag has a damper from mass 1
+    to the ground and a lag, 3+b* are all structures with any such dampers. `values` by parameter name, numbers or text such as
+    3/4, positive, any consistent units; they are taken exactly, floats by their decimal text. Raises InputError for wrong
+    names and values.
 
     >>> given = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": "0.3"}
     >>> found = equivalents("3:1", given, "3:11", damped=True)

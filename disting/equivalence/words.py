@@ -1,6 +1,6 @@
 """What is said of a list of equivalents: whether it is complete, and if not, why and what helps."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from flint import fmpq
@@ -9,11 +9,13 @@ from disting.model.chain import Chain
 from disting.synthesis.result import Fibre, Status
 from disting.synthesis.target import target
 
+NONE = "none exists, with positive parameters or any others: proven"
+
 
 def sentence(found: Fibre, count: int, cause: str) -> str:
     """The status in words; `count` parameter vectors are listed, `cause` as from `special`."""
     if found.status is Status.EMPTY:
-        return f"none exists: proven ({found.reason})"
+        return f"{NONE} ({found.reason})"
     if found.status is Status.COMPLETE:
         return "all there are" if not found.tests.boundary else "all there are, but for any with an element near zero"
     if found.status is Status.INFINITE:
@@ -24,6 +26,22 @@ def sentence(found: Fibre, count: int, cause: str) -> str:
     if found.tests.boundary:
         return f"{listed}, since an element cannot be told from zero: a structure without it may serve"
     return f"special values: {listed}, since {cause}; change a value slightly"
+
+
+def among(chains: Sequence[Chain]) -> str:
+    """What was looked at, in words: how many structures, of which size and kind.
+
+    >>> among([Chain(2, dead_time=True), Chain(2, 1, 1, 2, 1, 2, dead_time=True)])
+    'the 2 structures of 2 masses, undamped, with a dead time, looked at'
+    """
+    first = chains[0]
+    count = "the structure" if len(chains) == 1 else f"the {len(chains)} structures"
+    kind = ["damped" if first.damped else "undamped"]
+    kind += ["with a lag"] * first.lag + ["with a dead time"] * first.dead_time
+    dampers = {c.ground_dampers for c in chains}
+    kind += ["with dampers to the ground"] * (dampers != {()})
+    sizes = " or ".join(map(str, sorted({c.n_masses for c in chains})))
+    return f"{count} of {sizes} mass{'es' * (sizes != '1')}, {', '.join(kind)}, looked at"
 
 
 def not_covered(given: Chain, other: Chain) -> str:

@@ -8,16 +8,15 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
-from functools import cache
 from hashlib import sha256
 from itertools import groupby
 from math import inf
-from pathlib import Path
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from disting.engine import Store
+from disting.engine.code import digest
 from disting.engine.engine import mapped
 from disting.errors import InputError
 from disting.fit.cost import Cost
@@ -89,6 +88,13 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
         return _best(chain, task, known, starts)
 
 
+def evaluated(chain: Chain, task: Task) -> Estimate:
+    """The cost of a candidate whose parameters are all given: there is nothing to search."""
+    values = [task.fixed[name] for name in chain.parameters]
+    j = float(task.cost.total(task.plant(chain).response(np.array(values))))
+    return Estimate(chain, dict(zip(chain.parameters, values, strict=True)), j, (j,))
+
+
 def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
     names = chain.parameters
     plant, box = task.plant(chain), task.box(names)
@@ -143,7 +149,9 @@ def estimates(
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, stage in groupby(wanted, key=_stage):
-        chains = list(stage)
+        whole = list(stage)
+        known |= {c: evaluated(c, task) for c in whole if set(c.parameters) <= set(task.fixed)}
+        chains = [c for c in whole if c not in known]
         keys = {c: _key(c, task, _helpful(c, known), run.__name__) for c in chains}
         stored = store.get_many(keys.values())
         known |= {c: estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored}
@@ -171,17 +179,16 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
     """Content address of an estimate: the data, the choices, the chain and what its starts come from."""
     cost = task.cost
     arrays = [cost.measured.omega, cost.measured.G, np.zeros(0) if cost.lines is None else cost.lines]
-    texts = [_code(), method, repr(chain), cost.measured.sensor.value, repr((cost.case, cost.weights, task.sign, task.seed))]
+    texts = [
+        digest(__name__),
+        method,
+        repr(chain),
+        cost.measured.sensor.value,
+        repr((cost.case, cost.weights, task.sign, task.seed)),
+    ]
     texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
     texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
     return sha256(b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])).hexdigest()
-
-
-@cache
-def _code() -> str:
-    """Digest of the source text that estimates depend on."""
-    here = Path(__file__).parent
-    return sha256(b"\0".join(p.read_bytes() for p in sorted(here.glob("*.py")))).hexdigest()
 
 
 def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:

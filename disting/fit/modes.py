@@ -58,8 +58,10 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
     chain, names = candidate.chain, candidate.chain.parameters
     p = np.array([candidate.estimate.parameters[n] for n in names])
     free = task.box(names).free
-    columns = task.cost.of(task.plant(chain), p)[1][:, free]
     centre = _values(chain.structure, p)
+    if not free.any():
+        return tuple(centre)  # given, not estimated
+    columns = task.cost.of(task.plant(chain), p)[1][:, free]
     slopes = np.zeros((len(centre), int(free.sum())))
     for column, i in enumerate(np.flatnonzero(free)):
         both = [_values(chain.structure, p * np.exp(sign * STEP * (np.arange(len(p)) == i))) for sign in (1, -1)]

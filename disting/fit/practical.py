@@ -85,9 +85,9 @@ class Practical:
 
     @property
     def importance_ratio(self) -> float:
-        """Largest importance divided by the smallest; infinite where a parameter has none."""
-        values = list(self.importance.values())
-        return max(values) / min(values) if values and min(values) > 0 else inf
+        """Largest importance divided by the smallest; infinite where a parameter has none, 1 without any."""
+        values = list(self.importance.values()) or [1.0]
+        return max(values) / min(values) if min(values) > 0 else inf
 
     @property
     def rank(self) -> int:
@@ -96,12 +96,17 @@ class Practical:
 
     @property
     def condition_index(self) -> float:
-        """The largest scaled condition index."""
-        return self.condition_indices[-1]
+        """The largest scaled condition index; 1 where nothing is estimated."""
+        return self.condition_indices[-1] if self.condition_indices else 1.0
 
 
 def practical(columns: Real, names: Sequence[str], j: float) -> Practical:
-    """Criteria at an optimum with cost `j`; `columns` = S_j p_j, shape (n_y, n_p), those of fixed parameters left out."""
+    """Criteria at an optimum with cost `j`; `columns` = S_j p_j, shape (n_y, n_p), those of fixed parameters left out.
+
+    Where all are fixed nothing depends on the data, so that nothing is undetermined: every index is 1.
+    """
+    if not names:
+        return Practical((), {}, 1.0, (), {}, {})
     deviations = np.sqrt(np.diag(covariance(columns, j)))
     return Practical(
         tuple(names),
@@ -165,7 +170,7 @@ class Thresholds:
         Structural unidentifiability excludes at any threshold, and is said instead of the infinite indices that follow from it.
         """
         along = ", ".join(found.worst_direction)
-        least = max(found.importance.values()) / self.importance_ratio
+        least = max(found.importance.values(), default=0.0) / self.importance_ratio
         weak = ", ".join(name for name, value in found.importance.items() if not value >= least)
         rows = [
             ("condition index", found.condition_index, self.condition_index, along),

@@ -14,7 +14,7 @@ import numpy as np
 
 from disting.engine import Engine, Store
 from disting.errors import InputError
-from disting.fit.alternatives import Alternative, alternatives, representatives
+from disting.fit.alternatives import Alternative, alternatives, limits_of, representatives
 from disting.fit.cost import Case, Cost
 from disting.fit.descent import fine
 from disting.fit.estimate import Estimate, Method, Task, estimates
@@ -75,7 +75,7 @@ class Selection:
     """What a selection found. `selected` is None where no candidate is admissible; candidates in the order of the cost on test.
 
     `margin` is what the selected candidate may lose by to the best one; `saved` counts the candidates that were not fitted
-    because an indistinguishable one was (`same_as`, by candidate); `validation` says on what the test cost was measured.
+    because one with the same positive models was (`same_as`, by candidate); `validation` says where the test cost comes from.
     """
 
     selected: Candidate | None
@@ -118,15 +118,16 @@ def select(
 
     `weights` of amplitude and phase, see `Cost`; `lines` gives each line's weight, such as `lines_by_deviation`; `sign` -1: the
     sensor is reversed, 0: whichever fits the smallest candidate better. `bounds` and `fixed` by parameter name. `prune`:
-    indistinguishable candidates are fitted once; `method` as in
-    `estimates`. An engine with a store resumes interrupted work. Raises InputError.
+    candidates with the same positive models, within `bounds` and `fixed`, are fitted once; `method` as in `estimates`. An
+    engine with a store resumes interrupted work. Raises InputError.
     """
     _check(train, test, candidates)
     engine = engine or Engine(store=Store.none())
     cost = Cost(train, case, weights, lines(train) if lines else None)
     task = Task(cost, sign or 1, bounds or {}, fixed or {}, seed)
     task = task if sign else _signed(task, candidates)
-    first = representatives(candidates, engine) if prune else {c: c for c in candidates}
+    within = limits_of(task.bounds, task.fixed)
+    first = representatives(candidates, engine, within) if prune else {c: c for c in candidates}
     wanted = [c for c in candidates if first[c] == c]
     known = estimates(wanted, task, method=method, store=engine.store, executor=executor, progress=progress)
     limits = thresholds or Thresholds()
@@ -138,7 +139,7 @@ def select(
     return Selection(
         selected,
         tuple(fitted),
-        alternatives(selected.chain, candidates, engine) if selected else (),
+        alternatives(selected.chain, candidates, engine, within) if selected else (),
         limits,
         noise,
         allowed,
@@ -202,6 +203,8 @@ def _residual(chain: Chain, task: Task, cost: Cost, p: Real) -> Real:
 
 def _cross_validated(found: Estimate, task: Task, p: Real) -> Real:
     """Residuals of each line under the fit to the other folds, lines dealt out in turn; shape (n_y,)."""
+    if not task.box(found.chain.parameters).free.any():
+        return _residual(found.chain, task, task.cost, p)  # no fit sees any line
     cost, n_f = task.cost, len(task.cost.measured.omega)
     whole = np.empty(2 * n_f)
     lines = np.ones(n_f) if cost.lines is None else cost.lines

@@ -1,20 +1,20 @@
 """Structural identifiability of fitted candidates: what no data can determine, whatever the excitation and the noise.
 
-Where a candidate has more free parameters than the coefficients of its transfer function have rank, its sensitivities are
-dependent for all parameter values: condition and collinearity index are infinite, and what a computer finds is rounding. Such a
-candidate is described by the combinations that data do determine, not by a number. Rank and combinations are those of
-`disting.identifiability`, at random points modulo random primes; how many parameter vectors fit is not asked here, which costs
-more than the fit.
-"""
+Where a candidate has more free parameters than the Jacobian of its transfer function's coefficients by these has rank, its
+sensitivities are dependent for all parameter values: condition and collinearity index are infinite, and what a computer finds
+is rounding. Such a candidate is described by the combinations that data do determine, not by a number. Rank and combinations
+are those of `disting.identifiability`, at random points modulo random primes; how many parameter vectors fit is not asked
+here, which costs more than the fit."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import inf
 
+from disting.algebra.quotient import matrix
 from disting.fit.practical import Practical
 from disting.identifiability.basis import basis
 from disting.identifiability.formula import Formula
-from disting.identifiability.tangent import proof_tangents
+from disting.identifiability.tangent import Tangent, proof_tangents
 from disting.model.chain import Chain
 from disting.settings import Settings
 
@@ -28,13 +28,22 @@ def with_structure(judged: Mapping[Chain, Practical], settings: Settings) -> dic
 
 def _told(chain: Chain, found: Practical, settings: Settings) -> Practical:
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
-    rank = max(t.rank for t in proof)
+    rank = max(_rank(t, found.names) for t in proof)
     lacking = len(found.names) - rank
     if lacking <= 0:
         return found
-    chosen = basis(chain.structure, proof, rank, settings.seed).chosen
+    chosen = basis(chain.structure, proof, max(t.rank for t in proof), settings.seed).chosen
     indices = found.condition_indices[:rank] + (inf,) * lacking
-    return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=in_words([c.formula for c in chosen]))
+    given = " and what is given" * (len(found.names) < len(chain.parameters))
+    words = in_words([c.formula for c in chosen]) + given
+    return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=words)
+
+
+def _rank(at: Tangent, free: Sequence[str]) -> int:
+    """Rank of the columns of the free parameters: those that are given are known."""
+    columns = [i for i, name in enumerate(at.values) if name in free]
+    rows = [[row[i] for i in columns] for row in at.rows]
+    return int(matrix(rows, len(columns), at.modulus).rank()) if columns else 0
 
 
 def in_words(determined: Sequence[Formula]) -> str:

@@ -12,6 +12,9 @@ from disting.ideals.by_parts import confirms_by_parts as confirms_by_parts
 from disting.ideals.by_parts import decide_by_parts as decide_by_parts
 from disting.ideals.by_parts import included_by_parts as included_by_parts
 from disting.ideals.by_parts import refuted_by_parts as refuted_by_parts
+from disting.ideals.by_rows import ByRow as ByRow
+from disting.ideals.by_rows import confirms_row as confirms_row
+from disting.ideals.by_rows import differ_by_row as differ_by_row
 from disting.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.ideals.decide import Decision as Decision
 from disting.ideals.decide import Limits as Limits

@@ -100,9 +100,9 @@ class PartsDecision:
 
 def refuted_by_parts(given: Structure, other: Structure, seed: str) -> ByParts | None:
     """A proof, without any chance, that generic models of `given` have no equivalent in `other`; None if there is none."""
-    if _not_covered(given, other, f"{seed}:poles"):
+    if not_covered(given, other, f"{seed}:poles"):
         return None
-    steps = [_vanishing_step(split, parts(other)) for split in splits(given, gap(other))]
+    steps = [vanishing_step(split, parts(other)) for split in splits(given, gap(other))]
     found = tuple(step for step in steps if step is not None)
     return ByParts(True, found) if len(found) == len(steps) else None
 
@@ -133,7 +133,7 @@ def _members(split: Split, searched: Parts, seed: str, limits: Limits) -> tuple[
 
 def decide_by_parts(given: Structure, other: Structure, seed: str, limits: Limits) -> PartsDecision:
     """Whether generic models of `given` are models of `other`, a chain with a gap; both without dead time."""
-    why = _not_covered(given, other, f"{seed}:poles")
+    why = not_covered(given, other, f"{seed}:poles")
     if why:
         return PartsDecision(Membership.UNKNOWN, reason=why)
     searched, wanted = parts(other), replace(limits, safety=limits.safety + SPARE_BITS)
@@ -151,7 +151,7 @@ def decide_by_parts(given: Structure, other: Structure, seed: str, limits: Limit
 def confirms_by_parts(evidence: ByParts, left: Structure, right: Structure) -> bool:
     """Whether the evidence holds: poles and splits are found again, each step is checked without the search that found it."""
     given, other = (left, right) if evidence.left_given else (right, left)
-    if not _are_alike(given, other) or (not evidence.is_member and _not_covered(given, other, "verify:poles")):
+    if not _are_alike(given, other) or (not evidence.is_member and not_covered(given, other, "verify:poles")):
         return False
     searched, possible = dict(parts(other).named), {s.name: dict(s.parts.named) for s in splits(given, gap(other))}
     if any(s.split not in possible or s.part not in possible[s.split] for s in evidence.steps):
@@ -164,7 +164,7 @@ def confirms_by_parts(evidence: ByParts, left: Structure, right: Structure) -> b
     return complete and all(_confirms(s.shown, possible[s.split][s.part], searched[s.part]) for s in evidence.steps)
 
 
-def _not_covered(given: Structure, other: Structure, label: str) -> str:
+def not_covered(given: Structure, other: Structure, label: str) -> str:
     """Why the theorem does not apply; empty if it does."""
     if not _are_alike(given, other):
         return "chains of one size and sensor are taken apart, without ground dampers and lag, and the searched one has a gap"
@@ -188,7 +188,7 @@ def _ranks(wanted: CoefficientMap, there: CoefficientMap, label: str) -> tuple[i
 
 def _split(split: Split, searched: Parts, seed: str, limits: Limits) -> PartsDecision:
     """Both parts in one split: an exact refutation of either, then ideals, the fewest unknowns first."""
-    exact = _vanishing_step(split, searched)
+    exact = vanishing_step(split, searched)
     if exact is not None:
         return PartsDecision(Membership.EXCLUDED, 0, ByParts(True, (exact,)))
     steps, least = list[PartStep](), limits.safety
@@ -217,7 +217,8 @@ def _by_size(split: Split, searched: Parts) -> list[tuple[str, CoefficientMap, C
     return sorted(_pairs(split, searched), key=lambda pair: len(pair[2].parameters))
 
 
-def _vanishing_step(split: Split, searched: Parts) -> PartStep | None:
+def vanishing_step(split: Split, searched: Parts) -> PartStep | None:
+    """A part that a Markov parameter refutes in this split, without any chance; None if there is none."""
     found = ((name, vanishing(wanted, there)) for name, wanted, there in _pairs(split, searched))
     return next((PartStep(split.name, name, Vanishing(index)) for name, index in found if index is not None), None)
 

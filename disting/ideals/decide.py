@@ -17,12 +17,12 @@ from enum import StrEnum
 from math import ceil
 from time import monotonic
 
-from disting.algebra.sampling import residues
-from disting.errors import InputError
+from disting.algebra.sampling import about, residues
+from disting.errors import ContradictionError, InputError
 from disting.ideals.bounds import safety_of_empty, safety_of_member
 from disting.ideals.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.ideals.evidence import Evidence, Refuted, Solved
-from disting.ideals.fibre_ideal import FibreIdeal, fibre_ideal, generic_rank
+from disting.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
 from disting.ideals.points import free_variable, solution
 from disting.ideals.system import CoefficientMap, matched
 
@@ -110,6 +110,7 @@ def decide(
         return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
     left, right = matched(given, other)
     _refuse(left, right, equal_rank, seed)
+    seed = about(f"ideals:{seed}", left.content, right.content)
     if safety_of_empty(left, right, equal_rank) < LEAST:
         return Decision(Membership.UNKNOWN, reason="primes of 64 bits give no useful bound for models of this size")
     question = _Question(left, right, equal_rank, limits, monotonic() + limits.seconds)
@@ -128,7 +129,7 @@ def _refuse(left: CoefficientMap, right: CoefficientMap, equal_rank: bool, seed:
 
 
 def _label(seed: str, number: int) -> str:
-    return f"ideals:{seed}:{number}"
+    return f"{seed}:{number}"
 
 
 def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
@@ -194,7 +195,10 @@ def _needed(question: _Question, each: int) -> int:
 
 
 def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] | None:
-    """All parameters of the searched model, in its order; further unknowns are fixed as long as solutions are not finite."""
+    """All parameters of the searched model, in its order; further unknowns are fixed as long as solutions are not finite.
+
+    What is found is put into both coefficient maps; raises ContradictionError where they differ, a defect of the program.
+    """
     ideal, extra = run.ideal, list[Sparse]()
     values = residues(f"cut:{run.label}", len(ideal.unknowns), ideal.modulus)
     while (at := free_variable(basis)) is not None:
@@ -206,8 +210,12 @@ def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] |
     found = solution(basis, run.label)
     if found is None:
         return None
+    given, other = question.sides(run.left_given)
     named = ideal.fixed | dict(zip(ideal.unknowns, found, strict=True))
-    return tuple(named[name] for name in question.sides(run.left_given)[1].parameters)
+    solved = tuple(named[name] for name in other.parameters)
+    if not agree(given, ideal.point, other, solved, ideal.modulus):
+        raise ContradictionError("a solution of the fibre's equations is none of the coefficient maps")
+    return solved
 
 
 def _fixed(at: int, value: int, size: int) -> Sparse:

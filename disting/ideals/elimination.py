@@ -12,8 +12,8 @@ Algebra 139, 1999; R. Gebauer, H. M. Möller, On an installation of Buchberger's
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from flint import nmod_mat
-
+from disting.ideals.modular import Matrix
+from disting.ideals.modular import matrix as modular_matrix
 from disting.ideals.monomials import MAX_DEGREE, Order
 
 Sparse = Mapping[tuple[int, ...], int]  # exponents -> coefficient
@@ -157,7 +157,7 @@ def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus
     kept = [row for row in reduced if any(row)]
     if not kept:
         return []
-    matrix, rank = nmod_mat(len(kept), len(free), [row[j] for row in kept for j in free], modulus).rref()
+    matrix, rank = modular_matrix(len(kept), len(free), [row[j] for row in kept for j in free], modulus).rref()
     return [_new_row(matrix, r, [columns[j] for j in free]) for r in range(rank)]
 
 
@@ -178,7 +178,7 @@ def _freed(
     return row
 
 
-def _new_row(matrix: nmod_mat, at: int, columns: list[int]) -> Row:
+def _new_row(matrix: Matrix, at: int, columns: list[int]) -> Row:
     entries = ((m, int(matrix[at, j])) for j, m in enumerate(columns))
     kept = [(m, c) for m, c in entries if c]
     return Row(tuple(m for m, _ in kept), tuple(c for _, c in kept))

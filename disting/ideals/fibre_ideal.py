@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from flint import nmod_mat
 
-from disting.algebra.sampling import prime, residues
+from disting.algebra.sampling import about, prime, residues
 from disting.ideals.system import CoefficientMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
@@ -49,19 +49,22 @@ def fibre_ideal(given: CoefficientMap, other: CoefficientMap, label: str, equal_
         equations += _tangents(given, other, point, modulus)
     kept = [i for i, name in enumerate(other.parameters) if name not in fixed]
     values = [fixed.get(name, 0) for name in other.parameters]
-    reduced = (_restricted(e, kept, values, modulus) for e in equations)
+    reduced = (restricted(e, kept, values, modulus) for e in equations)
     return FibreIdeal(modulus, point, tuple(other.parameters[i] for i in kept), fixed, tuple(e for e in reduced if e))
 
 
 def drawn(given: CoefficientMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
-    """The random prime and point that a label stands for; values are drawn by name, so a scale factor changes no other."""
+    """The random prime and point that a label stands for; values are drawn by name, so a scale factor changes no other.
+
+    Those who choose labels make them depend on the models (`sampling.about`).
+    """
     modulus = prime(label, bits)
     return modulus, tuple(residues(f"{name}:{label}", 1, modulus)[0] for name in given.parameters)
 
 
 def generic_rank(model: CoefficientMap, label: str) -> int:
     """Rank of the Jacobian matrix at a random point: a lower bound of the generic rank, and equal to it but for bad luck."""
-    modulus, point = drawn(model, label)
+    modulus, point = drawn(model, about(label, model.content))
     return int(jacobian(model, point, modulus).rank())
 
 
@@ -74,6 +77,12 @@ def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> int:
                 number = number * (x if e == 1 else pow(x, e, modulus)) % modulus
         total += number
     return total % modulus
+
+
+def agree(given: CoefficientMap, point: Sequence[int], other: CoefficientMap, values: Sequence[int], modulus: int) -> bool:
+    """Whether two maps that can be compared have the same coefficients at these parameters modulo a prime."""
+    pairs = zip(given.coordinates, other.coordinates, strict=True)
+    return all(evaluated(a, point, modulus) == evaluated(b, values, modulus) for a, b in pairs)
 
 
 def derivative(terms: Terms, at: int) -> Terms:
@@ -126,7 +135,7 @@ def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulu
     return {e: c for e, c in total.items() if c}
 
 
-def _restricted(polynomial: Polynomial, kept: list[int], values: list[int], modulus: int) -> Polynomial:
+def restricted(polynomial: Polynomial, kept: list[int], values: list[int], modulus: int) -> Polynomial:
     """The fixed parameters replaced by their values."""
     total: Polynomial = {}
     for exponents, number in polynomial.items():

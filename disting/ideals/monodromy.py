@@ -12,7 +12,7 @@ from functools import cache
 
 from flint import fmpz_mpoly, nmod_mat, nmod_poly
 
-from disting.algebra.sampling import prime, residues
+from disting.algebra.sampling import about, prime, residues
 from disting.ideals.fibre_ideal import evaluated
 from disting.ideals.parts import parts, power
 from disting.ideals.system import CoefficientMap, terms
@@ -35,6 +35,7 @@ def poles_are_inseparable(structure: Structure, label: str) -> bool:
 
 def _is_inseparable(part: CoefficientMap, step: int, label: str) -> bool:
     """One part, in x = s^step: its poles that are not zero, with a doubly transitive group and unequal residues."""
+    label = about(label, part.content)
     modulus = prime(label)
     wanted, unequal = set[tuple[int, ...]](), False
     for draw in range(DRAWS):

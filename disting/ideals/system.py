@@ -24,6 +24,7 @@ from operator import mul
 
 from flint import fmpz_mpoly, fmpz_mpoly_ctx
 
+from disting.algebra.sampling import digest
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.errors import InputError
 from disting.invariants.expanded import expanded
@@ -69,6 +70,11 @@ class CoefficientMap:
         """Terms of b_0, b_1, .. and a_0, a_1, .., the last a left out where it is 1."""
         kept = self.denominator[:-1] if self.is_monic else self.denominator
         return tuple(terms(p) for p in (*self.numerator, *kept))
+
+    @cached_property
+    def content(self) -> str:
+        """A digest of all that tells two maps apart, for the labels of their points and primes."""
+        return digest(self.parameters, self.degrees, self.coordinates)
 
     def with_scale(self) -> "CoefficientMap":
         """All coefficients times one more parameter: then equal functions have equal coefficients, monic or not."""
@@ -198,15 +204,15 @@ def receptance_of_row(structure: Structure, span: Span, ring: dict[str, fmpz_mpo
     diagonal = [s * s + joint[i - 1] * ratio[i - 1] + joint[i] + ring.get(f"f{i}", zero) * s for i in range(first, last + 1)]
     squares = [joint[i] * joint[i] * ratio[i] for i in range(first, last)]
     a, b = ports_of(structure, span)
-    leading = _minors(diagonal, squares, one)
-    trailing = _minors(diagonal[::-1], squares[::-1], one)
+    leading = minors(diagonal, squares, one)
+    trailing = minors(diagonal[::-1], squares[::-1], one)
     between = reduce(mul, (joint[i] for i in range(a, b)), ring[f"g{first}"])
     return between * leading[a - first] * trailing[last - b], leading[-1]
 
 
-def _minors(diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly) -> list[fmpz_mpoly]:
+def minors(diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly) -> list[fmpz_mpoly]:
     """1, d_1, d_1 d_2 - q_1, ..: the leading principal minors of a tridiagonal matrix."""
-    minors = [one, diagonal[0]]
+    found = [one, diagonal[0]]
     for d, q in zip(diagonal[1:], squares, strict=True):
-        minors.append(d * minors[-1] - q * minors[-2])
-    return minors
+        found.append(d * found[-1] - q * found[-2])
+    return found

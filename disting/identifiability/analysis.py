@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from disting.algebra.sampling import enough
 from disting.certainty import Certainty, Grade
 from disting.errors import ContradictionError
 from disting.identifiability.basis import Basis, basis
@@ -14,6 +15,8 @@ from disting.identifiability.scaling import scalings
 from disting.identifiability.solutions import Listing, is_self_dual, listing, renamings
 from disting.identifiability.tangent import Tangent, most_invariants, proof_tangents
 from disting.identifiability.uniqueness import combination
+from disting.invariants.profile import minor_size
+from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
@@ -57,7 +60,8 @@ def as_given(found: Identifiability, form: Form, chain: Chain) -> Identifiabilit
 
 def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     structure = chain.structure
-    proof = proof_tangents(structure, settings.seed, settings.points)
+    points = enough(minor_size(structure, Representation.TF, 0), settings.points)
+    proof = proof_tangents(structure, settings.seed, points)
     rank = max(t.rank for t in proof)
     seen = basis(structure, proof, rank, settings.seed)
     determined = _rank(structure, proof, rank, seen)

@@ -19,13 +19,14 @@ from typing import Any
 
 from flint import acb, fmpq
 
+from disting.algebra.sampling import about
 from disting.certainty import Certainty, Grade
 from disting.errors import ContradictionError
 from disting.identifiability.parts import Alternative, Origin, Renaming
 from disting.model.chain import Chain
 from disting.model.symmetry import forms
 from disting.synthesis.construction import is_untested
-from disting.synthesis.decide import DRAWS, rational_point, safety_of_point
+from disting.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
 from disting.synthesis.duality import are_dual, dual
 from disting.synthesis.fibre import fibre, segments
 from disting.synthesis.result import Answer, Confirmation, Fibre, Solution, Status
@@ -63,7 +64,7 @@ def listing(chain: Chain, invariants: int, seed: str) -> Listing:
     """
     plain = _plain(chain)
     for draw in range(DRAWS):
-        point = rational_point(chain, f"identifiability:{seed}:{draw}")
+        point = rational_point(chain, about(f"identifiability:{seed}:{draw}", chain), point_bits(chain))
         found = Fibre(Status.NOT_COVERED) if _many(plain) else fibre(plain, target(plain.structure, point))
         if found.status is not Status.DEGENERATE:
             break
@@ -92,7 +93,7 @@ def _listing(chain: Chain, invariants: int, point: Mapping[str, fmpq], found: Fi
         return Listing(point, (*exact, *others), found.status, len(exact), None, (Certainty.THEOREM, 0), found.reason)
     others = [_other(s, _existence(chain, s, invariants)) for s in _unmatched(found.solutions, exact)]
     least = len(exact) + sum(m.said.certainty is not Certainty.NUMERICAL for m in others)
-    grade = _grade(chain, found, len(chain.parameters))
+    grade = _grade(chain, found)
     return Listing(point, (*exact, *others), found.status, least, len(found.solutions), grade, found.reason)
 
 
@@ -160,16 +161,15 @@ def _existence(chain: Chain, solution: Solution, invariants: int) -> Certainty:
     return Certainty.PROVEN if square or is_untested(chain) else Certainty.NUMERICAL
 
 
-def _grade(chain: Chain, found: Fibre, unknowns: int) -> Grade:
+def _grade(chain: Chain, found: Fibre) -> Grade:
     """Of the statement that a generic point has no more solutions than were listed, and no fewer than those that exist."""
     if foster_count(chain) is not None:
         if foster_count(chain) != len(found.solutions):
             raise ContradictionError(f"Foster's theorem gives {foster_count(chain)} solutions, not {len(found.solutions)}")
         return Certainty.THEOREM, 0
     simple = all(s.confirmation is Confirmation.SUBSYSTEM for s in found.solutions)
-    safety = safety_of_point(chain.n_masses, unknowns) - 1
-    bounded = simple and not found.tests.boundary and safety > 0
-    return (Certainty.BOUNDED, safety) if bounded else (Certainty.NUMERICAL, 0)
+    bounded = simple and not found.tests.boundary
+    return (Certainty.BOUNDED, safety_of_point(chain) - 1) if bounded else (Certainty.NUMERICAL, 0)
 
 
 def foster_count(chain: Chain) -> int | None:

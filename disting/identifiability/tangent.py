@@ -12,14 +12,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
-from flint import fmpz_poly, nmod_mat
+from flint import nmod_mat
 
 from disting.algebra.quotient import rational
-from disting.algebra.sampling import prime, residues
+from disting.algebra.sampling import about, prime, residues
 from disting.identifiability.formula import Formula
 from disting.identifiability.lattice import short_vectors
-from disting.invariants.sample import Representation, sample
-from disting.invariants.transfer import receptance
+from disting.invariants.powers import powers
+from disting.invariants.sample import Drawn, Representation, drawn, quotient, seen_at
 from disting.model.structure import Structure
 
 COEFFICIENT_LIMIT = 60  # larger numbers are artefacts of the reconstruction, or not readable
@@ -46,33 +46,33 @@ class Tangent:
         return not any(_dot(gradient, v) % self.modulus for v in self.kernel)
 
 
-def tangent(structure: Structure, label: str, modulus: int) -> Tangent:
-    """The tangent at the point that the label names.
+def tangent(where: Drawn) -> Tangent:
+    """The tangent at a point that was drawn.
 
     >>> from disting.model.chain import Chain
-    >>> found = tangent(Chain(2, meas_plus=2).structure, "doc", prime("doc"))
+    >>> found = tangent(drawn(Chain(2, meas_plus=2).structure, "doc"))
     >>> found.rank, len(found.kernel)
     (2, 1)
     """
-    names = structure.parameters
-    point = residues(f"{label}:{structure}", len(names), modulus)
-    seen = sample(structure, Representation.TF, 0, point, modulus)
+    seen = seen_at(where, Representation.TF, 0)
     kernel, nullity = seen.jacobian.nullspace()
     columns = kernel.transpose().tolist()[: int(nullity)]
     vectors = tuple(tuple(int(x) for x in column) for column in columns)
-    return Tangent(dict(zip(names, point, strict=True)), modulus, tuple(filter(any, seen.rows)), vectors)
+    values = dict(zip(where.structure.parameters, where.point, strict=True))
+    return Tangent(values, where.modulus, tuple(filter(any, seen.rows)), vectors)
 
 
 def proof_tangents(structure: Structure, seed: str, points: int) -> tuple[Tangent, ...]:
     """Independent points, each with its own prime: for statements with an error bound."""
-    labels = [f"identifiability:{seed}:{k}" for k in range(points)]
-    return tuple(tangent(structure, label, prime(label)) for label in labels)
+    return tuple(tangent(drawn(structure, f"identifiability:{seed}:{k}")) for k in range(points))
 
 
 def search_tangents(structure: Structure, seed: str, count: int) -> Iterator[Tangent]:
     """Points that share one prime and are none of those of the proofs: for the search of candidates."""
-    modulus = prime(f"identifiability:{seed}:search")
-    return (tangent(structure, f"identifiability:{seed}:search:{k}", modulus) for k in range(count))
+    label = about(f"identifiability:{seed}:search", structure)
+    modulus = prime(label)
+    points = (tuple(residues(f"{label}:{k}", len(structure.parameters), modulus)) for k in range(count))
+    return (tangent(Drawn(structure, p, modulus, quotient(structure, p, modulus))) for p in points)
 
 
 def combinations(seen: Sequence[Tangent], terms: Sequence[Formula]) -> list[list[int]]:
@@ -89,14 +89,8 @@ def monomials(seen: Sequence[Tangent]) -> list[list[int]]:
 
 
 def most_invariants(structure: Structure) -> int:
-    """Number of coefficients of a chain's transfer function, the denominator monic, that are not zero for all parameters.
-
-    They are sums of products with positive signs (all-minors matrix-tree theorem; force and sensor cross the gap in the same
-    sense), so one that is zero at all parameters = 1 is zero.
-    """
-    ones = {name: fmpz_poly([1]) for name in structure.parameters}
-    r = receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
-    return sum(bool(c) for p in (r.num, r.den) for c in p.coeffs()) - 1 + structure.dead_time
+    """Number of coefficients of a chain's transfer function, the denominator monic, that are not zero for all parameters."""
+    return sum(map(len, powers(structure))) - 1 + structure.dead_time
 
 
 def maybe_scaled(seen: Sequence[Tangent]) -> bool:

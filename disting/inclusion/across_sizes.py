@@ -18,12 +18,13 @@ from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
 
+from disting.algebra.sampling import about
 from disting.certainty import Certainty
 from disting.conditions.evidence import Counts
 from disting.conditions.exact import rational_part, theorem
 from disting.conditions.subject import Subject
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
-from disting.inclusion.finding import Inclusion, InclusionFinding, Sense
+from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.limit_fibre import contained
 from disting.inclusion.limits import reached
 from disting.inclusion.meeting import degrees, room
@@ -47,7 +48,7 @@ def by_sizes(left: Subject, right: Subject) -> InclusionFinding | None:
     found = included(one, other, left_is_larger)
     if found is not None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
-        return InclusionFinding(inside, Sense.CLOSURE, Certainty.PROVEN, evidence=found)
+        return InclusionFinding(inside, Certainty.PROVEN, evidence=found)
     if not fewer_poles(one, other):
         return InclusionFinding(Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles")
     return refuted(small, large, left_is_larger)
@@ -55,18 +56,18 @@ def by_sizes(left: Subject, right: Subject) -> InclusionFinding | None:
 
 def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
     """What takes longer, for a chain with fewer masses on the left: its poles against inclusion, a fibre of limits for it."""
-    label = f"{settings.seed}:poles"
+    label = about(f"{settings.seed}:poles", small, large)
     points = excluding_points(small, large, label) if fewer_poles(small, large) else ()
     if points:
         safety = exclusion_safety(large) if len(points) > 1 else 0
         grade = Certainty.BOUNDED if safety else Certainty.PROVEN
-        return InclusionFinding(Inclusion.NEITHER, Sense.BOTH, grade, safety, PoleSharing(False, label, points))
+        return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
     found = contained(small, large, settings.seed)
     if found is None:
         return InclusionFinding(Inclusion.UNKNOWN, reason="no limit is known, and nothing against one")
     solved = found.solved
     evidence = LimitFibre(False, found.steps, solved.left_given, solved.labels, solved.solutions)
-    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE, Certainty.BOUNDED, found.safety, evidence)
+    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, found.safety, evidence)
 
 
 def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
@@ -120,11 +121,11 @@ def refuted(small: Subject, large: Subject, left_is_larger: bool) -> InclusionFi
     one, other = small.canonical.chain, large.canonical.chain
     if exceeds(one, other):
         counts = Counts(*ordered(degrees_of(one), degrees_of(other), not left_is_larger))
-        return InclusionFinding(Inclusion.NEITHER, Sense.BOTH, Certainty.PROVEN, evidence=counts)
+        return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if small.rank >= large.rank:
         ranks = TooLarge(*ordered(small.rank, large.rank, not left_is_larger))
         safety = large.profile(Representation.TF, 0).safety
-        return InclusionFinding(Inclusion.NEITHER, Sense.BOTH, Certainty.BOUNDED, safety, ranks)
+        return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, safety, ranks)
     return None
 
 

@@ -1,19 +1,14 @@
-"""One-sided inclusion of chains of unequal rank: whether generic models of the smaller rank have an equivalent in the other.
+"""One-sided inclusion of chains of unequal rank, in both senses (see `finding`): the order in which statements are sought.
 
-V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is impossible. IMAGE: a generic model of
-the first has an equivalent in the second with finite, non-zero elements. CLOSURE: V1 lies in V2; it follows from IMAGE, not
-the reverse. What proves a statement first is kept, CLOSURE before refutations of IMAGE where it is cheap to see; so a pair that
-is refuted in the sense of IMAGE may lie in the CLOSURE.
+V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is impossible. What is found first is
+kept. Chains of different sizes are compared in `across_sizes`: there CLOSURE is asked alone. For chains of one size:
 
-Chains of different sizes are compared in `across_sizes`: the smaller one may be a limit of the larger one, which proves
-CLOSURE. For chains of one size:
-
-1. `profiles`: degrees and projections refute both; a full image proves CLOSURE.
-2. Chains with a gap taken apart (`disting.ideals.by_parts`): small ideals of both parts prove CLOSURE; relative degrees and
-   Markov parameters of the parts refute IMAGE without any chance.
-3. One fibre by the synthesis: refuted, IMAGE; else CLOSURE. Its error bound is that of `exact`, whose argument does not use
-   equal ranks.
-4. The parts, then the whole model, as ideals of fibres, with the bounds of `disting.ideals.bounds`: IMAGE or CLOSURE.
+1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
+2. CLOSURE by parts: `closures` proves or refutes it; small ideals of both parts (`disting.ideals.by_parts`) prove it.
+3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of the parts refute it without any
+   chance; one fibre by the synthesis refutes or proves it (`image`), and with IMAGE CLOSURE is proven.
+4. Where neither is known: the parts, then the whole model, as ideals of fibres, with the bounds of `disting.ideals.bounds`. An
+   empty fibre refutes IMAGE, a solution, whose elements may be zero, proves CLOSURE.
 """
 
 from dataclasses import replace
@@ -22,50 +17,47 @@ from disting.certainty import Certainty
 from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
-from disting.ideals import (
-    ByParts,
-    Limits,
-    Refuted,
-    Solved,
-    coefficient_map,
-    decide_by_parts,
-    included_by_parts,
-    normalised,
-    refuted_by_parts,
-)
+from disting.ideals import ByParts, Limits, Refuted, Solved, coefficient_map, decide_by_parts, included_by_parts, normalised
 from disting.ideals import Membership as Reached
 from disting.ideals import decide as decide_ideal
 from disting.inclusion.across_sizes import by_computing, by_sizes
 from disting.inclusion.across_sizes_evidence import LimitFibre, PoleSharing
+from disting.inclusion.closures import of_closure
+from disting.inclusion.evidence import InclusionEvidence, RelativeDegrees
 from disting.inclusion.finding import (
     Inclusion,
     InclusionFinding,
-    RelativeDegrees,
-    Sense,
+    Inclusions,
     inclusion_from_json,
     inclusion_to_json,
+    inclusions_from_json,
+    inclusions_to_json,
 )
-from disting.inclusion.profiles import by_profiles, by_relative_degrees
+from disting.inclusion.image import of_image
+from disting.inclusion.outside_evidence import Outside, PartsInside
+from disting.inclusion.profiles import by_profiles
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.question import Question
 from disting.settings import Settings
-from disting.synthesis.decide import Exact, Grounds, Membership, member, safety_of_point
 
 INCLUSION_LIMITS = Limits(seconds=20.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
 CLOSURE_LIMITS = Limits(seconds=5.0, entries=30_000, safety=100)  # of the ideal of one part, tried for every pair
 PART_LIMITS = Limits(seconds=20.0, entries=1_000_000, safety=100)  # of the ideal of one part
+NOT_ASKED = "of chains of different sizes only limits are asked for"
 
 
-def inclusion_finding(left: Subject, right: Subject) -> InclusionFinding:
-    """Inclusion of two chains of unequal rank: what is cheap first, then what the answerer has to compute."""
+def inclusions(left: Subject, right: Subject) -> Inclusions:
+    """Both statements on two chains of unequal rank: what is cheap first, then what the answerer has to compute."""
     if left.rank == right.rank:
         raise ValueError("of equal rank: equal or neither, as the verdict says")
-    found = quick_inclusion(left, right)
-    if found is not None:
-        return found
-    answer = left.answerer(INCLUDED, by_rank(left, right), left.settings)
-    return answer if left.rank < right.rank else _turned(answer)
+    closure = quick_closure(left, right)
+    if closure is None:
+        closure = asked_closure(left, right)
+    image = implied_image(left, right, closure)
+    if image is None:
+        image = asked_image(left, right)
+    return joined(left, right, image, closure)
 
 
 def by_rank(left: Subject, right: Subject) -> tuple[Chain, Chain]:
@@ -74,8 +66,8 @@ def by_rank(left: Subject, right: Subject) -> tuple[Chain, Chain]:
     return first.canonical.chain, second.canonical.chain
 
 
-def quick_inclusion(left: Subject, right: Subject) -> InclusionFinding | None:
-    """What profiles, or for chains of different sizes counts and limits, settle; None if nothing."""
+def quick_closure(left: Subject, right: Subject) -> InclusionFinding | None:
+    """What profiles, or for chains of different sizes counts and limits, tell of CLOSURE; None if nothing."""
     one, other = left.chain, right.chain
     if (one.sensor, one.dead_time) != (other.sensor, other.dead_time):
         return InclusionFinding(Inclusion.UNKNOWN, reason="models of one sensor and dead time are compared")
@@ -86,75 +78,104 @@ def quick_inclusion(left: Subject, right: Subject) -> InclusionFinding | None:
     return by_profiles(*profiles, left_is_smaller=left.rank < right.rank)
 
 
-def included(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    """The model of the smaller rank searched in the other: what is exact first, then the synthesis, then ideals."""
+def implied_image(left: Subject, right: Subject, closure: InclusionFinding) -> InclusionFinding | None:
+    """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
+    if closure.inclusion is Inclusion.NEITHER:
+        return closure
+    if left.chain.n_masses != right.chain.n_masses:
+        return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)
+    compared = (left.chain.sensor, left.chain.dead_time) == (right.chain.sensor, right.chain.dead_time)
+    return None if compared else closure
+
+
+def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
+    """Whether nothing at all is known of two chains that are compared in both senses."""
+    return not image.is_known and not closure.is_known and image.reason != NOT_ASKED and image != closure
+
+
+def joined(left: Subject, right: Subject, image: InclusionFinding, closure: InclusionFinding) -> Inclusions:
+    """Both statements: by ideals where nothing is known; equivalents are limits."""
+    if needs_ideals(image, closure):
+        found = left.answerer(IDEALS, by_rank(left, right), left.settings)
+        image, closure = (f if left.rank < right.rank else turned(f) for f in (found.image, found.closure))
+    follows = not closure.is_known and image.is_known and image.inclusion is not Inclusion.NEITHER
+    return Inclusions(image, image if follows else closure)
+
+
+def turned(found: InclusionFinding) -> InclusionFinding:
+    """The finding on the pair in the other order; for findings whose left model is the smaller one."""
+    return replace(found, inclusion=found.inclusion.turned, evidence=_turned(found.evidence))
+
+
+def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    """CLOSURE of the model of the smaller rank in the other, by parts; by more for chains of different sizes."""
     if small.n_masses != large.n_masses:
         return by_computing(small, large, settings)
+    told = of_closure(small, large, settings.seed)
+    if told is not None:
+        evidence, safety = told
+        inclusion = Inclusion.LEFT_IN_RIGHT if isinstance(evidence, PartsInside) else Inclusion.NEITHER
+        return InclusionFinding(inclusion, Certainty.BOUNDED if safety else Certainty.PROVEN, safety, evidence)
+    closed = included_by_parts(rational_part(small), rational_part(large), settings.seed, CLOSURE_LIMITS)
+    if closed.evidence is None:
+        return InclusionFinding(Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known")
+    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, closed.safety, closed.evidence)
+
+
+def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
+    """The model of the smaller rank searched in the other by ideals: by parts, then as a whole."""
     structures = (rational_part(small), rational_part(large))
-    closed = included_by_parts(*structures, settings.seed, CLOSURE_LIMITS)
-    if closed.evidence is not None:
-        return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE, Certainty.BOUNDED, closed.safety, closed.evidence)
-    falling = by_relative_degrees(small, large)
-    if falling is not None:
-        return falling
-    exact = refuted_by_parts(*structures, settings.seed)
-    if exact is not None:
-        return InclusionFinding(Inclusion.NEITHER, Sense.IMAGE, Certainty.PROVEN, evidence=exact)
-    plain = not any(c.lag or c.dead_time for c in (small, large)) and small.damped == large.damped
-    found = _by_synthesis(small, large, settings) if plain else None
-    found = _by_parts(small, large, settings) if found is None else found
-    return _by_ideal(small, large, settings) if found is None else found
-
-
-def _by_parts(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
-    found = decide_by_parts(rational_part(small), rational_part(large), settings.seed, PART_LIMITS)
-    if found.evidence is None:
-        return None
-    if found.membership is Reached.MEMBER:
-        return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE, Certainty.BOUNDED, found.safety, found.evidence)
-    return InclusionFinding(Inclusion.NEITHER, Sense.IMAGE, Certainty.BOUNDED, found.safety, found.evidence)
-
-
-def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
-    found = member(small, large, settings.seed)
-    safety = safety_of_point(small.n_masses, len(large.parameters))
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION) or safety <= 0:
-        return None
-    if found.membership is Membership.EXCLUDED:
-        return InclusionFinding(Inclusion.NEITHER, Sense.IMAGE, Certainty.BOUNDED, safety, _evidence(found))
-    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE, Certainty.BOUNDED, safety, _evidence(found))
-
-
-def _by_ideal(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    found = decide_by_parts(*structures, settings.seed, PART_LIMITS)
+    if found.evidence is not None:
+        return _read(found.membership, found.safety, found.evidence)
     reason = ""
     for coordinates in (normalised, coefficient_map):
-        maps = (coordinates(rational_part(c)) for c in (small, large))
-        found = decide_ideal(*maps, equal_rank=False, seed=settings.seed, limits=INCLUSION_LIMITS)
-        if found.evidence is not None and found.safety >= INCLUSION_LIMITS.safety:
-            evidence = replace(found.evidence, is_normalised=coordinates is normalised)
-            if found.membership is Reached.MEMBER:
-                return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE, Certainty.BOUNDED, found.safety, evidence)
-            return InclusionFinding(Inclusion.NEITHER, Sense.IMAGE, Certainty.BOUNDED, found.safety, evidence)
-        reason = found.reason
-    return InclusionFinding(Inclusion.UNKNOWN, reason=f"the ideal of the fibre does not tell ({reason})")
+        whole = decide_ideal(*map(coordinates, structures), equal_rank=False, seed=settings.seed, limits=INCLUSION_LIMITS)
+        if whole.evidence is not None and whole.safety >= INCLUSION_LIMITS.safety:
+            evidence = replace(whole.evidence, is_normalised=coordinates is normalised)
+            return _read(whole.membership, whole.safety, evidence)
+        reason = whole.reason
+    unknown = InclusionFinding(Inclusion.UNKNOWN, reason=f"the ideal of the fibre does not tell ({reason})")
+    return Inclusions(unknown, unknown)
 
 
-def _evidence(found: Exact) -> FibreAt:
-    point = tuple((name, str(value)) for name, value in found.point.items())
-    return FibreAt(True, point, found.grounds.value, found.solutions, found.real, found.positive)
+def asked_closure(left: Subject, right: Subject) -> InclusionFinding:
+    """CLOSURE as the answerer computes it."""
+    return _asked(CLOSURE, left, right)
 
 
-def _turned(found: InclusionFinding) -> InclusionFinding:
-    """The finding on the pair in the other order; for findings of `included`, whose left model is the smaller one."""
-    other = Inclusion.RIGHT_IN_LEFT if found.inclusion is Inclusion.LEFT_IN_RIGHT else found.inclusion
-    evidence = found.evidence
-    if isinstance(evidence, FibreAt | Solved | Refuted | ByParts):
-        evidence = replace(evidence, left_given=not evidence.left_given)
-    elif isinstance(evidence, PoleSharing | LimitFibre):
-        evidence = replace(evidence, left_is_larger=not evidence.left_is_larger)
-    elif isinstance(evidence, RelativeDegrees):
-        evidence = RelativeDegrees(not evidence.left_is_larger, evidence.right, evidence.left)
-    return replace(found, inclusion=other, evidence=evidence)
+def asked_image(left: Subject, right: Subject) -> InclusionFinding:
+    """IMAGE as the answerer computes it."""
+    return _asked(IMAGE, left, right)
 
 
-INCLUDED = Question("inclusions", included, inclusion_to_json, inclusion_from_json)
+def _asked(question: Question[InclusionFinding], left: Subject, right: Subject) -> InclusionFinding:
+    answer = left.answerer(question, by_rank(left, right), left.settings)
+    return answer if left.rank < right.rank else turned(answer)
+
+
+def _read(membership: Reached, safety: int, evidence: InclusionEvidence) -> Inclusions:
+    """What the fibre of an ideal says: a solution of limits, none of equivalents."""
+    grade = Certainty.BOUNDED if safety else Certainty.PROVEN
+    if membership is Reached.MEMBER:
+        zeros = InclusionFinding(Inclusion.UNKNOWN, reason="elements of the solutions found may be zero")
+        return Inclusions(zeros, InclusionFinding(Inclusion.LEFT_IN_RIGHT, grade, safety, evidence))
+    limits = InclusionFinding(Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known")
+    return Inclusions(InclusionFinding(Inclusion.NEITHER, grade, safety, evidence), limits)
+
+
+def _turned(evidence: InclusionEvidence | None) -> InclusionEvidence | None:
+    match evidence:
+        case FibreAt() | Solved() | Refuted() | ByParts() | Outside() | PartsInside():
+            return replace(evidence, left_given=not evidence.left_given)
+        case PoleSharing() | LimitFibre():
+            return replace(evidence, left_is_larger=not evidence.left_is_larger)
+        case RelativeDegrees():
+            return RelativeDegrees(not evidence.left_is_larger, evidence.right, evidence.left)
+        case _:
+            return evidence
+
+
+CLOSURE = Question("closures", closure_of, inclusion_to_json, inclusion_from_json)
+IMAGE = Question("images", of_image, inclusion_to_json, inclusion_from_json)
+IDEALS = Question("inclusions by ideals", by_ideals, inclusions_to_json, inclusions_from_json)

@@ -1,26 +1,28 @@
-"""What is found about one-sided inclusion: the finding, the kinds of evidence that are its own, and their text form."""
+"""What is found about one-sided inclusion: two statements on a pair, each with evidence of its own, and their text form.
+
+IMAGE: generic models of one chain have an equivalent in the other with elements that are neither zero nor infinite. CLOSURE:
+they are limits of models of the other, whose elements may tend to zero or grow without bound. IMAGE implies CLOSURE, and what
+is no limit has no equivalent.
+"""
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, ClassVar
 
-from disting.certainty import Certainty
-from disting.conditions.evidence import Counts, FibreAt, Labels, from_dict, spelled, to_dict
-from disting.ideals import ByParts, PartStep, Refuted, Solved, Vanishing
-from disting.inclusion.across_sizes_evidence import (
-    ACROSS_SIZES,
-    AcrossSizes,
-    Limit,
-    LimitFibre,
-    Meeting,
-    PoleSharing,
-    TooLarge,
+from disting.certainty import Certainty, shortfall
+from disting.inclusion.evidence import (
+    InclusionEvidence,
+    evidence_from_dict,
+    evidence_to_dict,
+    excludes_equivalents,
+    excludes_limits,
+    tells_equivalents,
+    tells_limits,
 )
 
 
 class Inclusion(StrEnum):
-    """Which generic models have equivalents on the other side."""
+    """Whose generic models have equivalents on the other side, or are limits of models there."""
 
     EQUAL = "equal"
     LEFT_IN_RIGHT = "left-in-right"
@@ -28,90 +30,31 @@ class Inclusion(StrEnum):
     NEITHER = "neither"
     UNKNOWN = "unknown"
 
+    @property
+    def turned(self) -> "Inclusion":
+        """For the pair in the other order."""
+        turned = {Inclusion.LEFT_IN_RIGHT: Inclusion.RIGHT_IN_LEFT, Inclusion.RIGHT_IN_LEFT: Inclusion.LEFT_IN_RIGHT}
+        return turned.get(self, self)
+
 
 class Sense(StrEnum):
-    """What a finding speaks of: equivalents themselves, the closures of the images, or both."""
+    """What is asked: equivalents with finite elements other than zero, or limits."""
 
     IMAGE = "image"
     CLOSURE = "closure"
-    BOTH = "both"
 
 
-@dataclass(frozen=True, slots=True)
-class LargerProjection:
-    """The invariants `rows` have a larger rank in the model of the smaller rank; ranks in the pair's order."""
-
-    kind: ClassVar[str] = "larger-projection"
-    rows: Labels
-    left: int
-    right: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """Both ranks in words."""
-        return f"The invariants {spelled(self.rows)} have rank {self.left} in {left} and {self.right} in {right}."
-
-    @property
-    def formula(self) -> str:
-        """The two ranks."""
-        return f"rank ∂({spelled(self.rows)})/∂p = {self.left}, {self.right}"
-
-
-@dataclass(frozen=True, slots=True)
-class FullImage:
-    """The model of the larger rank has as many determinable parameters as non-constant invariants."""
-
-    kind: ClassVar[str] = "full-image"
-    left_is_larger: bool
-    rank: int
-    free: Labels
-
-    def sentence(self, left: str, right: str) -> str:
-        """What that means for the other."""
-        larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        return f"{larger} gives its {self.rank} invariants any generic values, so those of {smaller} are limits of its own."
-
-    @property
-    def formula(self) -> str:
-        """N_R equals the number of free invariants."""
-        return f"N_R = {self.rank} = |{{{spelled(self.free)}}}|"
-
-
-@dataclass(frozen=True, slots=True)
-class RelativeDegrees:
-    """Relative degrees of the receptances in s, in the pair's order; no elements other than zero change the larger model's."""
-
-    kind: ClassVar[str] = "relative-degrees"
-    left_is_larger: bool
-    left: int
-    right: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """Both relative degrees in words."""
-        larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
-        return (
-            f"The receptance of {larger} falls as s^-{here} for all elements other than zero, that of {smaller} at least as "
-            f"fast as s^-{there}."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The two relative degrees."""
-        here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
-        return f"deg D₂ − deg N₂ = {here} < {there} ≤ deg D₁ − deg N₁"
-
-
-InclusionEvidence = AcrossSizes | Counts | LargerProjection | FullImage | RelativeDegrees | ByParts | FibreAt | Solved | Refuted
-_OWN: dict[str, Any] = ACROSS_SIZES | {c.kind: c for c in (LargerProjection, FullImage, RelativeDegrees)}
-_SHOWN = {c.kind: c for c in (Vanishing, Solved, Refuted)}
+ONE_SIDED = (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
 
 
 @dataclass(frozen=True, slots=True)
 class InclusionFinding:
-    """Inclusion with its evidence; `reason` says why it is unknown."""
+    """One statement with its evidence; `reason` says why it is unknown.
+
+    A bound that does not reach 2**-LEAST_SAFETY leaves it unknown.
+    """
 
     inclusion: Inclusion
-    sense: Sense = Sense.BOTH
     certainty: Certainty | None = None
     safety: int = 0
     evidence: InclusionEvidence | None = None
@@ -120,32 +63,103 @@ class InclusionFinding:
     def __post_init__(self) -> None:
         if len({self.inclusion is not Inclusion.UNKNOWN, self.evidence is not None, self.certainty is not None}) > 1:
             raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
-        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
-            raise ValueError("exactly a bounded finding carries an error bound")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {"inclusion": Inclusion.UNKNOWN, "certainty": None, "safety": 0, "evidence": None, "reason": lacking}
+            for name, value in given_up.items():
+                object.__setattr__(self, name, value)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its inclusion")
+
+    @property
+    def is_known(self) -> bool:
+        """Whether something was found."""
+        return self.inclusion is not Inclusion.UNKNOWN
+
+
+@dataclass(frozen=True, slots=True)
+class Inclusions:
+    """Both statements on a pair of unequal rank; raises ValueError where evidence does not prove what is said."""
+
+    image: InclusionFinding
+    closure: InclusionFinding
+
+    def __post_init__(self) -> None:
+        image, closure = self.image, self.closure
+        proofs = ((image, tells_equivalents, excludes_equivalents), (closure, tells_limits, excludes_limits))
+        for found, tells, excludes in proofs:
+            holds = excludes if found.inclusion is Inclusion.NEITHER else tells
+            if found.evidence is not None and not holds(found.evidence):
+                raise ValueError(f"evidence of kind {found.evidence.kind} does not prove {found.inclusion} in this sense")
+        if image.inclusion in ONE_SIDED and closure.inclusion is not image.inclusion:
+            raise ValueError("equivalents are limits")
+        if closure.inclusion is Inclusion.NEITHER and image.inclusion is not Inclusion.NEITHER:
+            raise ValueError("what is no limit has no equivalent")
+
+    def __bool__(self) -> bool:
+        raise TypeError("inclusions are not true or false; look at image and closure")
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both statements in words an engineer understands.
+
+        >>> Inclusions(*[InclusionFinding(Inclusion.UNKNOWN, reason="not tried")] * 2).sentence("A1", "A2")
+        'Whether A1 and A2 are limits of one another is not known.'
+        """
+        inside = {Inclusion.LEFT_IN_RIGHT: (left, right), Inclusion.RIGHT_IN_LEFT: (right, left)}
+        image, closure = self.image.inclusion, self.closure.inclusion
+        if closure in inside:
+            small, large = inside[closure]
+            return f"Every generic {small} is {_AS_LIMIT[image].format(large=large)}."
+        if closure is Inclusion.NEITHER:
+            return f"No generic {left} is a model {right} or a limit of such models, nor the reverse."
+        if image is Inclusion.NEITHER:
+            return f"No finite element values of {left} reproduce a generic {right}, nor the reverse; {_LIMITS_NOT_KNOWN}."
+        return f"Whether {left} and {right} are limits of one another is not known."
+
+
+_LIMITS_NOT_KNOWN = "whether limits do (elements going to zero or infinity) is not known"
+_AS_LIMIT = {
+    Inclusion.LEFT_IN_RIGHT: "a model {large} with finite element values (complex ones allowed), not the reverse",
+    Inclusion.RIGHT_IN_LEFT: "a model {large} with finite element values (complex ones allowed), not the reverse",
+    Inclusion.NEITHER: "a limit of models {large} (elements going to zero or infinity), but has no finite element values there",
+    Inclusion.UNKNOWN: "a limit of models {large} (elements may go to zero or infinity), not the reverse; "
+    "whether finite element values do is not known",
+}
 
 
 def inclusion_to_dict(found: InclusionFinding) -> dict[str, object]:
     """Plain data, ready for JSON."""
     certainty = found.certainty.value if found.certainty else ""
-    head = {"inclusion": found.inclusion.value, "sense": found.sense.value, "certainty": certainty, "safety": found.safety}
-    return head | {"evidence": _evidence_to_dict(found.evidence), "reason": found.reason}
+    head = {"inclusion": found.inclusion.value, "certainty": certainty, "safety": found.safety}
+    return head | {"evidence": evidence_to_dict(found.evidence), "reason": found.reason}
 
 
 def inclusion_from_dict(data: dict[str, object]) -> InclusionFinding:
     """Inverse of `inclusion_to_dict`; raises KeyError, TypeError or ValueError for what is none."""
     plain, certainty = data["evidence"], data["certainty"]
-    evidence = _evidence_from_dict(plain) if isinstance(plain, dict) and plain else None
+    evidence = evidence_from_dict(plain) if isinstance(plain, dict) and plain else None
     grade = Certainty(str(certainty)) if certainty else None
-    head = (Inclusion(str(data["inclusion"])), Sense(str(data["sense"])), grade, int(str(data["safety"])))
-    return InclusionFinding(*head, evidence, str(data["reason"]))
+    return InclusionFinding(Inclusion(str(data["inclusion"])), grade, int(str(data["safety"])), evidence, str(data["reason"]))
+
+
+def inclusions_to_dict(found: Inclusions) -> dict[str, object]:
+    """Plain data: `closure`, and `image` where it has another finding (what is no limit has no equivalent either)."""
+    same = {} if found.image == found.closure else {Sense.IMAGE.value: inclusion_to_dict(found.image)}
+    return {Sense.CLOSURE.value: inclusion_to_dict(found.closure), **same}
+
+
+def inclusions_from_dict(data: dict[str, object]) -> Inclusions:
+    """Inverse of `inclusions_to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+    closure, image = data[Sense.CLOSURE.value], data.get(Sense.IMAGE.value, data[Sense.CLOSURE.value])
+    if not isinstance(closure, dict) or not isinstance(image, dict):
+        raise TypeError("both statements are dictionaries")
+    return Inclusions(inclusion_from_dict(image), inclusion_from_dict(closure))
 
 
 def inclusion_to_json(found: InclusionFinding) -> str:
     """A finding as text."""
-    return json.dumps(inclusion_to_dict(found), separators=(",", ":"))
+    return json.dumps(inclusion_to_dict(found))
 
 
 def inclusion_from_json(text: str) -> InclusionFinding:
@@ -153,44 +167,11 @@ def inclusion_from_json(text: str) -> InclusionFinding:
     return inclusion_from_dict(json.loads(text))
 
 
-def _evidence_to_dict(evidence: InclusionEvidence | None) -> dict[str, object]:
-    match evidence:
-        case None:
-            return {}
-        case ByParts():
-            steps = [{"split": s.split, "part": s.part, "kind": s.shown.kind, **asdict(s.shown)} for s in evidence.steps]
-            return {"kind": evidence.kind, "left_given": evidence.left_given, "steps": steps}
-        case (
-            LargerProjection()
-            | FullImage()
-            | RelativeDegrees()
-            | Limit()
-            | LimitFibre()
-            | Meeting()
-            | PoleSharing()
-            | TooLarge()
-        ):
-            return {"kind": evidence.kind, **asdict(evidence)}
-        case _:
-            return to_dict(evidence)
+def inclusions_to_json(found: Inclusions) -> str:
+    """Both statements as text."""
+    return json.dumps(inclusions_to_dict(found))
 
 
-def _evidence_from_dict(plain: dict[str, object]) -> InclusionEvidence:
-    kind, fields = str(plain["kind"]), {name: _tupled(v) for name, v in plain.items() if name != "kind"}
-    if kind in _OWN:
-        return _OWN[kind](**fields)  # type: ignore[no-any-return]
-    if kind != ByParts.kind:
-        return from_dict(plain)  # type: ignore[return-value]
-    steps = plain["steps"]
-    if not isinstance(steps, list):
-        raise TypeError("the steps are a list")
-    return ByParts(bool(plain["left_given"]), tuple(map(_step, steps)))
-
-
-def _step(plain: dict[str, object]) -> PartStep:
-    fields = {name: _tupled(v) for name, v in plain.items() if name not in ("split", "part", "kind")}
-    return PartStep(str(plain["split"]), str(plain["part"]), _SHOWN[str(plain["kind"])](**fields))  # type: ignore[arg-type]
-
-
-def _tupled(value: object) -> object:
-    return tuple(map(_tupled, value)) if isinstance(value, list) else value
+def inclusions_from_json(text: str) -> Inclusions:
+    """Both statements from their text."""
+    return inclusions_from_dict(json.loads(text))

@@ -16,17 +16,16 @@ several limits. What is no row with one wall at most, or has force and sensor in
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
-from disting.algebra.sampling import residues
+from disting.algebra.symbols import coefficients, symbols
 from disting.inclusion.rows import Row
 from disting.invariants.transfer import receptance
 from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring
 
 INFINITE, ZERO = "∞", "0"
-POINTS = 3  # at which a limit is checked
-REMEMBERED = 1024  # rows whose limits are kept
+REMEMBERED = 1024  # rows whose limits, and limits whose identities, are kept
 Step = tuple[str, str]
 """An element of the canonical form at hand, and what it tends to: INFINITE or ZERO (a spring together with its damper)."""
 
@@ -84,7 +83,7 @@ def reached(row: Row) -> dict[Row, tuple[Step, ...]]:
 
 
 def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
-    """The canonical rows that these steps lead to, each limit seen in exact numbers."""
+    """The canonical rows that these steps lead to, each limit proven as an identity."""
     rows = {row}
     for step in steps:
         ends = [(here, s) for here in rows for s in specialised(here) if s.step == step]
@@ -92,9 +91,24 @@ def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
     return rows
 
 
+@lru_cache(maxsize=REMEMBERED)
 def is_limit(row: Row, s: Specialised) -> bool:
-    """N_1/D_1 or N_0/D_0 against the new row's transfer function, at points with fractions for s and the parameters."""
-    return all(_agree(row, s, seed) for seed in range(POINTS))
+    """N_1/D_1 or N_0/D_0 against the new row's transfer function: an identity of polynomials in s and all parameters.
+
+    >>> all(is_limit(row, s) for row in (Row(2, False, 1, 1),) for s in specialised(row))
+    True
+    """
+    moved = _moved(row, s)
+    if moved is None:
+        return False
+    ring = symbols(["s", *row.structure.parameters])
+    zero = ring["s"] - ring["s"]
+    values = ring | dict.fromkeys({Damper(s.element.at).parameter} & ring.keys() if s.element.kind == "k" else (), zero)
+    num, den = _written(row, values)
+    num, den = (_part(p, s.element.parameter, s.limit) for p in (num, den))
+    new = {name: sum((values[old] for old in olds), zero) for name, olds in moved.items()}
+    small_num, small_den = _written(s.row, new | {"s": ring["s"]})
+    return not den.is_zero() and (num * small_den - small_num * den).is_zero()
 
 
 def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> Iterator[Specialised]:
@@ -109,37 +123,32 @@ def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> It
     yield Specialised(element, limit, Row(n_masses, walled, act, meas, row.damped, dampers), tuple(nodes))
 
 
-def _agree(row: Row, s: Specialised, seed: int) -> bool:
-    structure = row.structure
-    numbers = residues(f"specialisation:{seed}:{row}", len(structure.parameters) + 1, 10**6)
-    values = {name: Fraction(n, 1000) for name, n in zip(structure.parameters, numbers, strict=False)}
-    name, at = s.element.parameter, Fraction(numbers[-1], 777)
-    if isinstance(s.element, Spring):
-        values |= dict.fromkeys({Damper(s.element.at).parameter} & values.keys(), Fraction(0))
-    (n0, d0), (n1, d1) = (_value(row, values | {name: Fraction(w)}, at) for w in (0, 1))
-    num, den = (n1 - n0, d1 - d0) if s.limit == INFINITE else (n0, d0)
-    left = _moved(row, s, values)
-    small_num, small_den = _value(s.row, left, at)
-    return all(left.values()) and num * small_den == small_num * den and den != 0
-
-
-def _value(row: Row, values: dict[str, Fraction], at: Fraction) -> tuple[Fraction, Fraction]:
-    """Numerator and denominator of the receptance at s = `at`."""
-    found = receptance(row.structure, values, at, Fraction(1))
+def _written(row: Row, values: dict[str, Any]) -> tuple[Any, Any]:
+    """Numerator and denominator of the receptance for these elements and s of a ring."""
+    found = receptance(row.structure, values, values["s"], values["s"] ** 0)
     return found.num, found.den
 
 
-def _moved(row: Row, s: Specialised, values: dict[str, Fraction]) -> dict[str, Fraction]:
-    """Parameters of the new row: elements that come together are added, those that drop out are left out.
+def _part(polynomial: Any, name: str, limit: str) -> Any:
+    """P_1 (for INFINITE) or P_0 of P_0 + w P_1, w the parameter of this name."""
+    parts = coefficients(polynomial, name)
+    if limit == ZERO:
+        return parts[0]
+    return parts[1] if len(parts) > 1 else parts[0] - parts[0]
 
-    So each is a sum of given parameters of its own and takes all values; one that is 0 would be of no given parameter.
+
+def _moved(row: Row, s: Specialised) -> dict[str, list[str]] | None:
+    """Parameters of the new row, and those given that add up to each: what comes together is added, what drops out left out.
+
+    So each is a sum of given parameters of its own and takes all values; None if one would be of no given parameter.
     """
-    found = dict.fromkeys(s.row.structure.parameters, Fraction(0))
+    found: dict[str, list[str]] = {name: [] for name in s.row.structure.parameters}
     for e in row.structure.elements:
         name = _name(e, s.nodes)
-        if name in found and e != s.element:
-            found[name] += values[e.parameter]
-    return found
+        is_gone = e == s.element or (s.element.kind == "k" and e == Damper(s.element.at))
+        if name in found and not is_gone:
+            found[name].append(e.parameter)
+    return found if all(found.values()) else None
 
 
 def _name(e: Element, nodes: tuple[int | None, ...]) -> str:

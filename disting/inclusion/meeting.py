@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from disting.algebra.quotient import constant, variable
-from disting.algebra.sampling import prime, residues
-from disting.invariants.sample import Representation, sample
+from disting.algebra.sampling import prime
+from disting.invariants.sample import Representation, drawn, seen_at
 from disting.invariants.transfer import receptance
 from disting.model.structure import Structure
 
@@ -94,11 +94,7 @@ def least_rank(structure: Structure, seed: str = "meeting") -> int:
 
 
 def _rank_at(structure: Structure, label: str) -> int:
-    modulus = prime(label)
-    point = residues(f"{label}:{structure}", len(structure.parameters), modulus)
-    found = sample(structure, Representation.TF, 0, point, modulus)
-    usual = len(found.labels) == sum(degrees(structure)) + 1
-    return int(found.jacobian.rank()) if usual else 0  # at a special point less is seen
+    return int(seen_at(drawn(structure, label), Representation.TF, 0).jacobian.rank())
 
 
 def _same_mass(small: Structure, large: Structure) -> bool:

@@ -12,14 +12,8 @@ from typing import TypeVar
 from disting.algebra.matroid import Matroid, rank_in
 from disting.certainty import Certainty
 from disting.conditions.evidence import Counts, Labels
-from disting.inclusion.finding import (
-    FullImage,
-    Inclusion,
-    InclusionFinding,
-    LargerProjection,
-    RelativeDegrees,
-    Sense,
-)
+from disting.inclusion.evidence import FullImage, LargerProjection, RelativeDegrees
+from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.invariants.profile import Profile
 from disting.model.chain import Chain
 
@@ -30,18 +24,18 @@ def by_profiles(small: Profile, large: Profile, *, left_is_smaller: bool) -> Inc
     """What degrees, ranks of projections and a full image settle; None if nothing."""
     if degrees_refute(small.degrees, large.degrees):
         counts = Counts(*ordered(small.degrees, large.degrees, left_is_smaller))
-        return InclusionFinding(Inclusion.NEITHER, Sense.BOTH, Certainty.PROVEN, evidence=counts)
+        return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if small.degrees[1] != large.degrees[1]:
         return None
     safety = min(small.safety, large.safety) - 1
     rows = _larger_rows(small, large)
     if rows is not None:
         ranks = ordered(_rank(small, rows), _rank(large, rows), left_is_smaller)
-        return InclusionFinding(Inclusion.NEITHER, Sense.BOTH, Certainty.BOUNDED, safety, LargerProjection(rows, *ranks))
+        return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, safety, LargerProjection(rows, *ranks))
     if large.rank == len(large.form) and small.form <= large.form and _constants_agree(small, large):
         free = tuple(x for x in large.labels if x in large.form)
         evidence = FullImage(not left_is_smaller, large.rank, free)
-        return InclusionFinding(inside(left_is_smaller), Sense.CLOSURE, Certainty.BOUNDED, safety, evidence)
+        return InclusionFinding(inside(left_is_smaller), Certainty.BOUNDED, safety, evidence)
     return None
 
 
@@ -81,7 +75,7 @@ def by_relative_degrees(small: Chain, large: Chain) -> InclusionFinding | None:
     if small.damped != large.damped or here <= there or (len(falls) == 2 and falls[0] == falls[1]):
         return None
     evidence = RelativeDegrees(False, here, there)
-    return InclusionFinding(Inclusion.NEITHER, Sense.IMAGE, Certainty.PROVEN, evidence=evidence)
+    return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=evidence)
 
 
 def part_falls(chain: Chain) -> tuple[int, ...]:

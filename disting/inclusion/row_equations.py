@@ -59,6 +59,8 @@ def equation_safety(row: Row) -> int:
     coefficients sum to 6^N at most.
     """
     block, n = _block(row), row.n_masses
+    if not block:
+        return 0
     degree = len(block[0]) * n
     return safety(Size(len(block) * degree, len(block) * ceil(degree * log2(6) + log2(len(block)))), 1)
 

@@ -9,7 +9,9 @@ from disting.conditions.verify import POINTS, Witness
 from disting.ideals import ByParts, Refuted, Solved, coefficient_map, confirms_by_parts
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
-from disting.inclusion.finding import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.inclusion.closures import confirms_parts
+from disting.inclusion.evidence import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
+from disting.inclusion.outside_evidence import Outside, PartsInside
 from disting.inclusion.profiles import degrees_refute, ordered
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation
@@ -44,6 +46,9 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
             here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
             return evidence.left_is_larger != left_is_smaller and _fall_apart(smaller, larger, here, there)
+        case Outside() | PartsInside():
+            given, other = (a, b) if left_is_smaller else (b, a)
+            return evidence.left_given == left_is_smaller and confirms_parts(evidence, given, other)
         case ByParts():
             parts = (rational_part(a), rational_part(b))
             return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)

@@ -9,27 +9,27 @@ G_i is over that of the denominator's, so the bounds of `profile.minor_size` ser
 from flint import nmod_poly
 
 from disting.algebra.quotient import Quotient, series_rows
-from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, prime, residues
+from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, enough
 from disting.invariants.profile import Profile, from_samples, minor_size
-from disting.invariants.sample import Representation, Sample, quotient
+from disting.invariants.sample import Representation, Sample, drawn
 from disting.model.structure import Structure
 from disting.settings import Settings
 
 
 def inverse_profile(structure: Structure, count: int, settings: Settings) -> Profile:
     """Profile of H_0..H_count; a dead time is left out."""
-    seen = [_sample(structure, count, f"{settings.seed}:inverse:{k}", PROOF_BITS) for k in range(settings.points)]
-    search = _sample(structure, count, f"{settings.seed}:inverse:search", SEARCH_BITS)
     size = minor_size(structure, Representation.MARKOV, count)
+    points = enough(size, settings.points)
+    seen = [_sample(structure, count, f"{settings.seed}:inverse:{k}", PROOF_BITS) for k in range(points)]
+    search = _sample(structure, count, f"{settings.seed}:inverse:search", SEARCH_BITS)
     return from_samples(seen, search, frozenset(), (0, 0), count, structure.n_states, size, settings)
 
 
 def _sample(structure: Structure, count: int, label: str, bits: int) -> Sample:
-    modulus = prime(label, bits)
-    point = residues(f"{label}:{structure}", len(structure.parameters), modulus)
-    values, rows = series_rows(_turned(quotient(structure, point, modulus)), count)
+    where = drawn(structure, label, bits)
+    values, rows = series_rows(_turned(where.quotient), count)
     labels = tuple(f"H{i}" for i in range(count + 1))
-    return Sample(labels, tuple(values), tuple(map(tuple, rows)), len(structure.parameters), modulus)
+    return Sample(labels, tuple(values), tuple(map(tuple, rows)), len(structure.parameters), where.modulus)
 
 
 def _turned(q: Quotient) -> Quotient:

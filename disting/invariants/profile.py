@@ -8,13 +8,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 
-from flint import fmpz_poly
-
 from disting.algebra.matroid import Matroid, SearchTooLargeError, matroid
 from disting.algebra.quotient import rational
-from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, prime, residues, safety
-from disting.invariants.sample import Representation, Sample, sample
-from disting.invariants.transfer import receptance
+from disting.algebra.sampling import SEARCH_BITS, Size, enough, safety
+from disting.invariants.powers import degrees, powers, zeros
+from disting.invariants.sample import Representation, Sample, drawn, seen_at
 from disting.model.structure import Structure
 from disting.settings import Settings
 
@@ -32,9 +30,10 @@ class Profile:
 
     `labels` of the moment invariants; `free` marks the non-constant ones; `constants` holds the values of the others ("" where
     free); `degrees` (numerator, denominator) of (25); `count` of Markov parameters (0 for transfer functions);
-    `rank` = number of determinable parameters. That the invariants in `proven_zeros` vanish, that free ones are free and, with
-    `rank_proven`, the rank hold without any error probability; all else is wrong with a probability of at most 2**-safety,
-    over the choice of the random points.
+    `rank` = number of determinable parameters. The degrees, that the invariants in `proven_zeros` vanish, that free ones are
+    free and, with `rank_proven`, the rank hold without any error probability; all else is wrong with a probability of at most
+    2**-safety, over the choice of the random points. A rank seen at a point is a lower bound; it is proven where it is the
+    number of parameters, or that of the rows that vary, all others being proven constant.
     """
 
     representation: Representation
@@ -62,26 +61,25 @@ class Profile:
 
 
 def profile(structure: Structure, representation: Representation, count: int, settings: Settings) -> Profile:
-    """Profile from `settings.points` random points with large primes and one search point with a small prime."""
-    seen = list(samples(structure, representation, count, settings.points, settings.seed))
+    """Profile from `settings.points` random points, or as many as it takes, with large primes, and one with a small prime."""
     size = minor_size(structure, representation, count)
-    degrees = _degrees(seen[0])
-    zeros = _proven_zeros(structure, representation, degrees, seen[0].labels)
-    search = _sample(structure, representation, count, f"{settings.seed}:search", SEARCH_BITS)
-    return from_samples(seen, search, zeros, degrees, count, structure.n_states, size, settings)
+    seen = list(samples(structure, representation, count, enough(size, settings.points), settings.seed))
+    search = seen_at(drawn(structure, f"{settings.seed}:search", SEARCH_BITS), representation, count)
+    known = _proven_zeros(structure, representation, count)
+    return from_samples(seen, search, known, degrees(structure), count, structure.n_states, size, settings)
 
 
 def from_samples(
     seen: Sequence[Sample],
     search: Sample,
-    zeros: frozenset[str],
+    proven: frozenset[str],
     degrees: tuple[int, int],
     count: int,
     n_states: int,
     size: Size,
     settings: Settings,
 ) -> Profile:
-    """Profile of a summary known through samples; `zeros` are the labels that are proven to vanish."""
+    """Profile of a summary known through samples; `proven` are the labels that are proven to be constant."""
     labels = seen[0].labels
     free = tuple(any(any(s.rows[i]) for s in seen) for i in range(len(labels)))
     constants = tuple("" if free[i] else rational(seen[0].values[i], seen[0].modulus) for i in range(len(labels)))
@@ -99,15 +97,20 @@ def from_samples(
         n_parameters=seen[0].n_parameters,
         rank=rank,
         matroid=shape,
-        proven_zeros=zeros,
-        rank_proven=rank == min(sum(free), seen[0].n_parameters),
+        proven_zeros=proven,
+        rank_proven=rank == seen[0].n_parameters or (rank == sum(free) and _constants_known(labels, free, proven)),
         safety=safety(size, len(seen)) - ceil(log2(claims + len(labels) + 1)),
     )
 
 
+def _constants_known(labels: Sequence[str], free: Sequence[bool], proven: frozenset[str]) -> bool:
+    """Whether all rows that look constant are proven to be: then no more rows than the free ones can be independent."""
+    return all(known or label in proven for label, known in zip(labels, free, strict=True))
+
+
 def samples(structure: Structure, representation: Representation, count: int, points: int, seed: str) -> Iterator[Sample]:
     """Yield samples at independent points, each with its own large prime."""
-    return (_sample(structure, representation, count, f"{seed}:{k}", PROOF_BITS) for k in range(points))
+    return (seen_at(drawn(structure, f"{seed}:{k}"), representation, count) for k in range(points))
 
 
 def minor_size(structure: Structure, representation: Representation, count: int) -> Size:
@@ -124,17 +127,6 @@ def minor_size(structure: Structure, representation: Representation, count: int)
     return Size(rank * entry.degree, rank * (entry.bits + ceil(log2(rank + 1))))
 
 
-def _sample(structure: Structure, representation: Representation, count: int, label: str, bits: int) -> Sample:
-    modulus = prime(label, bits)
-    point = residues(f"{label}:{structure}", len(structure.parameters), modulus)
-    return sample(structure, representation, count, point, modulus)
-
-
-def _degrees(s: Sample) -> tuple[int, int]:
-    numerator = sum(label.startswith("b") for label in s.labels)
-    return numerator - 1, sum(label.startswith("a") for label in s.labels)
-
-
 def _matroid(seen: Sequence[Sample], search: Sample, rank: int, limit: int) -> tuple[Matroid | Unsearched, int]:
     """Matroid at the search point with each dependence confirmed at all points, and the number of these statements."""
     if len(search.labels) > 64:
@@ -149,42 +141,16 @@ def _matroid(seen: Sequence[Sample], search: Sample, rank: int, limit: int) -> t
     return shape, len(statements)
 
 
-def _proven_zeros(
-    structure: Structure, representation: Representation, degrees: tuple[int, int], labels: Sequence[str]
-) -> frozenset[str]:
+def _proven_zeros(structure: Structure, representation: Representation, count: int) -> frozenset[str]:
     """Labels of invariants that vanish identically, by an argument without chance.
 
-    Coefficients of a chain's numerator and denominator are sums of products of parameters with positive signs (all-minors
-    matrix-tree theorem; force and sensor cross the gap in the same sense), so one that is zero at all parameters = 1 is zero.
-    A Markov parameter is zero below the relative degree and, in undamped chains, where its parity differs from it.
+    Of the coefficients those that `powers` tells. A Markov parameter is zero below the relative degree and, in undamped chains,
+    where its parity differs from it.
     """
-    if not _sign_free(structure):
-        return frozenset()
-    num, den = _at_ones(structure)
-    coefficients = {f"b{i}": c for i, c in enumerate(num)} | {f"a{i}": c for i, c in enumerate(den)}
-    tf_zeros = frozenset(label for label, c in coefficients.items() if c == 0)
+    tf_zeros = zeros(structure)
     if representation is Representation.TF:
         return tf_zeros
-    relative = len(den) - len(num)
-    even = all(
-        label in tf_zeros for label in coefficients if int(label[1:]) % 2 != (len(num if label[0] == "b" else den) - 1) % 2
-    )
-    vanishing = (i for i in range(len(labels)) if i < relative or (even and (i - relative) % 2))
-    return frozenset(f"G{i}" for i in vanishing)
-
-
-def _sign_free(structure: Structure) -> bool:
-    """No block holds a plus and a minus port together, so no term of the numerator is subtracted."""
-    p = structure.ports
-    spans = [range(first, last + 1) for first, last in structure.blocks]
-    return not any((p.act_plus in s or p.meas_plus in s) and (p.act_minus in s or p.meas_minus in s) for s in spans)
-
-
-def _at_ones(structure: Structure) -> tuple[list[int], list[int]]:
-    """Numerator and denominator coefficients over the integers at all parameters = 1, common powers of s cancelled."""
-    ones = {name: fmpz_poly([1]) for name in structure.parameters}
-    r = receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
-    num = [0] * structure.sensor_order + [int(c) for c in r.num.coeffs()]
-    den = [int(c) for c in r.den.coeffs()]
-    power = next(i for i, pair in enumerate(zip(num, den, strict=False)) if any(pair))
-    return num[power:], den[power:]
+    num, den = powers(structure)
+    relative = max(den) - max(num)
+    even = all((max(side) - i) % 2 == 0 for side in (num, den) for i in side)
+    return frozenset(f"G{i}" for i in range(count + 1) if i < relative or (even and (i - relative) % 2))

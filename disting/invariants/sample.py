@@ -1,13 +1,25 @@
-"""An exhaustive summary seen at one random point modulo a prime: the moment invariants and their Jacobian, as numbers."""
+"""An exhaustive summary seen at one random point modulo a prime: the moment invariants and their Jacobian, as numbers.
 
+Degrees. Those of numerator and denominator before anything but powers of s is cancelled are known exactly (`powers`). A point
+is taken only if the transfer function in lowest terms has these degrees there too. So leading coefficients and resultant are
+not zero at the point, hence not generically: the degrees of every sample are those of the model, without any chance. A point
+at which they are smaller is special and drawn again; with 31 bits that happens with a probability of about 2^-20.
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
 from flint import nmod_mat
 
 from disting.algebra.quotient import Quotient, coefficient_rows, constant, lowest_terms, matrix, series_rows, variable
+from disting.algebra.sampling import PROOF_BITS, about, prime, residues
+from disting.errors import InputError
+from disting.invariants.powers import degrees
 from disting.invariants.transfer import receptance, values_at
 from disting.model.structure import Structure
+
+DRAWS = 20  # of a point
 
 
 class Representation(StrEnum):
@@ -37,7 +49,29 @@ class Sample:
         return int(matrix([self.rows[i] for i in chosen], self.n_parameters, self.modulus).rank())
 
 
-def quotient(structure: Structure, point: list[int], modulus: int) -> Quotient:
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A random point of a structure modulo a random prime, and the transfer function there in lowest terms."""
+
+    structure: Structure
+    point: tuple[int, ...]
+    modulus: int
+    quotient: Quotient
+
+
+def drawn(structure: Structure, label: str, bits: int = PROOF_BITS) -> Drawn:
+    """The point and the prime that the label stands for with this structure; special points are drawn again."""
+    whole, wanted = about(label, structure), degrees(structure)
+    for again in (f"{whole}:{attempt}" for attempt in range(DRAWS)):
+        modulus = prime(again, bits)
+        point = residues(f"point:{again}", len(structure.parameters), modulus)
+        q = quotient(structure, point, modulus)
+        if (q.num.degree(), q.den.degree()) == wanted:
+            return Drawn(structure, tuple(point), modulus, q)
+    raise InputError("numerator and denominator have a common factor for all parameters")
+
+
+def quotient(structure: Structure, point: Sequence[int], modulus: int) -> Quotient:
     """The transfer function (24), without dead time, in lowest terms at a point given in the order of the parameters."""
     values = values_at(structure, point, lambda number: constant(number, modulus))
     rational = receptance(structure, values, variable(modulus), constant(1, modulus))
@@ -50,21 +84,26 @@ def quotient(structure: Structure, point: list[int], modulus: int) -> Quotient:
     )
 
 
-def sample(structure: Structure, representation: Representation, count: int, point: list[int], modulus: int) -> Sample:
-    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the parameters.
+def sample(structure: Structure, representation: Representation, count: int, point: Sequence[int], modulus: int) -> Sample:
+    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the parameters, at any point."""
+    return seen_at(Drawn(structure, tuple(point), modulus, quotient(structure, point, modulus)), representation, count)
+
+
+def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
+    """The same at a point that was drawn.
 
     A dead time adds itself as one more invariant: exp(-Td s) is no rational function, so both factors are determined.
     """
-    q = quotient(structure, point, modulus)
     if representation is Representation.TF:
-        labels, values, rows = _coefficients(q)
+        labels, values, rows = _coefficients(where.quotient)
     else:
         labels = [f"G{i}" for i in range(count + 1)]
-        values, rows = series_rows(q, count)
-    if structure.dead_time:
-        labels, values = [*labels, "Td"], [*values, point[-1]]
-        rows = [[*row, 0] for row in rows] + [[0] * (len(structure.parameters) - 1) + [1]]
-    return Sample(tuple(labels), tuple(values), tuple(map(tuple, rows)), len(structure.parameters), modulus)
+        values, rows = series_rows(where.quotient, count)
+    n_parameters = len(where.structure.parameters)
+    if where.structure.dead_time:
+        labels, values = [*labels, "Td"], [*values, where.point[-1]]
+        rows = [[*row, 0] for row in rows] + [[0] * (n_parameters - 1) + [1]]
+    return Sample(tuple(labels), tuple(values), tuple(map(tuple, rows)), n_parameters, where.modulus)
 
 
 def _coefficients(q: Quotient) -> tuple[list[str], list[int], list[list[int]]]:

@@ -9,7 +9,7 @@ w v v' (w a power of s) has dD_c = w v' adj v and, since d(A^-1) = -w A^-1 v v' 
 so one pair of adjugate columns gives the whole gradient.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -58,7 +58,7 @@ def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: R
     return _lagged(plain, values["T1"], s, one) if structure.lag else plain
 
 
-def values_at(structure: Structure, numbers: list[int], lift: Callable[[int], Any]) -> dict[str, Any]:
+def values_at(structure: Structure, numbers: Sequence[int], lift: Callable[[int], Any]) -> dict[str, Any]:
     """Parameter values from numbers, in the structure's order, lifted into the ring."""
     return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
 

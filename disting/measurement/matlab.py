@@ -65,8 +65,10 @@ def _hdf5(path: Path) -> Arrays:
 
 
 def _datasets(h5py: Any, path: Path) -> list[str]:
+    """Arrays that are in the file itself; links that lead out of it are not even looked at."""
     with h5py.File(path, "r") as file:
-        return [name for name in file if not name.startswith("#") and isinstance(file.get(name), h5py.Dataset)]
+        inside = [name for name in file if not name.startswith("#") and isinstance(file.get(name, getlink=True), h5py.HardLink)]
+        return [name for name in inside if isinstance(file[name], h5py.Dataset)]
 
 
 def _dataset(h5py: Any, path: Path, name: str) -> NDArray[Any]:
@@ -76,6 +78,10 @@ def _dataset(h5py: Any, path: Path, name: str) -> NDArray[Any]:
 def _plain(h5py: Any, path: Path, name: str) -> NDArray[Any]:
     """Values in MATLAB's order of axes; complex numbers are stored as pairs called real and imag."""
     with h5py.File(path, "r") as file:
+        if file[name].external or file[name].is_virtual:
+            raise InputError(
+                f"{path.name}: the values of {name} are kept in another file, which is not read; store them inside"
+            )
         values = np.asarray(file[name][()])
         if "MATLAB_empty" in file[name].attrs:
             return np.empty(0)
@@ -90,5 +96,7 @@ def _foreign(call: Callable[[], Any], refusal: str) -> Any:
         with warnings.catch_warnings():
             warnings.simplefilter("error", UserWarning)  # such as an unknown order of bytes: the numbers would be wrong
             return call()
+    except InputError:
+        raise
     except Exception as error:  # damaged files raise whatever the library meets first
         raise InputError(f"{refusal}: {type(error).__name__}: {error}") from None

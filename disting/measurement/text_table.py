@@ -15,7 +15,8 @@ from disting.measurement.table import Table
 
 DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (" ", "."), (" ", ","))
 SAMPLE = 60  # lines from the end by which the dialect is chosen: a header is at the beginning
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
+# No two parts can match the same digits, so that a cell of many digits is read in linear time.
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
 BRACKET = re.compile(r"\s*\([^()]*\)\s*$")
 
 

@@ -9,7 +9,7 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome
 from disting.paper.findings import Findings
-from disting.verdict import Query, Relation, Verdict
+from disting.verdict import Query, Relation, Verdict, View
 
 SIZES = (1, 2, 3, 4)
 
@@ -69,7 +69,7 @@ def model_a3(findings: Findings) -> Found:
 
 def _compared(findings: Findings, left: Chain, right: Chain) -> Verdict:
     engine = findings.engine
-    return engine.verdict(engine.subject("left", left), engine.subject("right", right), Query(inclusion=False))
+    return engine.verdict(engine.subject("left", left), engine.subject("right", right), Query(View.EXACT, inclusion=False))
 
 
 def _all_distinguishable(found: list[Verdict]) -> bool:

@@ -6,6 +6,7 @@ from functools import cached_property
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
+from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.fit.candidates import figure_1
 from disting.fit.select import Selection, select
@@ -46,9 +47,11 @@ class Findings:
         return catalog(n_masses, damped=damped)
 
     def dampers(self, chain: Chain, which: DamperSets = DamperSets.SINGLE) -> DamperTable:
-        """Ground dampers of a chain against each other."""
+        """Ground dampers of a chain against each other, over complex parameters, as the paper has them."""
         if (chain, which) not in self._tables:
-            self._tables[chain, which] = dampers(chain, which, engine=self.engine, executor=self.executor)
+            self._tables[chain, which] = dampers(
+                chain, which, domain=Domain.COMPLEX, engine=self.engine, executor=self.executor
+            )
         return self._tables[chain, which]
 
     @cached_property

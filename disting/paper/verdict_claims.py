@@ -65,7 +65,7 @@ def no_additional_information(findings: Findings) -> Found:
 def figure_11(findings: Findings) -> Found:
     """Damped, both representations."""
     left, right = findings.picture(3, True, View.TF), findings.picture(3, True, View.MARKOV, 7)
-    exact = Counter(v.relation for i, j, v in findings.catalog(3, damped=True).pairs() if (i, j) in _open(findings))
+    exact = Counter(v.relation for i, j, v in findings.catalog(3, damped=True).pairs(View.EXACT) if (i, j) in _open(findings))
     return Found(
         f"left: {told(counted(left))}; right: {told(counted(right))}; both together leave {len(_open(findings))}, of which "
         f"the exact decision finds {exact[Relation.INDISTINGUISHABLE]} indistinguishable and "

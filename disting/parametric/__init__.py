@@ -6,6 +6,8 @@ from disting.parametric.alternatives import Alternatives as Alternatives
 from disting.parametric.alternatives import alternatives as alternatives
 from disting.parametric.equivalent import Equivalent as Equivalent
 from disting.parametric.fibre import Extent as Extent
+from disting.parametric.formulas import is_explicit as is_explicit
+from disting.parametric.formulas import is_without as is_without
 from disting.parametric.identifiability import LocalIdentifiability as LocalIdentifiability
 from disting.parametric.identifiability import local_identifiability as local_identifiability
 from disting.parametric.model import Model as Model

@@ -1,91 +1,76 @@
-"""Whether models that agree over complex parameters agree over real or positive ones: points with and without an equivalent.
+"""Whether models that agree over complex parameters agree over real or positive ones: always, never or for some.
 
-Random rational points of either model are taken and their fibres solved exactly. A point p with an admissible equivalent q
-shows the same for the other direction, where q has the equivalent p. So one point with and one without, in any directions,
-prove that the pair agrees for some admissible parameters only. Special points (a cancellation, two solutions that meet, a zero
-parameter) are no witnesses: only points whose fibre is as large as that of any other point seen, and without zeros. Samples
-prove nothing else: that all points seen have equivalents, or none has, is reported as what it is, a share of the points.
+What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of either model have an
+equivalent in the other one; DISTINGUISHABLE if those of one have none, and so no admissible parameters agree, but for thin
+sets; SOMETIMES if in an open set there is an equivalent, and in another one, of either model, there is none. All of it is
+proven. Points are drawn to be looked at only; what is said of them is said of all points around them (see `robust`).
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
-from time import monotonic
 
 from disting.algebra.sampling import residues
 from disting.certainty import Certainty
 from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.explicit import NoEquivalent
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.witnesses import Point, Witnesses
 from disting.domain import Domain
-from disting.errors import InputError
-from disting.parametric.alternatives import Alternatives, alternatives
-from disting.parametric.certificate import certified
 from disting.parametric.equivalent import spelled
-from disting.parametric.fibre import Extent
+from disting.parametric.fibre import Extent, solved
+from disting.parametric.formulas import explicit
+from disting.parametric.groebner import Bounds, TooLarge
 from disting.parametric.model import Model
-from disting.parametric.target import rational_values, target
+from disting.parametric.target import fibre_equations, rational_values, target
+from disting.parametric.ways import Way, way
 
-POINTS = 60  # of either model
-ORDINARY = 3  # points of one model that are to be seen before one of them is called ordinary
-SECONDS = 30.0
+POINTS = 40  # of either model
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
+TOO_LARGE = "the search for all equivalents grew too large"
+
+Ways = tuple[Way | None, Way | None]
+Found = tuple[bool, Point, Point]
+"""Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Seen:
-    """The alternatives at one point, and of which model it was."""
-
-    left_given: bool
-    found: Alternatives
-
-
-def admissible_finding(left: Model, right: Model, domain: Domain, seed: str, seconds: float = SECONDS) -> Finding:
-    """SOMETIMES with both points as evidence, or ABANDONED with the share of points that have an equivalent."""
-    seen: list[Seen] = []
-    for one in _samples(left, right, domain, seed, monotonic() + seconds):
-        seen.append(one)
-        having, lacking = (_first(seen, domain, outcome) for outcome in (Outcome.HOLDS, Outcome.FAILS))
-        if having and lacking:
-            evidence = _witnesses(having, lacking, domain)
-            return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=evidence)
-    shares = [f"at {_share(seen, way, domain)} random points of {m.name}" for way, m in ((True, left), (False, right))]
-    note = f"an equivalent with {domain} parameters was found {' and '.join(shares)}, which proves nothing of the others"
+def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> Finding:
+    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
+    ways = way(left, right, domain), way(right, left, domain)
+    for left_given, one in zip((True, False), ways, strict=True):
+        if one and one.never:
+            evidence = NoEquivalent(domain.value, left_given, tuple(dict.fromkeys(one.parted.search.closed)))
+            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
+    if all(one and one.covering for one in ways):
+        return _always(ways, domain)
+    having, lacking, shares = _seen(ways, domain, seed)
+    if having and lacking:
+        return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=_witnesses(ways, having, lacking, domain))
+    if not lacking and all(one and (one.covering or one.path()) for one in ways):
+        return _always(ways, domain)
+    note = f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the others"
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
 
 
 def confirms(evidence: Witnesses, left: Model, right: Model) -> bool:
-    """Whether both points are what they are said to be: their fibres are solved anew, with other linear forms."""
+    """Whether both points are what they are said to be, and all parameters near them: the search is done anew."""
     domain = Domain(evidence.domain)
-    sides = {True: (left, right), False: (right, left)}
-    here = (*sides[evidence.with_left_given], evidence.point_with)
-    there = (*sides[evidence.without_left_given], evidence.point_without)
-    return _has_certified(*here, domain) and _lacks(*there, domain)
-
-
-def _has_certified(given: Model, other: Model, point: Point, domain: Domain) -> bool:
-    """An equivalent at this point is put into the transfer function and looked at in intervals."""
-    goal = target(given, rational_values(given, dict(point)))
-    found = alternatives(given, dict(point), other, seed="confirms").within(domain)
-    return _is_inside(point, domain) and any(certified(x, goal, other) for x in found)
-
-
-def _lacks(given: Model, other: Model, point: Point, domain: Domain) -> bool:
-    return _is_inside(point, domain) and alternatives(given, dict(point), other, seed="confirms").exist(domain) is Outcome.FAILS
-
-
-def _is_inside(point: Point, domain: Domain) -> bool:
-    return domain is not Domain.POSITIVE or all(Fraction(value) > 0 for _, value in point)
+    ways = {True: way(left, right, domain), False: way(right, left, domain)}
+    with_, without = ways[evidence.with_left_given], ways[evidence.without_left_given]
+    points_ = [{name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)]
+    if domain is Domain.POSITIVE and min(x for p in points_ for x in p.values()) <= 0:
+        return False
+    return bool(with_ and without and with_.having(points_[0]) and without.lacking(points_[1]))
 
 
 def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
-    """Yield random rational parameters of a domain, without end, determined by the seed."""
+    """Yield random rational parameters of a domain, without end, determined by the seed and the model."""
+    label = f"{seed}:{model.parameters}:{model.numerator_terms}:{model.denominator_terms}"
     n, k = len(model.parameters), 0
     while True:
         spread = SPREADS[k % len(SPREADS)]
         tops, bottoms, signs = (
-            residues(f"{what}:{seed}:{k}", n, below) for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
+            residues(f"{what}:{label}:{k}", n, below) for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
         )
         values = (Fraction(p, q) for p, q in zip(tops, bottoms, strict=True))
         signed = (x if s == 1 or domain is Domain.POSITIVE else -x for x, s in zip(values, signs, strict=True))
@@ -93,51 +78,51 @@ def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fracti
         k += 1
 
 
-def _samples(left: Model, right: Model, domain: Domain, seed: str, deadline: float) -> Iterator[Seen]:
-    """Alternatives at points of both models in turn, until the time or the number is up; special points are left out."""
-    for pair in islice(zip(*(points(m, domain, f"{seed}:{m.parameters}") for m in (left, right)), strict=True), POINTS):
-        for left_given, values in zip((True, False), pair, strict=True):
-            remaining = deadline - monotonic()
-            if remaining <= 0:
-                return
-            given, other = (left, right) if left_given else (right, left)
-            try:
-                yield Seen(left_given, alternatives(given, values, other, seed=seed, seconds=remaining))
-            except InputError:  # the leading coefficient vanishes there
-                continue
+def _always(ways: Ways, domain: Domain) -> Finding:
+    evidence = explicit([one for one in ways if one], domain)
+    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 
-def _witnesses(having: Seen, lacking: Seen, domain: Domain) -> Witnesses:
-    equivalent = having.found.within(domain)[0]
-    infinite = lacking.found.extent is Extent.FAMILY
-    return Witnesses(
-        domain.value,
-        having.left_given,
-        tuple((name, str(x)) for name, x in having.found.values),
-        tuple((name, spelled(x)) for name, x in equivalent.values.items()),
-        lacking.left_given,
-        tuple((name, str(x)) for name, x in lacking.found.values),
-        -1 if infinite else len(lacking.found.equivalents),
-    )
+def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | None, str]:
+    """A point with and one without an equivalent, of either model, and the shares of those with one."""
+    having, lacking, shares = list[Found](), list[Found](), list[str]()
+    for left_given, one in zip((True, False), ways, strict=True):
+        if one is None:
+            shares.append(f"at no points of the {'left' if left_given else 'right'} model ({TOO_LARGE})")
+            continue
+        count, always = 0, bool(one.covering)
+        for values in islice(points(one.given, domain, seed), POINTS):
+            found = one.having(values)
+            count += bool(found)
+            if found:
+                having.append((left_given, _written(values), _rounded(one.other, found)))
+            elif not always and one.lacking(values):
+                lacking.append((left_given, _written(values), ()))
+            if having and lacking:
+                return having[0], lacking[0], ""
+        shares.append(f"at {count} of {POINTS} random points of {one.given.name}")
+    return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
 
 
-def _first(seen: list[Seen], domain: Domain, outcome: Outcome) -> Seen | None:
-    """The first ordinary point with this outcome."""
-    ordinary = (one for way in (True, False) for one in _ordinary([x for x in seen if x.left_given is way]))
-    return next((one for one in ordinary if one.found.exist(domain) is outcome), None)
+def _witnesses(ways: Ways, having: Found, lacking: Found, domain: Domain) -> Witnesses:
+    one = ways[0 if lacking[0] else 1]
+    count = _count(one, lacking[1]) if one else -2
+    return Witnesses(domain.value, *having, *lacking[:2], count)
 
 
-def _ordinary(seen: list[Seen]) -> list[Seen]:
-    """Points whose fibres look like a generic one: finite where any is, as large as any finite one, nothing on a boundary."""
-    if len(seen) < ORDINARY:
-        return []
-    largest = max(len(x.found.equivalents) if x.found.extent is Extent.FINITE else 0 for x in seen)
-    if not largest:
-        return [x for x in seen if x.found.extent is Extent.FAMILY]
-    finite = (x for x in seen if x.found.extent is Extent.FINITE and len(x.found.equivalents) == largest)
-    return [x for x in finite if all(any(c) for e in x.found.equivalents for c in e.coordinates)]
+def _count(one: Way, point: Point) -> int:
+    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen at once."""
+    goal = target(one.given, rational_values(one.given, dict(point)))
+    try:
+        found = solved(fibre_equations(goal, one.other), one.other.parameters, "count", Bounds())
+    except TooLarge:
+        return -2
+    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(found.extent, len(found.equivalents))
 
 
-def _share(seen: list[Seen], way: bool, domain: Domain) -> str:
-    outcomes = [x.found.exist(domain) for x in seen if x.left_given is way]
-    return f"{outcomes.count(Outcome.HOLDS)} of {len(outcomes)}"
+def _written(values: dict[str, Fraction]) -> Point:
+    return tuple((name, str(x)) for name, x in values.items())
+
+
+def _rounded(model: Model, values: tuple[float, ...]) -> Point:
+    return tuple((name, spelled(x)) for name, x in zip(model.parameters, values, strict=True))

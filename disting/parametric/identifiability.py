@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 
-from disting.algebra.sampling import safety
+from disting.algebra.sampling import enough, safety
 from disting.certainty import Certainty, graded
 from disting.invariants.sample import Representation, Sample
 from disting.parametric.model import Model
@@ -44,10 +44,11 @@ def local_identifiability(model: Model, settings: Settings = SETTINGS) -> LocalI
     >>> local_identifiability(m).identifiable, local_identifiability(m).rank
     ((), 2)
     """
-    seen = list(samples(model, Representation.TF, 0, settings.points, settings.seed))
+    size = minor_size(model, Representation.TF, 0)
+    seen = list(samples(model, Representation.TF, 0, enough(size, settings.points), settings.seed))
     rank, columns = identifiable_columns(seen)
     n = len(model.parameters)
-    bits = safety(minor_size(model, Representation.TF, 0), len(seen)) - settings.points - ceil(log2(n + 1))
+    bits = safety(size, len(seen)) - len(seen) - ceil(log2(n + 1))
     names = tuple(model.parameters[j] for j in columns)
     return LocalIdentifiability(model.parameters, rank, names, *graded(rank == n, bits))
 

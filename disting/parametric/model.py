@@ -108,6 +108,11 @@ class Model:
         return len(self.denominator_terms) - 1
 
     @property
+    def content(self) -> tuple[object, ...]:
+        """All that tells two models apart: their names do not."""
+        return self.parameters, self.numerator_terms, self.denominator_terms
+
+    @property
     def degrees(self) -> tuple[int, int]:
         """Degrees in s of numerator and denominator."""
         return len(self.numerator_terms) - 1, self.n_states

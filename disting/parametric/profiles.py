@@ -11,7 +11,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
-from disting.algebra.sampling import SEARCH_BITS
+from disting.algebra.sampling import SEARCH_BITS, enough
 from disting.invariants.profile import Profile, from_samples
 from disting.invariants.sample import Representation
 from disting.parametric.model import Model, Terms
@@ -24,18 +24,18 @@ Known = Fraction | None
 
 @lru_cache(maxsize=64)
 def profile(model: Model, representation: Representation, count: int, settings: Settings) -> Profile:
-    """Profile from `settings.points` random points with large primes and one search point with a small prime.
+    """Profile from `settings.points` random points, or as many as it takes, with large primes, and one with a small prime.
 
     `proven_zeros` holds all invariants that are proven constant, and `constants` their exact values.
     """
-    seen = list(samples(model, representation, count, settings.points, settings.seed))
+    size = minor_size(model, representation, count)
+    seen = list(samples(model, representation, count, enough(size, settings.points), settings.seed))
     search = drawn(model, representation, count, f"{settings.seed}:search", SEARCH_BITS)
     known = proven_constants(model, representation, count)
-    size = minor_size(model, representation, count)
     found = from_samples(seen, search, frozenset(known), model.degrees, count, model.n_states, size, settings)
     values = zip(found.labels, found.constants, strict=True)
     constants = tuple(str(known[label]) if label in known else value for label, value in values)
-    return replace(found, constants=constants, safety=found.safety - settings.points)
+    return replace(found, constants=constants, safety=found.safety - len(seen))
 
 
 def proven_constants(model: Model, representation: Representation, count: int) -> dict[str, Fraction]:

@@ -2,13 +2,15 @@
 
 Both transfer functions are in lowest terms over the integers, so a renaming carries coefficients into coefficients, all of them
 or none with the sign changed. The functions c_i a_m (a_m the leading denominator coefficient) are then the same, whatever the
-sign and without any division, and colour refinement looks at them.
+sign and without any division, and colour refinement looks at them, modulo a prime: columns that differ there are different, so
+no renaming is missed, and one that is found is proven exactly.
 """
 
+from dataclasses import dataclass
 from itertools import islice
 
 from disting.algebra.colouring import renamings
-from disting.algebra.sampling import prime
+from disting.algebra.sampling import about, prime
 from disting.certainty import Certainty
 from disting.conditions.evidence import Renaming
 from disting.conditions.finding import Finding, Outcome
@@ -21,7 +23,9 @@ def condition_6(left: Model, right: Model) -> Finding:
     """A renaming that makes both transfer functions identical, or the proof that there is none."""
     if (left.degrees, len(left.parameters)) != (right.degrees, len(right.parameters)):
         return Finding(6, Outcome.FAILS, note="no renaming exists")
-    candidates = list(islice(renamings(_Columns(left), _Columns(right), len(left.parameters)), CANDIDATES + 1))
+    modulus = prime(about("renaming", *sorted(map(repr, (left.content, right.content)))))
+    here, there = (_Columns((*m.numerator_terms, *m.denominator_terms), modulus) for m in (left, right))
+    candidates = list(islice(renamings(here, there, len(left.parameters)), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:
         pairs = tuple((name, right.parameters[image]) for name, image in zip(left.parameters, images, strict=True))
         if is_renaming(left, right, dict(pairs)):
@@ -47,14 +51,15 @@ def _permuted(terms: Terms, sources: list[int]) -> dict[tuple[int, ...], int]:
     return {tuple(exponents[i] for i in sources): number for exponents, number in terms}
 
 
+@dataclass(frozen=True, slots=True)
 class _Columns:
-    """Values and Jacobian columns of the functions c_i a_m at a point, modulo a fixed prime."""
+    """Values and Jacobian columns of the functions c_i a_m at a point, modulo a prime that belongs to the pair."""
 
-    def __init__(self, model: Model) -> None:
-        self.coefficients = (*model.numerator_terms, *model.denominator_terms)
+    coefficients: tuple[Terms, ...]
+    modulus: int
 
     def __call__(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        modulus = prime("renaming")
+        modulus = self.modulus
         seen = [evaluated(terms, point, modulus) for terms in self.coefficients]
         lead, slopes = seen[-1]
         values = tuple(value * lead % modulus for value, _ in seen)

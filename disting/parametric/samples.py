@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from flint import nmod_poly
 
 from disting.algebra.quotient import Quotient, coefficient_rows, lowest_terms, series_rows
-from disting.algebra.sampling import PROOF_BITS, Size, prime, residues
+from disting.algebra.sampling import PROOF_BITS, Size, about, prime, residues
 from disting.errors import InputError
 from disting.invariants.sample import Representation, Sample
 from disting.parametric.model import Model, Terms
@@ -26,11 +26,11 @@ def samples(model: Model, representation: Representation, count: int, points: in
 
 
 def drawn(model: Model, representation: Representation, count: int, label: str, bits: int) -> Sample:
-    """The sample at the point that the label names, modulo its prime of so many bits."""
-    content = f"{model.parameters}{model.numerator_terms}{model.denominator_terms}"
-    for again in [label, *(f"{label}:{attempt}" for attempt in range(1, DRAWS))]:
+    """The sample at the point that the label stands for with this model, modulo its prime of so many bits."""
+    whole = about(label, *model.content)
+    for again in (f"{whole}:{attempt}" for attempt in range(DRAWS)):
         modulus = prime(again, bits)
-        q = quotient(model, residues(f"{again}:{content}", len(model.parameters), modulus), modulus)
+        q = quotient(model, residues(f"point:{again}", len(model.parameters), modulus), modulus)
         if (q.num.degree(), q.den.degree()) == model.degrees:
             return _sample(q, representation, count, len(model.parameters))
     raise InputError(f"the leading coefficients of {model.name} vanish at {DRAWS} random points")

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.evidence import Renaming
+from disting.conditions.evidence import Constants, Renaming
 from disting.conditions.exact import EXACT
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.sufficient import INCOMPLETE, condition_7
@@ -21,7 +21,7 @@ from disting.invariants.sample import Representation
 from disting.parametric.admissible import admissible_finding
 from disting.parametric.exact import exact_finding
 from disting.parametric.model import Model
-from disting.parametric.profiles import profile
+from disting.parametric.profiles import profile, proven_constants
 from disting.parametric.renaming import condition_6
 from disting.settings import Settings
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, verdict_of
@@ -107,8 +107,18 @@ def _exact(pair: Pair) -> Finding:
     if one.rank != other.rank or one.degrees != other.degrees:
         return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks or degrees differ (conditions 2 and 4)")
     if one.rank == 0:
-        return Finding(EXACT, Outcome.INAPPLICABLE, note="constant transfer functions are compared by condition 7 alone")
+        return _constants(pair)
     return exact_finding(pair.left, pair.right, pair.settings.seed)
+
+
+def _constants(pair: Pair) -> Finding:
+    """Transfer functions without parameters: unequal numbers, known exactly, tell the models apart."""
+    values = [proven_constants(model, Representation.TF, 0) for model in (pair.left, pair.right)]
+    differing = tuple(label for label, x in values[0].items() if label in values[1] and x != values[1][label])
+    if not differing:
+        return Finding(EXACT, Outcome.INAPPLICABLE, note="equal constant transfer functions are found by condition 7")
+    evidence = Constants(differing, *(tuple(str(v[x]) for x in differing) for v in values))
+    return Finding(EXACT, Outcome.FAILS, evidence=evidence)
 
 
 def _decided(pair: Pair) -> Verdict:

@@ -5,6 +5,7 @@ from disting.positivity.finding import positive_finding as positive_finding
 from disting.positivity.ranges import Ranges as Ranges
 from disting.positivity.ranges import confirms_within as confirms_within
 from disting.positivity.ranges import ranges as ranges
+from disting.positivity.ranges import renamings as renamings
 from disting.positivity.ranges import within_ranges as within_ranges
 from disting.positivity.result import Empirical as Empirical
 from disting.positivity.result import PositiveFinding as PositiveFinding

@@ -122,7 +122,7 @@ class Interlacing:
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """SOMETIMES: a rational point of `given` that has a positive equivalent and one that has none."""
+    """SOMETIMES: rational points of `given`, one in an open set with positive equivalents, one in an open set without."""
 
     kind: ClassVar[str] = "points"
     with_one: Values
@@ -131,8 +131,8 @@ class Points:
     def sentence(self, given: str, other: str) -> str:
         """What the two points show."""
         return (
-            f"One choice of positive rational parameters of {given} has a positive equivalent in {other}, another has none; "
-            "both are proven."
+            f"All models near one choice of positive rational parameters of {given} have a positive equivalent in {other}, "
+            "generic ones near another choice have none."
         )
 
     @property

@@ -3,9 +3,11 @@
 Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality, Foster (ALWAYS); decay,
 residues, own poles, signs, swapped parts (NEVER, see `parts`); the arrangement of poles and zeros of each part (ALWAYS or
 SOMETIMES, see `words`). Then a rational point without any equivalent (NEVER, but for a probability that is bounded). Then
-random points: one proven to have a positive equivalent and one proven to have none (SOMETIMES).
+random points: one with a positive equivalent and one without (SOMETIMES).
 
-ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic subset.
+ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic subset. SOMETIMES speaks of two
+open sets. A word is the same for all models near one where balls tell it (see `witness`), so points of undamped models testify
+however short they are; damped ones, whose solutions are listed, are never called SOMETIMES by points.
 
 Foster: undamped, both chains with force and sensor at one place. H = sum r_j/(x + l_j) with l_j >= 0, r_j > 0. Any g of the
 non-zero poles serve for the grounded part R, the others for F. For a part R = sum r_j/(x + l_j) with n poles the n - 1 zeros
@@ -18,7 +20,9 @@ C(N-1, g) C(g-1, a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
+from disting.algebra.sampling import about
 from disting.certainty import Certainty
 from disting.errors import InputError
 from disting.model.chain import Chain
@@ -29,7 +33,7 @@ from disting.positivity.points import equivalent, random_point, spelled
 from disting.positivity.result import Empirical, PositiveFinding, Share
 from disting.positivity.words import Words, words
 from disting.settings import Settings
-from disting.synthesis.decide import Membership, member, rational_point, safety_of_point
+from disting.synthesis.decide import Membership, member, point_bits, rational_point, safety_of_point
 from disting.synthesis.duality import are_dual
 from disting.synthesis.result import Answer
 from disting.synthesis.segment import Segment
@@ -49,12 +53,13 @@ def positive_finding(given: Chain, other: Chain, settings: Settings | None = Non
     'sometimes'
     """
     refuse(given, other)
+    given, other = without_dead_time(given), without_dead_time(other)
     seed = (settings or Settings()).seed
     named = theorem(given, other)
     if named:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=SameByTheorem(named))
     if not all(is_plain(c) for c in (given, other)):
-        return PositiveFinding(Share.UNKNOWN, reason="ground dampers, a lag and dead time are not covered")
+        return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
     against = obstacle(given, other)
     if against:
         return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
@@ -69,6 +74,11 @@ def refuse(given: Chain, other: Chain) -> None:
         raise InputError("chains of one size, damping, sensor quantity and dead time are compared")
 
 
+def without_dead_time(chain: Chain) -> Chain:
+    """The rational part. Dead times of equal behaviours are equal (see `conditions.exact`), so the rational parts decide."""
+    return replace(chain, dead_time=False)
+
+
 def is_plain(chain: Chain) -> bool:
     """Neither ground dampers nor lag nor dead time."""
     return not (chain.ground_dampers or chain.lag or chain.dead_time)
@@ -80,11 +90,18 @@ def theorem(given: Chain, other: Chain) -> str:
     >>> theorem(Chain(3), Chain(3, 0, 0, 2, 0, 2))
     'Foster'
     """
-    here, there = canonical(given).chain, canonical(other).chain
+    here, there = (canonical(c).chain for c in _without_common_factors(given, other))
     if here == there:
         return "symmetry"
-    foster = not given.damped and all(is_plain(c) and c.collocated for c in (given, other))
+    foster = not given.damped and all(is_plain(c) and c.collocated for c in (here, there))
     return "Foster" if foster else "duality" if are_dual(here, there) else ""
+
+
+def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
+    """Both without the lag and the dead time that both have: equivalents inherit T1 and Td."""
+    lag, dead_time = given.lag and other.lag, given.dead_time and other.dead_time
+    first, second = (replace(c, lag=c.lag and not lag, dead_time=c.dead_time and not dead_time) for c in (given, other))
+    return first, second
 
 
 def part_words(given: Chain, other: Chain) -> tuple[PartWords, ...]:
@@ -134,13 +151,12 @@ def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
 
 def _never(given: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
     """Proofs that there is no equivalent, found at one rational point."""
-    point = rational_point(given, f"positivity:{seed}")
+    point = rational_point(given, about(f"positivity:{seed}", given, other), point_bits(other))
     if swap_fails(given, other) and only_parts_sum_to_zero(given, point, 2 * other.gap):
         yield PositiveFinding(Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point)))
     found = member(given, other, seed)
-    safety = safety_of_point(given.n_masses, len(other.parameters))
-    if found.membership is Membership.EXCLUDED and safety > 0:
-        yield PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety, NoEquivalent(spelled(found.point)))
+    if found.membership is Membership.EXCLUDED:
+        yield PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety_of_point(other), NoEquivalent(spelled(found.point)))
 
 
 def _sampled(given: Chain, other: Chain, seed: str, tries: int) -> tuple[dict[Answer, tuple[tuple[str, str], ...]], Empirical]:

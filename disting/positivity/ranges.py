@@ -1,8 +1,9 @@
 """Positive equivalents within ranges that a user gives: of models of `given` in its ranges, in the ranges of `other`.
 
 ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges (a range that is one value may
-make special what never happens generically: then only the decay counts). SOMETIMES: random points of the box of `given`, one
-that has an equivalent in the box of `other` and one that has none, both proven.
+make special what never happens generically: then only the decay counts). SOMETIMES: an open part of the box of `given` that has
+equivalents in the box of `other` and one that has none. Short random points look for both; long ones near by testify (see
+`witness`, which has the proof). Where no long point confirms what the search saw, nothing is claimed.
 
 What is proven at a point: exact maps (renamings, duality) that lead into the box are equivalents; so are the listed solutions
 of an undamped chain without tests (see `synthesis.construction`), if they are real. None exists if there is no positive one at
@@ -16,7 +17,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from disting.certainty import Certainty
+from disting.certainty import Certainty, Grade, graded
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical, forms
@@ -25,6 +26,7 @@ from disting.positivity.finding import is_plain, positive_finding, refuse
 from disting.positivity.parts import Obstacle, Point
 from disting.positivity.points import Range, equivalent, random_point, read, spelled
 from disting.positivity.result import Empirical, PositiveFinding, Share
+from disting.positivity.witness import DRAWS, FLOOR, bits, drawn_near, is_long
 from disting.settings import Settings
 from disting.synthesis.construction import is_untested
 from disting.synthesis.duality import are_dual, dual
@@ -63,7 +65,7 @@ def within_ranges(
     refuse(given, other)
     _known(given, limits.given)
     _known(other, limits.other)
-    inside = next((BoxMap(tuple(m.items())) for m in _renamings(given, other) if _maps(m, limits)), None)
+    inside = next((BoxMap(tuple(m.items())) for m in renamings(given, other) if _maps(m, limits)), None)
     if inside:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=inside)
     if not all(is_plain(c) for c in (given, other)):
@@ -79,14 +81,11 @@ def confirms_within(evidence: BoxMap | Points, given: Chain, other: Chain, limit
     """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by `confirms`."""
     if isinstance(evidence, BoxMap):
         renaming = dict(evidence.pairs)
-        return renaming in list(_renamings(given, other)) and _maps(renaming, limits)
-    pairs = ((read(evidence.with_one), Answer.YES), (read(evidence.without), Answer.NO))
-    return all(
-        sorted(point) == sorted(given.parameters)
-        and all(_in(value, limits.given.get(name)) for name, value in point.items())
-        and equivalent_within(given, point, other, limits.other) is answer
-        for point, answer in pairs
-    )
+        return renaming in list(renamings(given, other)) and _maps(renaming, limits)
+    with_one, without = read(evidence.with_one), read(evidence.without)
+    inside = all(_is_of(point, given, limits) and is_long(point, limits.given) for point in (with_one, without))
+    has = inside and _has_piece(given, with_one, other, limits)
+    return has and _lacks_piece(given, without, other, limits) is not None
 
 
 def equivalent_within(given: Chain, point: Point, other: Chain, box: Mapping[str, Range]) -> Answer:
@@ -104,13 +103,51 @@ def equivalent_within(given: Chain, point: Point, other: Chain, box: Mapping[str
 
 
 def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) -> PositiveFinding:
+    """What short points see, and what long ones near them confirm."""
     points = [random_point(given, f"ranges:{seed}:{k}", limits.given) for k in range(tries)]
     answers = [equivalent_within(given, point, other, limits.other) for point in points]
     empirical = Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))
-    if {Answer.YES, Answer.NO} <= set(answers):
-        with_one, without = (spelled(points[answers.index(a)]) for a in (Answer.YES, Answer.NO))
-        return PositiveFinding(Share.SOMETIMES, Certainty.PROVEN, evidence=Points(with_one, without), empirical=empirical)
+    label, length = f"{seed}:{given!r}:{other!r}:{limits!r}", bits(other)
+
+    def near(wanted: Answer) -> Iterator[Point]:
+        """Long points near the first places of this answer."""
+        places = [p for p, answer in zip(points, answers, strict=True) if answer is wanted]
+        yield from (drawn_near(p, limits.given, length, f"{label}:{wanted}:{k}") for k, p in enumerate(places[:DRAWS]))
+
+    with_one = next((p for p in near(Answer.YES) if _has_piece(given, p, other, limits)), None)
+    if with_one is not None:
+        for without in near(Answer.NO):
+            grade = _lacks_piece(given, without, other, limits)
+            if grade is not None:
+                evidence = Points(spelled(with_one), spelled(without))
+                return PositiveFinding(Share.SOMETIMES, *grade, evidence, empirical)
     return PositiveFinding(Share.UNKNOWN, empirical=empirical, reason="random points are no proof for all of the ranges")
+
+
+def _has_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> bool:
+    """Whether an open part of the box around the point has equivalents in the box of `other`."""
+    box = limits.other
+    if any(_stays(renaming, point, limits) for renaming in renamings(given, other)):
+        return True
+    if any(all(_strictly_in(v, box.get(name)) for name, v in image.items()) for image in _images(given, point, other)):
+        return True
+    found = fibre(other, target(given.structure, point)) if is_untested(other) else None
+    return found is not None and any(_place(s, box) is Answer.YES for s in found.solutions)
+
+
+def _lacks_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> Grade | None:
+    """Whether, and how surely, an open part of the box near the point has none: words are exact, listed solutions bounded."""
+    if equivalent_within(given, point, other, limits.other) is not Answer.NO:
+        return None
+    return graded(not other.damped and equivalent(given, point, other) is Answer.NO, FLOOR)
+
+
+def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:
+    """Whether the renamed parameters near the point lie in the box: strictly inside, or with all of their range."""
+    return all(
+        _strictly_in(value, limits.other.get(renaming[name])) or _maps({name: renaming[name]}, limits)
+        for name, value in point.items()
+    )
 
 
 def _place(solution: Solution, box: Mapping[str, Range]) -> Answer:
@@ -128,10 +165,10 @@ def _side(value: object, bounds: Range | None) -> Answer:
     low, high = (arb(fmpq(b.numerator, b.denominator)) for b in bounds)
     if x < low or x > high:
         return Answer.NO
-    return Answer.YES if x >= low and x <= high else Answer.UNKNOWN
+    return Answer.YES if x > low and x < high else Answer.UNKNOWN
 
 
-def _renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
+def renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
     """All renamings by symmetry that turn the one chain into the other."""
     form = canonical(other)
     back = {here: name for name, here in form.renaming.items()}
@@ -142,12 +179,12 @@ def _renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
 
 def _images(given: Chain, point: Point, other: Chain) -> Iterator[Point]:
     """The point under all exact maps."""
-    for renaming in _renamings(given, other):
+    for renaming in renamings(given, other):
         yield {renaming[name]: value for name, value in point.items()}
     here = canonical(given)
     if is_plain(given) and is_plain(other) and are_dual(here.chain, canonical(other).chain):
         image = dual(here.chain, {here.renaming[name]: value for name, value in point.items()})
-        for renaming in _renamings(canonical(other).chain, other):
+        for renaming in renamings(canonical(other).chain, other):
             yield {renaming[name]: value for name, value in image.items()}
 
 
@@ -160,6 +197,17 @@ def _maps(renaming: Mapping[str, str], limits: Ranges) -> bool:
 def _in(value: fmpq, bounds: Range | None) -> bool:
     exact = Fraction(int(value.p), int(value.q))
     return exact > 0 if bounds is None else bounds[0] <= exact <= bounds[1]
+
+
+def _strictly_in(value: fmpq, bounds: Range | None) -> bool:
+    exact = Fraction(int(value.p), int(value.q))
+    return exact > 0 if bounds is None else bounds[0] < exact < bounds[1]
+
+
+def _is_of(point: Point, given: Chain, limits: Ranges) -> bool:
+    """Whether these are all parameters, inside the ranges."""
+    inside = all(_in(value, limits.given.get(name)) for name, value in point.items())
+    return inside and sorted(point) == sorted(given.parameters)
 
 
 def _known(chain: Chain, side: Mapping[str, Range]) -> None:

@@ -6,7 +6,7 @@ from enum import StrEnum
 from math import sqrt
 from typing import Any
 
-from disting.certainty import Certainty
+from disting.certainty import Certainty, shortfall
 from disting.positivity.evidence import Evidence, from_dict, to_dict
 
 Z95 = 1.96  # quantile of the normal distribution for 95 %
@@ -53,7 +53,7 @@ class Empirical:
 class PositiveFinding:
     """`share` is proven as `certainty` says (BOUNDED: wrong with a probability of at most 2**-safety); `empirical` is sampled.
 
-    `reason` says why nothing is known.
+    `reason` says why nothing is known. A bound that does not reach 2**-LEAST_SAFETY leaves the share unknown.
     """
 
     share: Share
@@ -66,8 +66,11 @@ class PositiveFinding:
     def __post_init__(self) -> None:
         if (self.share is Share.UNKNOWN) == (self.evidence is not None and self.certainty is not None):
             raise ValueError("exactly a share that is not unknown carries certainty and evidence")
-        if (self.certainty is Certainty.BOUNDED) != (self.safety > 0):
-            raise ValueError("exactly a bounded finding carries an error bound")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {"share": Share.UNKNOWN, "certainty": None, "safety": 0, "evidence": None, "reason": lacking}
+            for name, value in given_up.items():
+                object.__setattr__(self, name, value)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")

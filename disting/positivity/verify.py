@@ -3,7 +3,7 @@
 from disting.certainty import Certainty
 from disting.model.chain import Chain
 from disting.positivity.evidence import BoxMap, Evidence, Excluded, Interlacing, NoEquivalent, Points, SameByTheorem, Values
-from disting.positivity.finding import part_words, refuse, theorem
+from disting.positivity.finding import part_words, refuse, theorem, without_dead_time
 from disting.positivity.parts import Obstacle, obstacle, only_parts_sum_to_zero, swap_fails
 from disting.positivity.points import equivalent, read
 from disting.positivity.result import PositiveFinding, Share
@@ -16,6 +16,7 @@ from disting.synthesis.target import target
 def confirms(evidence: Evidence, given: Chain, other: Chain) -> bool:
     """Whether the evidence is true of the two chains; statements about ranges are confirmed by `confirms_within`."""
     refuse(given, other)
+    given, other = without_dead_time(given), without_dead_time(other)
     match evidence:
         case SameByTheorem():
             return evidence.name != "" and theorem(given, other) == evidence.name
@@ -36,7 +37,7 @@ def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
     evidence = finding.evidence
     if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
         return False
-    bounded = finding.safety <= max(0, safety_of_point(given.n_masses, len(other.parameters)))
+    bounded = finding.safety <= safety_of_point(without_dead_time(other))
     return bounded and confirms(evidence, given, other)
 
 

@@ -32,6 +32,10 @@ backwards is one too, so ports a, b and n + 1 - b, n + 1 - a have the same recep
 So whether H is positive depends on its word alone wherever lower and upper agree. They do for d = 1: h_j is 0 or 1 there; with
 h_j = 0 the one zero in a gap belongs to whichever of Theta and Phi is open, with h_j = 1 both are open; so each one can be A's
 or B's as the numbers demand. They also do for all n <= 6 (computed, see the tests).
+
+Two rows with the same n and d always have a word in common for certain: d gaps without a zero, then one zero a gap. Give the
+first pole to Theta, the next d - 1 to the masses between, pole d + 1 to Phi; then both are open before each zero, which may be
+A's or B's, and the next pole goes to the one that it closed. So where a word is lacking, the answer is "some", not "none".
 """
 
 from collections.abc import Iterator

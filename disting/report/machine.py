@@ -1,5 +1,7 @@
 """What the start page's "Describe your machine" knows: the models' indices, what is not told apart, and the parts of drawings.
 
+What is told apart is told over positive parameters.
+
 A description is any chain under (36) and (37), so one that breaks (38) too: the page finds its model by the symmetries that
 (38) breaks (mirrored free part, force and sensor exchanged). Every layer of a drawing depends on the gap, one port, or one
 element and whether there are dampers, never on the number of masses: so each is held once, under a name that the page's
@@ -13,6 +15,7 @@ from disting.catalogs import Catalog
 from disting.model.chain import Chain
 from disting.model.constraints import Indices, violated
 from disting.report.damper_drawing import Part
+from disting.report.domains import one_sided
 from disting.report.drawing import draw
 from disting.report.model import folder_of
 from disting.report.scene import Layer
@@ -58,7 +61,7 @@ def part_name(chain: Chain, layer: Layer) -> str:
 
 
 def machines(catalogs: Iterable[Catalog]) -> list[dict[str, object]]:
-    """Of each catalogue: its models' five indices in order, its groups, and with how many others a model's verdict is open."""
+    """Of each catalogue: its models' five indices in order, groups, what depends on the values, how many verdicts are open."""
     return [_machine(c) for c in catalogs]
 
 
@@ -73,8 +76,16 @@ def _machine(c: Catalog) -> dict[str, object]:
         "size": [scene.width, scene.height],
         "models": [chain.indices[1:] for chain in c.family],
         "groups": c.classes(),
+        "depends": _depending(c),
         "open": _undecided(c),
     }
+
+
+def _depending(c: Catalog) -> dict[int, list[int]]:
+    """For each model, those that have equivalents of some of its positive parameters, or the reverse, but not of all."""
+    pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
+    pairs += [(one.given, one.other) for one in one_sided(c)]
+    return {number: sorted(other for given, other in pairs if given == number) for number in sorted({p for p, _ in pairs})}
 
 
 def _undecided(c: Catalog) -> dict[int, int]:

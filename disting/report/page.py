@@ -11,6 +11,7 @@ from disting.conditions import CONDITIONS
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.model.chain import Chain
+from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.model import Drawing, folder_of, model_of
@@ -20,7 +21,7 @@ from disting.verdict import RULE_NAMES, Relation, View
 
 RULES = {RULE_NAMES[EXACT]: "by the exact decision", RULE_NAMES[ADMISSIBLE]: "by their positive equivalents"}
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
-BELOW, ABOVE = View.EXACT, View.POSITIVE  # shown first
+BELOW, ABOVE = VIEWS  # shown first
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,14 @@ class Shown:
     title: str
     summary: str
     totals: dict[Relation, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Grouped:
+    """What a page says over one domain, with the drawings of the groups' members."""
+
+    of: Over
+    groups: list[list[Drawing]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +55,9 @@ class Count:
 
 def page(catalog: Catalog, *, dampers: str = "") -> str:
     """HTML of a catalogue; `dampers`: name of the page of the family with ground dampers, where that is beside it."""
-    found = totals(catalog)
     models = [model_of(catalog, row.number) for row in catalog.rows]
+    domains = [over(catalog, view) for view in VIEWS]
+    grouped = [Grouped(of, [[models[m - 1].drawing for m in members] for members in of.groups]) for of in domains]
     return render(
         "page.html",
         title=title(catalog),
@@ -55,20 +65,19 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         headline=headline(catalog),
         catalog=catalog,
         folder=folder_of(catalog),
-        totals=found,
-        compared=sum(found.values()),
+        domains=grouped,
+        compared=sum(domains[0].totals.values()),
         views=[Shown(view, name, summary(catalog, view), totals(catalog, view)) for view, name in VIEW_TITLES.items()],
         below=BELOW,
         above=ABOVE,
         counts=counts(catalog),
         undecided=undecided(catalog),
-        still_open=found[Relation.UNDECIDED],
+        still_open=domains[1].totals[Relation.UNDECIDED],
         listed_pairs=LISTED_PAIRS,
-        groups=[[models[m - 1].drawing for m in members] for members in catalog.classes(View.EXACT)],
         models=models,
         sample=example(catalog),
         dampers=dampers,
-        payload=payload(catalog, dampers=bool(dampers)),
+        payload=payload(catalog, domains, dampers=bool(dampers)),
         plural=plural,
     )
 

@@ -13,8 +13,9 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog
 from disting.conditions.admissible import ADMISSIBLE
-from disting.inclusion import Inclusion
 from disting.positivity import Share
+from disting.report.domains import Over
+from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, probability
 from disting.verdict import RULE_NAMES, Verdict, View
 
@@ -26,18 +27,14 @@ CERTAINTIES = {
     "": "",
 }
 
-SAID = {
-    Inclusion.LEFT_IN_RIGHT: "Every generic {L} is a limit of models {R}, not the reverse.",
-    Inclusion.RIGHT_IN_LEFT: "Every generic {R} is a limit of models {L}, not the reverse.",
-}
 SHARES = {
     Share.ALWAYS: "Every generic {0} with positive parameters has a positive equivalent {1}",
     Share.SOMETIMES: "Some {0} with positive parameters have a positive equivalent {1}, others have none",
     Share.NEVER: "No generic {0} with positive parameters has a positive equivalent {1}",
     Share.UNKNOWN: "Whether {0} with positive parameters have a positive equivalent {1} is not known",
 }
-Entry = tuple[str, str, str, str, str, str, str]
-"""relation, decided_by, representation, certainty in words, domain, why, formula"""
+Entry = tuple[str, str, str, str, str, str, str, str]
+"""relation, decided_by, representation, certainty in words, domain, why, formula, what decided in words"""
 
 
 @dataclass(slots=True)
@@ -51,8 +48,8 @@ class Pool:
         return self.numbers.setdefault(value, len(self.numbers))
 
 
-def payload(catalog: Catalog, **more: object) -> Markup:
-    """JSON text that is safe inside a script element, with what else the page's script is to know."""
+def payload(catalog: Catalog, domains: Sequence[Over], **more: object) -> Markup:
+    """JSON text that is safe inside a script element: the views, groups by domain, and what else the script is to know."""
     texts, entries = Pool(), Pool()
     views = {view.value: packed([entries.number(_entry(v)) for v in _triangle(catalog, view)]) for view in VIEW_TITLES}
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
@@ -60,7 +57,9 @@ def payload(catalog: Catalog, **more: object) -> Markup:
         "masses": catalog.n_masses,
         "damped": catalog.damped,
         "models": len(catalog.family),
-        "groups": catalog.classes(View.EXACT),
+        "groups": {of.view.value: of.groups for of in domains},
+        "blocks": {of.view.value: of.blocks for of in domains},
+        "said": RELATIONS_SAID,
         "titles": VIEW_TITLES,
         "texts": list(texts.numbers),
         "entries": rows,
@@ -104,10 +103,11 @@ def _entry(verdict: Verdict) -> Entry:
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
     certainty = CERTAINTIES[verdict.certainty or ""].format(bound=probability(verdict.error_bound))
     formula = evidence.formula if evidence else ""
-    if verdict.inclusion_finding is not None and verdict.inclusion in SAID:
-        why = f"{why} {SAID[verdict.inclusion]}"
+    if verdict.inclusions is not None:
+        why = f"{why} Over complex parameters: {verdict.inclusions.sentence('{L}', '{R}')}"
     why = " ".join([why, *_shares(verdict)])
-    return verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain, why, formula
+    graded = (verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain)
+    return *graded, why, formula, verdict.rule
 
 
 def _shares(verdict: Verdict) -> Iterator[str]:
@@ -122,4 +122,4 @@ def _shares(verdict: Verdict) -> Iterator[str]:
 
 def _undecided(verdict: Verdict) -> str:
     notes = f" ({'; '.join(verdict.notes)})" if verdict.notes else ""
-    return f"No condition settles {{L}} and {{R}} here{notes}."
+    return f"Nothing here settles {{L}} and {{R}} over {verdict.domain} parameters{notes}."

@@ -1,7 +1,7 @@
 """Models of several sizes in one triangle of fields: what condition decides, and which smaller models lie in which larger ones.
 
-A field of two sizes shows ⊂ where the smaller model is a limit of the larger one, so that the larger one fits whatever the
-smaller one does; else the condition by which the two are distinguishable.
+A field of two sizes shows ⊂ where the smaller model is, over complex parameters, a limit of the larger one; else the condition
+by which the two are distinguishable. Verdicts are over positive parameters.
 """
 
 from collections import Counter
@@ -13,7 +13,7 @@ from pathlib import Path
 from markupsafe import Markup
 
 from disting.engine import Decisions
-from disting.inclusion import Inclusion
+from disting.inclusion import Inclusion, Sense
 from disting.report.environment import render
 from disting.report.fields import CORNERS, LETTERS, corner, field
 from disting.report.scene import PAGE_PALETTE, Anchor, Ink, Layer, Rect, Scene, Text
@@ -86,7 +86,7 @@ def between(decided: Decisions) -> Iterator[Between]:
     sizes = [s.chain.n_masses for s in decided.subjects]
     for small, large in combinations(sorted(set(sizes)), 2):
         pairs = ((i, j) for i, j in combinations(range(len(sizes)), 2) if (sizes[i], sizes[j]) == (small, large))
-        count = Counter(decided.inclusion(i, j) for i, j in pairs)
+        count = Counter(decided.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)
         inside, unknown = count[Inclusion.LEFT_IN_RIGHT], count[Inclusion.UNKNOWN]
         yield Between(small, large, inside, count.total() - inside - unknown, unknown)
 
@@ -94,14 +94,14 @@ def between(decided: Decisions) -> Iterator[Between]:
 def outside(decided: Decisions) -> Iterator[Outside]:
     """The smaller models that do not lie in a larger one."""
     for i, j in _across(decided):
-        if decided.inclusion(i, j) is Inclusion.NEITHER:
+        if decided.inclusion(i, j, Sense.CLOSURE) is Inclusion.NEITHER:
             names = decided.subjects[i].name, decided.subjects[j].name
             yield Outside(*names, _why(decided.verdict(i, j), *names))
 
 
 def _why(verdict: Verdict, left: str, right: str) -> str:
     """The finding's reason; models of equal rank have none of their own, because limits with fewer poles have a smaller one."""
-    found = verdict.inclusion_finding
+    found = None if verdict.inclusions is None else verdict.inclusions.closure
     if found is None or found.evidence is None:
         return f"Both have equally many determinable parameters; limits of {right} with fewer poles have fewer."
     bound = f" (wrong with a probability of at most {probability(f'2^-{found.safety}')})" if found.safety else ""
@@ -136,7 +136,7 @@ def _sign(decided: Decisions, column: int, row: int) -> Text:
     """⊂ or the sign of the deciding rule."""
     rule = RULE_NAMES[int(decided.decided_by[column, row])]
     x, y = _at(column, row)
-    inside = INSIDE.get(decided.inclusion(column, row), "")
+    inside = INSIDE.get(decided.inclusion(column, row, Sense.CLOSURE), "")
     half = (CELL - 1) / 2
     ink = LETTERS.get(decided.relation(column, row), Ink.LINE)
     return Text(x + half, y + half, inside or SIGNS.get(rule, rule), 0.58 * CELL, ink, bold=bool(inside))

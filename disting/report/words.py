@@ -12,12 +12,16 @@ from disting.verdict import RULE_NAMES, Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
-    View.EXACT: "Complex parameters",
     View.POSITIVE: "Positive parameters",
+    View.EXACT: "Complex parameters",
     View.TF: "Transfer function",
     View.MARKOV: "Markov parameters",
     View.COMBINED: "Conditions 1 to 9",
 }
+SAID = {relation: relation.value for relation in Relation} | {
+    Relation.SOMETIMES: "sometimes indistinguishable",
+}
+"""Relations as pages name them."""
 SIGNS = {RULE_NAMES[EXACT]: "E", RULE_NAMES[ADMISSIBLE]: "+"}  # what a field of the matrix shows; else the condition's number
 
 
@@ -32,18 +36,19 @@ def short_title(catalog: Catalog) -> str:
 
 
 def headline(catalog: Catalog) -> str:
-    """Models, pairs and relations in one sentence.
+    """Models, pairs and relations over positive parameters in one sentence.
 
     >>> from disting.catalogs import catalog
     >>> headline(catalog(3))
-    '11 models, 55 pairs: 43 distinguishable, 12 indistinguishable, 0 undecided'
+    '11 models, 55 pairs, over positive parameters: 43 distinguishable, 12 indistinguishable, 0 undecided'
     """
     found = totals(catalog)
-    pairs = plural(sum(found.values()), "pair")
-    return f"{plural(len(catalog.family), 'model')}, {pairs}: " + ", ".join(f"{n} {relation}" for relation, n in found.items())
+    head = f"{plural(len(catalog.family), 'model')}, {plural(sum(found.values()), 'pair')}, over positive parameters"
+    said = (f"{n} {SAID[relation]}" for relation, n in found.items() if n or relation is not Relation.SOMETIMES)
+    return f"{head}: {', '.join(said)}"
 
 
-def totals(catalog: Catalog, view: View = View.EXACT) -> dict[Relation, int]:
+def totals(catalog: Catalog, view: View = View.POSITIVE) -> dict[Relation, int]:
     """Number of pairs by relation; SOMETIMES only where it can occur."""
     numbers = range(1, len(catalog.family) + 1)
     found = [catalog.relation(low, high, view) for high in numbers for low in range(1, high)]
@@ -70,7 +75,7 @@ def rule_in_words(decided_by: str) -> str:
     >>> rule_in_words("4"), rule_in_words(RULE_NAMES[EXACT])
     ('condition 4', 'the exact decision')
     """
-    named = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "positive equivalents"}
+    named = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with positive parameters"}
     return named.get(decided_by, f"condition {decided_by}")
 
 

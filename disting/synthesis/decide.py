@@ -16,7 +16,7 @@ from math import ceil, log2
 
 from flint import fmpq
 
-from disting.algebra.sampling import residues
+from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
@@ -27,7 +27,8 @@ from disting.synthesis.methods import cost
 from disting.synthesis.result import Answer, Confirmation, Fibre, Status
 from disting.synthesis.target import target
 
-POINT_BITS = 192  # numerators and denominators; values lie between 1/2 and 2, which keeps the balls narrow
+WANTED = 128  # bits of an error bound that points are made long enough for; LEAST_SAFETY is what must be reached
+LENGTH = 64  # coordinates have a multiple of so many bits
 DRAWS = 3  # special points are drawn again this often
 
 
@@ -102,30 +103,52 @@ def member(left: Chain, right: Chain, seed: str = "disting", way: Direction = Di
     given, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
     _refuse(given, other)
     for draw in range(DRAWS):
-        point = rational_point(given, f"synthesis:{seed}:{draw}")
+        point = rational_point(given, about(f"synthesis:{seed}:{draw}", given, other), point_bits(other))
         found = fibre(other, target(given.structure, point))
         if found.status is not Status.DEGENERATE:
             break
     return _finding(found, way, point, _grounds(given, other, point, found))
 
 
-def rational_point(chain: Chain, label: str) -> dict[str, fmpq]:
-    """Random rational parameters between 1/2 and 2, determined by the label."""
-    names, low = chain.parameters, 1 << POINT_BITS
+def rational_point(chain: Chain, label: str, bits: int = 3 * LENGTH) -> dict[str, fmpq]:
+    """Random rational parameters determined by the label: numerators and denominators of 2^bits + 1 to 2^(bits + 1) - 1.
+
+    So values lie between 1/2 and 2, which keeps the balls narrow.
+    """
+    names, low = chain.parameters, 1 << bits
     numbers = [low + r for r in residues(label, 2 * len(names), low)]
     return {name: fmpq(a, b) for name, a, b in zip(names, numbers[::2], numbers[1::2], strict=True)}
 
 
-def safety_of_point(n_masses: int, unknowns: int) -> int:
-    """Largest b with DRAWS D^(n+1) / 2^POINT_BITS <= 2^-b, n unknowns: one rational point tells of generic ones.
+def point_bits(searched: Chain) -> int:
+    """Bits of the coordinates of a point whose fibre in `searched` is looked at: enough for an error of 2^-WANTED.
 
-    D = max(3 N_B + 2, n + 1) bounds the degrees of equal coefficients and of the equation that no element is zero.
-
-    Special points lie on a hypersurface of degree D^(n+1) at most (see `disting.conditions.exact`), which a random point with
-    POINT_BITS bits a coordinate meets with a probability of at most that degree / 2^POINT_BITS (Schwartz, Zippel); up to DRAWS
-    points are drawn.
+    >>> [point_bits(Chain(n, damped=True, ground_dampers=tuple(range(1, n + 1)))) for n in (3, 5, 8)]
+    [192, 256, 320]
     """
-    return POINT_BITS - ceil((unknowns + 1) * log2(max(3 * n_masses + 2, unknowns + 1)) + log2(DRAWS))
+    return LENGTH * ceil((WANTED + _loss(searched)) / LENGTH)
+
+
+def safety_of_point(searched: Chain) -> int:
+    """Largest b with 2 DRAWS D^(n+1) / 2^B <= 2^-b: one rational point of B = `point_bits` bits tells of generic ones.
+
+    n is the number of parameters of the chain that is searched, whatever the given one has; D = max(3 N_B + 2, n + 1) bounds
+    the degrees of equal coefficients and of the equation that no element is zero.
+
+    Special points lie on a hypersurface of degree D^(n+1) at most (see `disting.conditions.exact`), which a random point meets
+    with a probability of at most that degree / 2^B: for any denominators it is one of the numerators, each of 2^B - 1 numbers
+    (Schwartz, Zippel). Up to DRAWS points are drawn, and either direction may have been tried.
+
+    >>> safety_of_point(Chain(8, damped=True))
+    144
+    """
+    return point_bits(searched) - _loss(searched)
+
+
+def _loss(searched: Chain) -> int:
+    """Bits of 2 DRAWS D^(n+1), and one for 2^B - 1."""
+    n = len(searched.parameters)
+    return ceil((n + 1) * log2(max(3 * searched.n_masses + 2, n + 1)) + log2(2 * DRAWS)) + 1
 
 
 def _refuse(given: Chain, other: Chain) -> None:

@@ -18,7 +18,7 @@ from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
 from disting.domain import Domain
 from disting.errors import ContradictionError
-from disting.inclusion import Inclusion, InclusionFinding, inclusion_finding
+from disting.inclusion import Inclusion, Inclusions, inclusions
 from disting.invariants.sample import Representation
 from disting.verdict.query import FIBRE, PARAMETERS, RULE_NAMES, Query
 from disting.verdict.result import Relation, Verdict
@@ -59,7 +59,7 @@ def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
     found, domain = _decided(left, right, query), query.view.domain
     if query.tells_inclusion:
-        found = with_inclusion(found, left.rank == right.rank, lambda: inclusion_finding(left, right))
+        found = with_inclusion(found, left.rank == right.rank, lambda: inclusions(left, right))
         found = _with_shares(found, left, right)
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
@@ -67,7 +67,8 @@ def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade))
     open_pair = Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(open_note(step.finding.note),))
     said = open_pair if step.relation is Relation.UNDECIDED else verdict_of(left.name, right.name, step, domain)
-    return replace(said, inclusion=found.inclusion, left_positive=found.left_positive, right_positive=found.right_positive)
+    said = replace(said, image=found.image, closure=found.closure)
+    return replace(said, left_positive=found.left_positive, right_positive=found.right_positive)
 
 
 def open_note(reason: str) -> str:
@@ -76,11 +77,11 @@ def open_note(reason: str) -> str:
 
 
 def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
-    """With the positive equivalents of each side whose generic models have equivalents on the other side, not only limits."""
+    """With the positive equivalents of each side whose generic models are models of the other side, or limits of them."""
     if left.chain.n_masses != right.chain.n_masses:
         return verdict
-    here = verdict.inclusion in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
-    there = verdict.inclusion in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
+    here = verdict.closure in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
+    there = verdict.closure in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
     return replace(
         verdict,
         left_positive=left.positive(right) if here else None,
@@ -88,16 +89,16 @@ def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
     )
 
 
-def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], InclusionFinding]) -> Verdict:
+def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], Inclusions]) -> Verdict:
     """The verdict over complex parameters with its inclusion; of unequal rank the finding tells it."""
     if verdict.relation is Relation.UNDECIDED:
         return verdict
     if verdict.relation is Relation.INDISTINGUISHABLE:
-        return replace(verdict, inclusion=Inclusion.EQUAL)
+        return replace(verdict, image=Inclusion.EQUAL, closure=Inclusion.EQUAL)
     if equal_rank:
-        return replace(verdict, inclusion=Inclusion.NEITHER)
+        return replace(verdict, image=Inclusion.NEITHER, closure=Inclusion.NEITHER)
     found = finding()
-    return replace(verdict, inclusion=found.inclusion, inclusion_finding=found)
+    return replace(verdict, image=found.image.inclusion, closure=found.closure.inclusion, inclusions=found)
 
 
 def _decided(left: Subject, right: Subject, query: Query) -> Verdict:

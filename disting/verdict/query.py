@@ -1,4 +1,8 @@
-"""What may be used to decide a pair: representations, conditions, Markov parameters, and the values of the parameters."""
+"""What may be used to decide a pair: representations, conditions, Markov parameters, and the values of the parameters.
+
+Asked without more, it is about positive parameters: masses, springs and dampers of a machine are positive. The paper's views
+speak of generic complex parameters.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,7 +23,8 @@ PARAMETERS = "parameters"  # and of the question whether equivalents have admiss
 class View(StrEnum):
     """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds the exact decision.
 
-    `real` and `positive` are `exact`, and then look whether equivalents with such parameters exist.
+    All of them are over complex parameters. `real` and `positive` are `exact`, and then look whether equivalents with such
+    parameters exist; `positive` is what is meant where nothing is said.
     """
 
     TF = "tf"
@@ -50,7 +55,7 @@ class Query:
     positive equivalents; this is most of the work.
     """
 
-    view: View = View.EXACT
+    view: View = View.POSITIVE
     conditions: tuple[int, ...] = ALL_CONDITIONS
     markov: int = 0
     inclusion: bool = True

@@ -9,18 +9,33 @@ from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
 from disting.conditions.exact import EXACT
 from disting.domain import Domain
-from disting.inclusion import Inclusion, InclusionFinding, inclusion_from_dict, inclusion_to_dict
+from disting.inclusion import Inclusion, Inclusions, inclusions_from_dict, inclusions_to_dict
 from disting.positivity import PositiveFinding
 from disting.verdict.query import RULE_NAMES
 
 
 class Relation(StrEnum):
-    """What is known of a pair; SOMETIMES: for some admissible parameters there is an equivalent, for others there is none."""
+    """What is known of a pair over a domain of parameters.
+
+    INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other. DISTINGUISHABLE: those of one of
+    them, at least, have none; the verdict's inclusion and its two shares tell of the other one. SOMETIMES: some parameters
+    have an equivalent and others have none, of two models that are indistinguishable over complex parameters.
+    """
 
     DISTINGUISHABLE = "distinguishable"
     INDISTINGUISHABLE = "indistinguishable"
     SOMETIMES = "sometimes"
     UNDECIDED = "undecided"
+
+
+GROUNDS = {
+    "theorem": "a theorem",
+    "dead time": "dead time",
+    "fibre": "one fibre",
+    "solved": "the ideal of one fibre",
+    "refuted": "the ideal of one fibre",
+    "full-parts": "parts that can have any receptance",
+}  # on which the exact decision rests, by the kind of its evidence
 
 
 def error_bound(certainty: str, safety: int) -> str:
@@ -34,11 +49,12 @@ def error_bound(certainty: str, safety: int) -> str:
 class Verdict:
     """Relation of a pair with its proof.
 
-    `decided_by`: the condition's number, "exact", or "" if undecided; `representation`: "tf", "markov", "structure", "fibre"
-    or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned. `inclusion`
-    tells, over complex parameters, whose generic models have equivalents on the other side; for models of unequal rank
-    `inclusion_finding` says why. `left_positive`: which positive left models have a positive equivalent on the right, where
-    generic left ones have equivalents there; `right_positive`: the reverse.
+    `decided_by`: the condition's number, "exact", "admissible", or "" if undecided; `representation`: "tf", "markov",
+    "structure", "fibre", "parameters" or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes`
+    names what was abandoned. `image` tells, over complex parameters, whose generic models have equivalents on the other side,
+    elements finite and not zero; `closure` whose are limits of models there; for models of unequal rank `inclusions` says why.
+    `left_positive`: which positive left models have a positive equivalent on the right, where generic left ones have
+    equivalents there; `right_positive`: the reverse.
     """
 
     left: str
@@ -51,8 +67,9 @@ class Verdict:
     evidence: Evidence | None = None
     domain: Domain = Domain.COMPLEX
     notes: tuple[str, ...] = ()
-    inclusion: Inclusion = Inclusion.UNKNOWN
-    inclusion_finding: InclusionFinding | None = None
+    image: Inclusion = Inclusion.UNKNOWN
+    closure: Inclusion = Inclusion.UNKNOWN
+    inclusions: Inclusions | None = None
     left_positive: PositiveFinding | None = None
     right_positive: PositiveFinding | None = None
 
@@ -72,11 +89,12 @@ class Verdict:
     @property
     def sentence(self) -> str:
         """The verdict in words an engineer understands."""
-        over = "" if self.domain is Domain.COMPLEX else f" over {self.domain} parameters"
+        over = f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
             return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
-        says = "agree for some parameters only" if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
+        sometimes = f"are sometimes indistinguishable{over}, depending on their values"
+        says = sometimes if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
         return f"{self.left} and {self.right} {says} ({self.rule}): {self.evidence.sentence(self.left, self.right)}"
 
     @property
@@ -85,7 +103,10 @@ class Verdict:
         if self.decided_by.isdigit():
             where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
             return f"condition {self.decided_by}, {where}"
-        return {"": "", RULE_NAMES[EXACT]: "exact decision"}.get(self.decided_by, f"equivalents with {self.domain} parameters")
+        if self.decided_by == RULE_NAMES[EXACT]:
+            grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence else ""
+            return f"exact decision, {grounds}" if grounds else "exact decision"
+        return f"equivalents with {self.domain} parameters" if self.decided_by else ""
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""
@@ -99,8 +120,9 @@ class Verdict:
             "certainty": self.certainty.value if self.certainty else "",
             "safety": self.safety,
             "domain": self.domain.value,
-            "inclusion": self.inclusion.value,
-            "inclusion_finding": {} if self.inclusion_finding is None else inclusion_to_dict(self.inclusion_finding),
+            "image": self.image.value,
+            "closure": self.closure.value,
+            "inclusions": {} if self.inclusions is None else inclusions_to_dict(self.inclusions),
             "left_positive": {} if self.left_positive is None else self.left_positive.to_dict(),
             "right_positive": {} if self.right_positive is None else self.right_positive.to_dict(),
             "error_bound": self.error_bound,
@@ -112,7 +134,7 @@ class Verdict:
     @staticmethod
     def from_dict(data: dict[str, object]) -> "Verdict":
         """Inverse of to_dict; raises ValueError, KeyError or TypeError for what is none."""
-        certainty, evidence, inclusion = data["certainty"], data["evidence"], data["inclusion_finding"]
+        certainty, evidence, inclusion = data["certainty"], data["evidence"], data["inclusions"]
         return Verdict(
             str(data["left"]),
             str(data["right"]),
@@ -124,8 +146,9 @@ class Verdict:
             evidence_from(evidence) if isinstance(evidence, dict) and evidence else None,
             Domain(str(data["domain"])),
             tuple(map(str, data["notes"])) if isinstance(data["notes"], list) else (),
-            Inclusion(str(data["inclusion"])),
-            inclusion_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
+            Inclusion(str(data["image"])),
+            Inclusion(str(data["closure"])),
+            inclusions_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
             *(_positive_from(data[side]) for side in ("left_positive", "right_positive")),
         )
 

@@ -9,7 +9,8 @@ from flint import fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
-from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, prime, residues, safety
+from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, about, enough, prime, residues, safety
+from disting.certainty import LEAST_SAFETY
 
 sizes = st.builds(Size, st.integers(1, 10**6), st.integers(1, 10**6))
 
@@ -83,3 +84,15 @@ def test_vanishing_is_as_rare_as_the_bound_says():
         hits += any((x - root) % p == 0 for root in range(5))
     assert Fraction(hits, 10_000) < Fraction(5, 100) * 11 / 10
     assert log2(10_000 / hits) == pytest.approx(log2(100 / 4), abs=0.2)
+
+
+def test_labels_depend_on_all_of_the_content():
+    contents = [("a",), ("b",), ("a", "b"), ("b", "a"), ("ab",), (("a",),), (1,), ("1",)]
+    assert len({about("label", *c) for c in contents} | {about("other", "a")}) == 9
+
+
+@given(st.integers(1, 400), st.integers(1, 10**4), st.integers(1, 9))
+def test_enough_points_reach_the_least_safety(degree, bits, asked):
+    size = Size(degree, bits)
+    assert enough(size, asked) >= asked
+    assert safety(size, enough(size, asked)) >= LEAST_SAFETY + 19

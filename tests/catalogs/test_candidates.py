@@ -86,13 +86,13 @@ def test_a_matrix_with_all_relations_survives_its_file(tmp_path):
 @pytest.mark.parametrize("sensor", Sensor)
 def test_the_fit_looks_up_and_does_not_compute(sensor):
     family = figure_1((2, 3), sensor)
-    assert representatives(family, Untouched()) == {c: c for c in family}
-    assert alternatives(replace(FIRST, sensor=sensor), family, Untouched()) == ()
+    assert representatives(family, Untouched(), {}) == {c: c for c in family}
+    assert alternatives(replace(FIRST, sensor=sensor), family, Untouched(), {}) == ()
 
 
 def test_other_candidates_are_computed():
     family = whole_family((2,))
-    first = representatives(family, Engine())
+    first = representatives(family, Engine(), {})
     assert first[Chain(2, meas_plus=2, damped=True, ground_dampers=(2,))] == Chain(
         2, meas_plus=2, damped=True, ground_dampers=(1,)
     )

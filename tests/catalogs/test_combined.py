@@ -9,6 +9,7 @@ import pytest
 from disting import Engine, Inclusion, InputError, Query, Relation, catalog
 from disting.catalogs.combined import combined, combined_family
 from disting.cli import main
+from disting.inclusion import Sense
 
 ENGINE = Engine()
 
@@ -40,7 +41,8 @@ def test_pairs_of_one_size_are_those_of_the_catalogue(three):
     shipped = catalog(3, damped=damped)
     for left, right, verdict in shipped.pairs():
         i, j = places[f"3:{left}"], places[f"3:{right}"]
-        assert (found.relation(i, j), found.inclusion(i, j)) == (verdict.relation, verdict.inclusion)
+        assert found.relation(i, j) is verdict.relation
+        assert [found.inclusion(i, j, sense) for sense in Sense] == [verdict.image, verdict.closure]
         assert found.verdict(i, j).decided_by == verdict.decided_by
 
 
@@ -51,11 +53,11 @@ def test_one_sided_inclusion_is_shown(three):
     for (i, j), finding in found.inclusions.items():
         sizes = tuple(found.subjects[k].chain.n_masses for k in (i, j))
         if sizes[0] != sizes[1]:
-            between[sizes, finding.inclusion] += 1
+            between[sizes, finding.closure.inclusion] += 1
     assert between[(1, 2), Inclusion.LEFT_IN_RIGHT] == 3 and between[(1, 3), Inclusion.LEFT_IN_RIGHT] == 11
     assert between[(2, 3), Inclusion.LEFT_IN_RIGHT] == (33 if damped else 31)
     assert not {Inclusion.RIGHT_IN_LEFT, Inclusion.UNKNOWN} & {inclusion for _, inclusion in between}
-    assert found.verdict(places["2:1"], places["3:1"]).inclusion is Inclusion.LEFT_IN_RIGHT
+    assert found.verdict(places["2:1"], places["3:1"]).closure is Inclusion.LEFT_IN_RIGHT
 
 
 @pytest.mark.parametrize(("damped", "inside", "outside"), [(False, 417, 65), (True, 441, 41)])
@@ -64,7 +66,7 @@ def test_models_of_one_to_four_masses(damped, inside, outside):
     found = combined((1, 2, 3, 4), damped=damped, engine=ENGINE)
     sizes = [s.chain.n_masses for s in found.subjects]
     pairs = [(i, j) for i in range(44) for j in range(i + 1, 44) if sizes[i] != sizes[j]]
-    counts = Counter(found.inclusion(i, j) for i, j in pairs)
+    counts = Counter(found.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)
     assert counts == {Inclusion.LEFT_IN_RIGHT: inside, Inclusion.NEITHER: outside}
 
 
@@ -72,12 +74,12 @@ def test_csv_with_names(capsys):
     assert main(["verdicts", "1-2", "--damped", "--csv", "-", "--no-cache"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
     assert [(r["left"], r["right"]) for r in rows][:3] == [("1:1", "2:1"), ("1:1", "2:2"), ("1:1", "2:3")]
-    assert [r["inclusion"] for r in rows][:3] == ["left-in-right"] * 3
+    assert [r["closure"] for r in rows][:3] == ["left-in-right"] * 3
 
 
 def test_summary_of_the_command(capsys):
     assert main(["verdicts", "1-3", "--no-cache"]) == 0
-    assert "45 smaller models lie in larger ones, as limits" in capsys.readouterr().out
+    assert "over complex parameters: 45 smaller models are limits of larger ones" in capsys.readouterr().out
     assert main(["verdicts", "3", "--no-cache"]) == 0
     assert "lie in" not in capsys.readouterr().out
 

@@ -116,18 +116,21 @@ def test_a_missing_file_is_named(tmp_path):
 
 def test_the_command_writes_the_files(tmp_path, capsys):
     assert main(["catalog", "dampers", "2", "--out", str(tmp_path), "--no-cache"]) == 0
+    over = "12 models, 66 pairs, over complex parameters"
     assert capsys.readouterr().out.splitlines() == [
-        f"{tmp_path}/dampers-2-undamped.jsonl: 12 models, 66 pairs: 62 distinguishable, 4 indistinguishable, 0 undecided",
-        f"{tmp_path}/dampers-2-damped.jsonl: 12 models, 66 pairs: 59 distinguishable, 7 indistinguishable, 0 undecided",
+        f"{tmp_path}/dampers-2-undamped.jsonl: {over}: 62 distinguishable, 4 indistinguishable, 0 undecided",
+        f"{tmp_path}/dampers-2-damped.jsonl: {over}: 59 distinguishable, 7 indistinguishable, 0 undecided",
     ]
 
 
 def test_the_command_answers_from_the_shipped_file(tmp_path, capsys):
     target = tmp_path / "pairs.csv"
     assert main(["dampers", "3", "--damped", "--sets", "all", "--csv", str(target)]) == 0
-    assert capsys.readouterr().out.startswith("88 models, 3828 pairs: 3678 distinguishable, 150 indistinguishable")
+    assert capsys.readouterr().out.startswith(
+        "88 models, 3828 pairs, over complex parameters: 3678 distinguishable, 150 indistinguishable"
+    )
     lines = target.read_text(encoding="utf-8").splitlines()
-    assert len(lines) == 3829 and lines[1].startswith("3:1,3:1+b1,distinguishable,1")
+    assert len(lines) == 3829 and lines[1] == "3:1,3:1+b1,distinguishable,1,complex"
 
 
 def test_models_that_are_not_there_are_refused():

@@ -11,13 +11,15 @@ import sympy as sp
 from disting import Chain, Engine, Family, InputError, Query, Relation, View, compare
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli import main
+from disting.domain import Domain
 
 SAME, APART = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
 ENGINE = Engine()
 
 
-def table(number, which=DamperSets.SINGLE, n=3, damped=True):
-    return dampers(Family(n, damped)[number], which, engine=ENGINE)
+def table(number, which=DamperSets.SINGLE, n=3, damped=True, domain=Domain.COMPLEX):
+    """Over complex parameters, as the paper has them."""
+    return dampers(Family(n, damped)[number], which, domain=domain, engine=ENGINE)
 
 
 def test_sets_in_the_order_of_size_then_masses():
@@ -56,12 +58,14 @@ FIG_14 = {
 }
 
 
+@pytest.mark.parametrize("domain", [Domain.POSITIVE, Domain.COMPLEX])
 @pytest.mark.parametrize("number", [3, 6, 8])
-def test_as_compare_says(number):
-    found = table(number, DamperSets.ALL)
+def test_as_compare_says(number, domain):
+    found = table(number, DamperSets.ALL, domain=domain)
+    view = View.POSITIVE if domain is Domain.POSITIVE else View.EXACT
     for left, right, relation, rule in found.rows():
         pair = (replace(found.chain, ground_dampers=s) for s in (left, right))
-        verdict = compare(*pair, query=Query(inclusion=False), engine=ENGINE)
+        verdict = compare(*pair, query=Query(view, inclusion=False), engine=ENGINE)
         assert (verdict.relation, verdict.decided_by) == (relation, rule)
         assert found.relation(right, left) is relation
         assert found.verdict(right, left).relation is relation
@@ -94,7 +98,7 @@ def has_equivalent(given, other):
 
 @pytest.mark.parametrize("sensor", [1, 2])
 def test_against_sympy(sensor):
-    found = dampers(Chain(2, meas_plus=sensor, damped=True), DamperSets.ALL, engine=ENGINE)
+    found = dampers(Chain(2, meas_plus=sensor, damped=True), DamperSets.ALL, domain=Domain.COMPLEX, engine=ENGINE)
     for left, right in combinations(found.sets, 2):
         one, other = (replace(found.chain, ground_dampers=s) for s in (left, right))
         both = has_equivalent(one, other) and has_equivalent(other, one)
@@ -120,17 +124,38 @@ def test_bad_sets_are_refused():
 def test_csv_of_the_command(capsys):
     assert main(["dampers", "3:3", "--damped", "--csv", "-"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
-    assert list(rows[0]) == ["left", "right", "relation", "decided_by"]
+    assert list(rows[0]) == ["left", "right", "relation", "decided_by", "domain"]
     assert [(r["left"], r["right"]) for r in rows] == list(combinations("0123", 2))
-    assert [r["relation"] for r in rows] == ["distinguishable"] * 3 + ["indistinguishable"] * 3
+    assert [r["relation"] for r in rows] == ["distinguishable"] * 3 + ["undecided", "indistinguishable", "undecided"]
+    assert {r["domain"] for r in rows} == {"positive"}
 
 
 def test_table_of_the_command(capsys, tmp_path):
-    assert main(["dampers", "3:3", "--damped", "--sets", "all", "--csv", str(tmp_path / "a3.csv")]) == 0
+    asked = ["dampers", "3:3", "--damped", "--sets", "all", "--domain", "complex", "--csv", str(tmp_path / "a3.csv")]
+    assert main(asked) == 0
     shown = capsys.readouterr().out
-    assert "8 sets, 28 pairs: 7 distinguishable, 21 indistinguishable, 0 undecided" in shown
-    assert "indistinguishable: 1 2 3 1+2 1+3 2+3 1+2+3" in shown
-    assert (tmp_path / "a3.csv").read_text().splitlines()[7:9] == ["0,1+2+3,distinguishable,1", "1,2,indistinguishable,7"]
+    assert "8 sets, 28 pairs, over complex parameters: 7 distinguishable, 21 indistinguishable, 0 undecided" in shown
+    assert "indistinguishable over complex parameters: 1 2 3 1+2 1+3 2+3 1+2+3" in shown
+    lines = (tmp_path / "a3.csv").read_text().splitlines()
+    assert lines[7:9] == ["0,1+2+3,distinguishable,1,complex", "1,2,indistinguishable,7,complex"]
+
+
+def test_the_table_speaks_of_positive_parameters_and_says_what_is_known_of_complex_ones(capsys):
+    """Dampers at masses 1 and 3 of A3 are exchanged by a symmetry; for the others only complex equivalents are known."""
+    assert main(["dampers", "3:3", "--damped"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.splitlines()[3:7] == ["0 \\ . . .", "1 . \\ c =", "2 . c \\ c", "3 . = c \\"]
+    assert "over positive parameters: . distinguishable, = indistinguishable" in shown
+    assert "c undecided, but indistinguishable over complex ones" in shown
+    assert "over positive parameters: 3 distinguishable, 1 indistinguishable, 2 undecided (2 of them " in shown
+    assert "indistinguishable over positive parameters: 1 3\n" in shown
+
+
+def test_a_whole_family_says_that_positive_parameters_are_not_asked(capsys):
+    assert main(["dampers", "2", "--no-cache"]) == 0
+    assert "positive parameters are not asked here: 'disting compare'" in capsys.readouterr().out
+    assert main(["dampers", "2", "--domain", "positive"]) == 2
+    assert "over complex parameters" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("wrong", [["3:12"], ["0"], ["three"], ["3:1", "--sets", "two"]])
@@ -146,7 +171,7 @@ def test_bad_input_of_the_command(wrong, capsys):
 def test_the_command_for_a_whole_family(capsys, tmp_path):
     assert main(["dampers", "2", "--damped", "--sets", "all", "--csv", str(tmp_path / "two.csv"), "--no-cache"]) == 0
     shown = capsys.readouterr().out
-    assert shown.startswith("12 models, 66 pairs: ") and "0 undecided" in shown
+    assert shown.startswith("12 models, 66 pairs, over complex parameters: ") and "0 undecided" in shown
     rows = list(csv.DictReader((tmp_path / "two.csv").open()))
     assert len(rows) == 66 and rows[0]["left"] == "2:1" and rows[-1]["right"] == "2:3+b1+b2"
     assert sum(r["relation"] == "indistinguishable" for r in rows) == int(shown.split(" indistinguishable")[0].split()[-1])

@@ -88,7 +88,7 @@ def test_missing_catalogues_are_named():
 def test_look_up_in_any_order_and_bad_pairs():
     c = catalog(4)
     assert c.verdict(13, 11) == c.verdict(11, 13)
-    assert c.verdict(11, 13).decided_by == "7"
+    assert c.verdict(11, 13, View.EXACT).decided_by == "7"
     assert (c.verdict(28, 29).left, c.verdict(28, 29).right) == ("A28", "A29")
     for pair in ((1, 1), (0, 1), (1, 30), (-1, 2)):
         with pytest.raises(InputError, match="1 to 29"):
@@ -112,7 +112,7 @@ def test_tables_agree_with_the_verdicts():
 def test_csv_and_json_hold_every_pair():
     c = catalog(3)
     rows = c.to_csv().splitlines()
-    assert rows[0].startswith("left,right,relation,decided_by,representation,certainty,error_bound,domain,inclusion,")
+    assert rows[0].startswith("left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,")
     assert rows[0].endswith(",left_positive,right_positive")
     assert len(rows) == 1 + 55
     data = json.loads(c.to_json(View.TF))
@@ -131,7 +131,7 @@ def test_writing_leaves_no_partial_files(tmp_path):
 )
 def test_the_exact_decision_leaves_nothing_open(n, damped, left_open):
     c = catalog(n, damped=damped)
-    counts = c.counts()
+    counts = c.counts(View.EXACT)
     assert counts[""] == left_open
     assert counts["exact"] == c.counts(View.COMBINED)[""] - left_open
 
@@ -139,7 +139,7 @@ def test_the_exact_decision_leaves_nothing_open(n, damped, left_open):
 def test_what_the_exact_decision_says_and_how_surely():
     c = catalog(3, damped=True)
     assert c.verdict(1, 11, View.COMBINED).relation is Relation.UNDECIDED
-    dual, apart = c.verdict(1, 11), c.verdict(1, 6)
+    dual, apart = c.verdict(1, 11, View.EXACT), c.verdict(1, 6, View.EXACT)
     assert (dual.relation, dual.decided_by, dual.certainty) == (Relation.INDISTINGUISHABLE, "exact", "theorem")
     assert (apart.relation, apart.certainty) == (Relation.DISTINGUISHABLE, "bounded")
     assert apart.safety >= 100

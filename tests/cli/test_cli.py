@@ -26,7 +26,10 @@ def test_compare_explains_one_pair():
 
 def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
     shipped = json.loads(disting("compare", "3:2", "3:5", "--json").stdout)
-    assert (shipped["relation"], shipped["decided_by"], shipped["certainty"]) == ("indistinguishable", "6", "theorem")
+    found = (shipped["relation"], shipped["decided_by"], shipped["certainty"], shipped["domain"])
+    assert found == ("indistinguishable", "admissible", "theorem", "positive")
+    paper = json.loads(disting("compare", "3:2", "3:5", "--domain", "complex", "--json").stdout)
+    assert (paper["relation"], paper["decided_by"], paper["domain"]) == ("indistinguishable", "6", "complex")
     computed = json.loads(disting("compare", "3:2", "3:5", "--json", "--sensor", "velocity").stdout)
     assert computed["relation"] == "indistinguishable"
     mixed = json.loads(disting("compare", "2:1", "3:1", "--json").stdout)
@@ -72,7 +75,9 @@ def test_verdicts_json_has_evidence(tmp_path):
     path = tmp_path / "v.json"
     done = disting("verdicts", 2, "--json", path)
     assert done.returncode == 0
-    assert "3 models, 3 pairs" in done.stdout
+    assert done.stdout.startswith(
+        "3 models, 3 pairs, over positive parameters: 2 distinguishable, 1 indistinguishable, 0 undecided\n"
+    )
     assert all(v["evidence"]["kind"] for v in json.loads(path.read_text())["verdicts"])
 
 
@@ -116,7 +121,7 @@ def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
 
 
 def test_the_exact_decision_settles_what_conditions_leave_open():
-    table = rows(disting("verdicts", 3, "--damped", "--csv", "-").stdout)
+    table = rows(disting("verdicts", 3, "--damped", "--domain", "complex", "--csv", "-").stdout)
     exact = {(int(r["left"]), int(r["right"])): r["relation"] for r in table if r["decided_by"] == "exact"}
     assert len(exact) == 6
     assert [pair for pair, relation in exact.items() if relation == "indistinguishable"] == [(1, 11)]
@@ -128,8 +133,9 @@ def test_the_exact_decision_settles_what_conditions_leave_open():
 
 
 def test_ranges_and_positive_parameters_are_told_both_ways():
-    done = disting("compare", "4:2", "4:6", "--domain", "positive").stdout.splitlines()
+    done = disting("compare", "4:2", "4:6").stdout.splitlines()
     assert done[0] == "SOMETIMES"
+    assert done[-1] == "domain     positive parameters; over complex ones they are indistinguishable (--domain complex)"
     assert any("77 of 100 random points have one: empirically 68% to 84%" in line for line in done)
     apart = disting("compare", "3:6", "3:7", "--damped").stdout.splitlines()
     assert apart[-1].startswith("positive: A7 in A6 never. No generic positive parameters of A7")
@@ -139,6 +145,37 @@ def test_ranges_and_positive_parameters_are_told_both_ways():
     for wrong, says in (("k12=5", "written like"), ("x9=1..2", "no parameter"), ("k12=3..1", "not empty")):
         refused = disting("compare", "3:1", "3:4", "--range", wrong)
         assert refused.returncode == 2 and says in refused.stderr
+
+
+def test_a_verdict_is_over_positive_parameters_where_nothing_is_said_and_over_complex_ones_in_the_papers_view():
+    domains = {
+        (): "positive",
+        ("--domain", "real"): "real",
+        ("--domain", "complex"): "complex",
+        ("--conditions", "1-9"): "complex",
+    }
+    for given, domain in domains.items():
+        told = disting("compare", "4:3", "4:7", *given).stdout
+        assert f" over {domain} parameters (" in told and f"\ndomain     {domain} parameters" in told
+    table = rows(disting("verdicts", 3, "--representation", "tf", "--csv", "-").stdout)
+    assert {r["domain"] for r in table} == {"complex"}
+    refused = disting("compare", "4:3", "4:7", "--conditions", "1-9", "--domain", "positive")
+    assert refused.returncode == 2 and "--domain positive" in refused.stderr
+
+
+def test_verdicts_names_the_domain_and_what_depends_on_the_values():
+    told = disting("verdicts", 4).stdout.splitlines()
+    head = "29 models, 406 pairs, over positive parameters"
+    assert told[0] == f"{head}: 357 distinguishable, 48 indistinguishable, 1 sometimes, 0 undecided"
+    paper = disting("verdicts", 4, "--domain", "complex").stdout.splitlines()
+    assert paper[0] == "29 models, 406 pairs, over complex parameters: 357 distinguishable, 49 indistinguishable, 0 undecided"
+    assert paper[1].endswith("37 by condition 7, 9 by the exact decision")
+
+
+def test_the_rule_names_what_decided():
+    """A theorem is not called a fibre."""
+    assert "(exact decision, a theorem)" in disting("compare", "3:1", "3:11", "--damped", "--domain", "complex").stdout
+    assert "(exact decision, one fibre)" in disting("compare", "3:1", "3:6", "--damped").stdout
 
 
 def test_the_doctor_names_what_is_there():

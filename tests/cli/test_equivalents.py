@@ -29,7 +29,7 @@ def test_one_structure():
 def test_a_family():
     done = equivalents("3:4", "--to", 3, "--set", VALUES)
     assert done.returncode == 0
-    assert "3:2, 3:3, 3:5, 3:7, 3:9, 3:10: none exists: proven" in done.stdout
+    assert "3:2, 3:3, 3:5, 3:7, 3:9, 3:10: none exists, with positive parameters or any others: proven" in done.stdout
     assert "tells it from 3:1, 3:6, 3:8 or 3:11" in done.stdout
 
 
@@ -66,3 +66,10 @@ def test_bad_input_is_one_sentence(arguments, words):
     done = equivalents(*arguments)
     assert done.returncode == 2 and done.stdout == ""
     assert words in done.stderr and len(done.stderr.splitlines()) == 1 and done.stderr.startswith("disting: ")
+
+
+def test_the_last_sentence_says_among_what_it_was_looked_for():
+    done = equivalents("2:2+delay", "--to", 2, "--set", "m1=1,m2=2,k12=100,Td=0.01")
+    assert "2:1+delay: none exists, with positive parameters or any others: proven" in done.stdout
+    said = "No other of the 3 structures of 2 masses, undamped, with a dead time, looked at gives this transfer function with"
+    assert f"\n{said} positive values." in done.stdout

@@ -6,11 +6,12 @@ import pytest
 
 from disting import Certainty, Chain, Engine, Finding, Relation
 from disting.catalogs.damper_family import damper_family
+from disting.certainty import LEAST_SAFETY
 from disting.conditions import Outcome
 from disting.conditions.quick import QUICKLY
 from disting.conditions.structural import condition_8, condition_9
 from disting.engine.engine import question_key
-from disting.engine.grouping import LEAST_SAFETY, classes
+from disting.engine.grouping import classes
 
 ENGINE = Engine()
 

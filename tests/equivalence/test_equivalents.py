@@ -220,3 +220,28 @@ def test_a_list_that_lacks_what_is_at_the_boundary_is_not_called_complete():
     assert (listing.status, len(listing.members), listing.complete) == (Status.COMPLETE, 1, False)
     assert "near zero" in listing.sentence
     assert agree(found.chain, ones, listing.members[0])
+
+
+@pytest.mark.parametrize(("extra", "name"), [("lag", "T1"), ("delay", "Td")])
+def test_lag_and_dead_time_are_inherited(extra, name):
+    """They belong to the bench: all structures of a size have them too, and the one found by its name is found there."""
+    values = {"m1": 1, "m2": 2, "k12": 100, name: "0.01"}
+    found = equivalents(f"2:1+{extra}", values, "2")
+    assert [listing.name for listing in found.listings] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
+    (named,) = equivalents(f"2:1+{extra}", values, f"2:3+{extra}").listings
+    (short,) = equivalents(f"2:1+{extra}", values, "2:3").listings
+    assert short == named == found.listings[2]
+    (member,) = named.members
+    assert (member.signs, member.text["m1"], member.text["k01"]) == (Signs.POSITIVE, "1.5", "225")
+    assert [c.name for c in equivalents(f"2:1+{extra}", values, Family(2)).listings] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
+
+
+def test_a_chain_is_taken_as_it_is():
+    """Asked of a chain without a dead time, the answer is about that chain."""
+    (listing,) = equivalents("2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3]).listings
+    assert listing.members == () and listing.complete and "only one of them has a dead time" in listing.sentence
+
+
+def test_none_exists_says_over_which_parameters():
+    (listing,) = equivalents("2:2", {"m1": 1, "m2": 2, "k12": 100}, "2:1").listings
+    assert listing.sentence.startswith("none exists, with positive parameters or any others: proven (")

@@ -8,7 +8,7 @@ import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
 from disting.conditions.evidence import Counts
-from disting.inclusion import Sense, confirms, inclusion_finding
+from disting.inclusion import Sense, confirms, inclusions
 from disting.inclusion.across_sizes import by_sizes, exceeds, included, twins
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
 from disting.inclusion.finding import inclusion_from_json, inclusion_to_json
@@ -25,10 +25,17 @@ def subject(n, number, damped=False):
     return ENGINE.subject(f"{n}:{number}", Family(n, damped)[number])
 
 
+def limits(left, right):
+    """What is said of limits; of finite elements only what follows from it."""
+    both = inclusions(left, right)
+    assert both.image == both.closure or not both.image.is_known
+    return both.closure
+
+
 def found(sizes, damped):
     """Findings on all pairs of unequal rank."""
     pairs = product(*(subjects(n, damped) for n in sizes))
-    return {(a, b): inclusion_finding(a, b) for a, b in pairs if a.rank != b.rank}
+    return {(a, b): limits(a, b) for a, b in pairs if a.rank != b.rank}
 
 
 @pytest.mark.parametrize(
@@ -46,7 +53,6 @@ def test_every_pair_is_settled(sizes, damped, inside, outside):
     counts = Counter(f.inclusion for f in findings.values())
     assert counts == {k: n for k, n in ((Inclusion.LEFT_IN_RIGHT, inside), (Inclusion.NEITHER, outside)) if n}
     for (a, b), finding in findings.items():
-        assert finding.sense is (Sense.BOTH if finding.inclusion is Inclusion.NEITHER else Sense.CLOSURE)
         assert confirms(finding.evidence, a, b) and not confirms(finding.evidence, b, a)
         assert inclusion_from_json(inclusion_to_json(finding)) == finding
         assert a.name in finding.evidence.sentence(a.name, b.name) and finding.evidence.formula
@@ -65,9 +71,9 @@ def test_findings_turn_round_with_the_pair(damped):
     turned = {Inclusion.LEFT_IN_RIGHT: Inclusion.RIGHT_IN_LEFT}
     for a, b in product(subjects(3, damped), [subject(4, i, damped) for i in (1, 4, 10, 16, 23)]):
         if a.rank != b.rank:
-            there, back = inclusion_finding(a, b), inclusion_finding(b, a)
+            there, back = limits(a, b), limits(b, a)
             assert back.inclusion is turned.get(there.inclusion, there.inclusion)
-            assert (there.sense, there.certainty, there.safety) == (back.sense, back.certainty, back.safety)
+            assert (there.certainty, there.safety) == (back.certainty, back.safety)
             assert confirms(back.evidence, b, a)
 
 
@@ -86,7 +92,7 @@ def test_a_chain_grows_by_its_last_mass():
 
 
 def test_a_row_let_go_while_the_other_comes_to_rest():
-    evidence = inclusion_finding(subject(3, 3), subject(4, 23)).evidence
+    evidence = limits(subject(3, 3), subject(4, 23)).evidence
     assert evidence == Limit(False, (PartLimit("grounded", "free", (("k01", "0"),)),))
     assert evidence.formula == "grounded ⇒ free: k01 → 0"
     assert "the grounded row becomes the free one with k01 zero" in evidence.sentence("3:3", "4:23")
@@ -94,7 +100,7 @@ def test_a_row_let_go_while_the_other_comes_to_rest():
 
 def test_a_limit_by_a_theorem():
     """The free row of three is the same as a grounded row of two with a free mass, by duality."""
-    evidence = inclusion_finding(subject(3, 1, True), subject(4, 20, True)).evidence
+    evidence = limits(subject(3, 1, True), subject(4, 20, True)).evidence
     assert isinstance(evidence, Limit) and evidence.smaller == (3, 2, 2, 3, 2, 3)
     assert "3:1 being the same as the chain (3, 2, 2, 3, 2, 3)" in evidence.sentence("3:1", "4:20")
 
@@ -102,7 +108,7 @@ def test_a_limit_by_a_theorem():
 def test_a_row_by_a_count():
     """A free row of two masses, ports together, lies in that of three with ports apart, by dimensions."""
     small, large = subject(3, 6, True), subject(4, 10, True)
-    evidence = inclusion_finding(small, large).evidence
+    evidence = limits(small, large).evidence
     free = next(p for p in evidence.parts if p.wanted == "free")
     assert free == PartLimit("free", "free", (), (6, 8, 1, 1)) and free.formula == "6 + 1 + 1 ≥ 8"
     for false in (free._replace(room=(7, 8, 1, 1)), free._replace(room=()), free._replace(steps=(("k12", "∞"),))):
@@ -112,7 +118,7 @@ def test_a_row_by_a_count():
 
 def test_false_limits_are_refused():
     small, large = subject(3, 3), subject(4, 23)
-    true = inclusion_finding(small, large).evidence
+    true = limits(small, large).evidence
     part = true.parts[0]
     assert confirms(true, small, large)
     for parts in ((), (part, part), (part._replace(given="free"),), (part._replace(wanted="grounded"),)):
@@ -127,7 +133,7 @@ def test_false_limits_are_refused():
 
 def test_false_counts_are_refused():
     small, large = subject(2, 1), subject(3, 7)
-    true = inclusion_finding(small, large).evidence
+    true = limits(small, large).evidence
     assert true == Meeting(False, 4, 6, 2, False) and true.formula == "4 + 2 ≥ 6" and confirms(true, small, large)
     for false in ({"rank": 5}, {"coordinates": 5}, {"factors": 3}, {"same_mass": True}, {"left_is_larger": True}):
         assert not confirms(replace(true, **false), small, large)
@@ -139,7 +145,7 @@ def test_false_counts_are_refused():
 def test_a_limit_and_then_a_fibre(number):
     """The grounded row is let go: two free rows, one of negative mass, are a free and a grounded one."""
     small, large = subject(3, 6, True), subject(4, number, True)
-    finding, turned = inclusion_finding(small, large), inclusion_finding(large, small)
+    finding, turned = limits(small, large), limits(large, small)
     assert (finding.inclusion, turned.inclusion) == (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
     assert isinstance(finding.evidence, LimitFibre) and finding.safety >= 100
     assert finding.evidence.steps == (("grounded", (("k01", "0"),)), ("free", ()))
@@ -154,8 +160,8 @@ def test_a_limit_and_then_a_fibre(number):
 
 def test_more_zeros_refute():
     small, large = subject(3, 1, True), subject(4, 4, True)
-    finding = inclusion_finding(small, large)
-    assert (finding.inclusion, finding.sense, finding.certainty) == (Inclusion.NEITHER, Sense.BOTH, "proven")
+    finding = limits(small, large)
+    assert (finding.inclusion, finding.certainty) == (Inclusion.NEITHER, "proven")
     assert finding.evidence == Counts((4, 4), (3, 6)) and confirms(finding.evidence, small, large)
     assert not confirms(Counts((4, 4), (4, 6)), small, large)
 
@@ -163,11 +169,11 @@ def test_more_zeros_refute():
 def test_larger_ranks_refute():
     """Four masses with force and sensor together have 7 parameters, five with ports 1 and 2 apart in the rows only 6."""
     small, large = ENGINE.subject("4:1", Chain(4)), ENGINE.subject("5", Chain(5, 2, 1, 3, 2, 5))
-    finding = inclusion_finding(small, large)
+    finding = limits(small, large)
     assert (finding.inclusion, finding.evidence) == (Inclusion.NEITHER, TooLarge(7, 6))
     assert finding.safety >= 100 and confirms(finding.evidence, small, large)
     assert not confirms(TooLarge(7, 5), small, large) and not confirms(TooLarge(6, 7), small, large)
-    assert inclusion_finding(large, small).evidence == TooLarge(6, 7)
+    assert limits(large, small).evidence == TooLarge(6, 7)
 
 
 def test_as_many_poles_are_left_open():
@@ -182,7 +188,7 @@ def test_as_many_poles_are_left_open():
 def test_a_large_common_factor_is_refuted_too():
     """Three masses fewer, but the grounded mass can share one pole only."""
     small, large = subject(3, 1), ENGINE.subject("6", Chain(6, 1, 1, 2, 1, 6))
-    finding = inclusion_finding(small, large)
+    finding = limits(small, large)
     assert finding.inclusion is Inclusion.NEITHER and finding.certainty == "proven" and confirms(finding.evidence, small, large)
 
 
@@ -190,7 +196,7 @@ def test_a_large_common_factor_is_refuted_too():
 def test_undamped_models_of_up_to_six_masses():
     models = [s for n in range(1, 7) for s in subjects(n)]
     pairs = [(a, b) for a, b in product(models, repeat=2) if a.chain.n_masses < b.chain.n_masses and a.rank != b.rank]
-    counts = Counter(inclusion_finding(a, b).inclusion for a, b in pairs)
+    counts = Counter(limits(a, b).inclusion for a, b in pairs)
     assert counts == {Inclusion.LEFT_IN_RIGHT: 15484, Inclusion.NEITHER: 4403}
 
 
@@ -209,10 +215,10 @@ def test_inclusion_is_transitive_across_sizes(damped):
     inside, apart = set(), set()
     for i, j in product(range(len(models)), repeat=2):
         low, high = min(i, j), max(i, j)
-        inclusion, finding = decided.inclusion(low, high), decided.inclusions.get((low, high))
+        inclusion = decided.inclusion(low, high, Sense.CLOSURE)
         if i != j and inclusion in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT):
             inside.add((i, j))
-        elif inclusion is Inclusion.NEITHER and (finding is None or finding.sense is Sense.BOTH):
+        elif inclusion is Inclusion.NEITHER:
             apart.add((i, j))
     assert not [(i, j, k) for i, j in inside for k in range(len(models)) if (j, k) in inside and (i, k) in apart]
     assert len(inside) > 100 and len(apart) > 20
@@ -221,7 +227,7 @@ def test_inclusion_is_transitive_across_sizes(damped):
 def test_compare_says_the_same_as_a_matrix():
     small, large = Family(2, damped=True)[1], Family(3, damped=True)[4]
     verdict, turned = compare(small, large, engine=ENGINE), compare(large, small, engine=ENGINE)
-    assert verdict.inclusion is Inclusion.LEFT_IN_RIGHT and turned.inclusion is Inclusion.RIGHT_IN_LEFT
-    assert verdict.inclusion_finding == inclusion_finding(subject(2, 1, True), subject(3, 4, True))
+    assert verdict.closure is Inclusion.LEFT_IN_RIGHT and turned.closure is Inclusion.RIGHT_IN_LEFT
+    assert verdict.inclusions.closure == limits(subject(2, 1, True), subject(3, 4, True))
     refused = compare(Family(3)[2], Family(4)[10], engine=ENGINE)
-    assert refused.inclusion is Inclusion.NEITHER and isinstance(refused.inclusion_finding.evidence, PoleSharing)
+    assert refused.closure is Inclusion.NEITHER and isinstance(refused.inclusions.closure.evidence, PoleSharing)

@@ -6,17 +6,22 @@ from itertools import combinations, permutations
 import pytest
 
 from disting import Engine, Family, Query, Relation, View, compare
+from disting.certainty import Certainty
 from disting.conditions.evidence import Counts
-from disting.ideals import Vanishing, coefficient_map
+from disting.ideals import Vanishing, coefficient_map, included_by_parts, refuted_by_parts
 from disting.inclusion import (
     Inclusion,
+    InclusionFinding,
+    Inclusions,
     Sense,
     confirms,
-    inclusion_finding,
-    inclusion_from_dict,
-    inclusion_to_dict,
+    inclusions,
+    inclusions_from_dict,
+    inclusions_to_dict,
 )
-from disting.inclusion.finding import FullImage, LargerProjection, RelativeDegrees
+from disting.inclusion.decide import CLOSURE_LIMITS
+from disting.inclusion.evidence import FullImage, LargerProjection, RelativeDegrees
+from disting.inclusion.outside_evidence import Outside, PartsInside, Why
 from disting.inclusion.profiles import by_relative_degrees, part_falls
 from disting.model.chain import Chain, Sensor
 
@@ -33,37 +38,106 @@ def unequal(n, damped):
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_findings_turn_round_with_the_pair_and_evidence_holds(damped):
-    turned = {Inclusion.LEFT_IN_RIGHT: Inclusion.RIGHT_IN_LEFT, Inclusion.RIGHT_IN_LEFT: Inclusion.LEFT_IN_RIGHT}
     for a, b in unequal(3, damped):
-        there, back = inclusion_finding(a, b), inclusion_finding(b, a)
-        assert back.inclusion is turned.get(there.inclusion, there.inclusion)
-        assert (there.sense, there.certainty, there.safety) == (back.sense, back.certainty, back.safety)
-        assert inclusion_from_dict(inclusion_to_dict(there)) == there
-        for found, pair in ((there, (a, b)), (back, (b, a))):
-            if found.evidence is not None:
-                assert confirms(found.evidence, *pair)
-                assert found.evidence.sentence("L", "R") and found.evidence.formula
-        smaller = Inclusion.LEFT_IN_RIGHT if a.rank < b.rank else Inclusion.RIGHT_IN_LEFT
-        assert there.inclusion in (smaller, Inclusion.NEITHER, Inclusion.UNKNOWN)
+        both, reverse = inclusions(a, b), inclusions(b, a)
+        assert inclusions_from_dict(inclusions_to_dict(both)) == both and both.sentence("L", "R")
+        for there, back in ((both.image, reverse.image), (both.closure, reverse.closure)):
+            assert back.inclusion is there.inclusion.turned
+            assert (there.certainty, there.safety) == (back.certainty, back.safety)
+            for found, pair in ((there, (a, b)), (back, (b, a))):
+                if found.evidence is not None:
+                    assert confirms(found.evidence, *pair)
+                    assert found.evidence.sentence("L", "R") and found.evidence.formula
+            smaller = Inclusion.LEFT_IN_RIGHT if a.rank < b.rank else Inclusion.RIGHT_IN_LEFT
+            assert there.inclusion in (smaller, Inclusion.NEITHER, Inclusion.UNKNOWN)
 
 
 def test_the_damped_model_7_lies_in_6_and_in_no_other():
     models = subjects(3, True)
-    found = {i: inclusion_finding(models[6], models[i - 1]).inclusion for i in range(1, 12) if models[i - 1].rank == 7}
-    assert [i for i, inclusion in found.items() if inclusion is Inclusion.LEFT_IN_RIGHT] == [6]
-    assert inclusion_finding(models[6], models[5]).certainty == "bounded"
+    found = {i: inclusions(models[6], models[i - 1]).closure for i in range(1, 12) if models[i - 1].rank == 7}
+    assert [i for i, f in found.items() if f.inclusion is Inclusion.LEFT_IN_RIGHT] == [6]
+    assert all(f.certainty == "proven" or isinstance(f.evidence, LargerProjection) for f in found.values())
 
 
 def test_a_full_image_holds_every_smaller_one_in_its_closure():
     models = subjects(3, False)
-    found = inclusion_finding(models[1], models[0])
-    assert (found.inclusion, found.sense) == (Inclusion.LEFT_IN_RIGHT, Sense.CLOSURE)
+    found = inclusions(models[1], models[0]).closure
+    assert found.inclusion is Inclusion.LEFT_IN_RIGHT
     assert found.evidence == FullImage(False, 5, ("b0", "b2", "b4", "a0", "a2"))
+
+
+def test_finite_elements_and_limits_are_two_answers():
+    """Three masses with dampers: model 3 has no equivalent in model 2, all elements finite, but is a limit of such models."""
+    three, two, one = (subjects(3, True)[k] for k in (2, 1, 0))
+    both = inclusions(three, two)
+    assert (both.image.inclusion, both.closure.inclusion) == (Inclusion.NEITHER, Inclusion.LEFT_IN_RIGHT)
+    assert isinstance(both.image.evidence, RelativeDegrees) and isinstance(both.closure.evidence, PartsInside)
+    assert "limit of models A2" in both.sentence("A3", "A2") and "no finite element values" in both.sentence("A3", "A2")
+    neither = inclusions(three, one)
+    assert neither.image == neither.closure and neither.closure.inclusion is Inclusion.NEITHER
+
+
+def test_evidence_on_finite_elements_says_nothing_of_limits():
+    falls = InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=RelativeDegrees(False, 4, 2))
+    full = InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, 100, FullImage(False, 5, ("b0",)))
+    unknown = InclusionFinding(Inclusion.UNKNOWN, reason="not tried")
+    assert "whether limits do" in Inclusions(falls, unknown).sentence("L", "R")
+    assert "whether finite element values do is not known" in Inclusions(unknown, full).sentence("L", "R")
+    for image, closure in (
+        (falls, falls),
+        (full, full),
+        (unknown, falls),
+        (unknown, replace(falls, evidence=Outside(True, ()))),
+    ):
+        with pytest.raises(ValueError):
+            Inclusions(image, closure)
+
+
+@pytest.mark.parametrize(("n", "damped", "unknown"), [(3, False, 0), (3, True, 0), (4, False, 0), (4, True, 6)])
+def test_limits_that_are_not_known(n, damped, unknown):
+    found = [inclusions(a, b) for a, b in unequal(n, damped)]
+    assert sum(not both.closure.is_known for both in found) == unknown
+    for both in found:
+        assert both.closure.is_known or both.image.inclusion is Inclusion.NEITHER
+        grades = {f.certainty for f in (both.image, both.closure) if isinstance(f.evidence, Outside | PartsInside)}
+        assert grades <= {"proven", "bounded"} and all(f.safety >= 100 for f in (both.image, both.closure) if f.safety)
+
+
+def test_the_closures_of_three_damped_masses_are_proven():
+    """All but those that rest on ranks of projections; of 13 that are no equivalents, 2 are limits."""
+    models, found = subjects(3, True), {}
+    for i, j in ((3, 1), (7, 1), (3, 2), (3, 4), (3, 5), (3, 6), (3, 8), (3, 9), (3, 10), (3, 11), (7, 4), (7, 8), (7, 11)):
+        both = inclusions(models[i - 1], models[j - 1])
+        assert both.image.inclusion is Inclusion.NEITHER and both.closure.certainty == "proven"
+        found[i, j] = both.closure.inclusion
+    assert [pair for pair, inclusion in found.items() if inclusion is Inclusion.LEFT_IN_RIGHT] == [(3, 2), (3, 5)]
+
+
+def test_false_parts_are_refused():
+    seven, one, two, three = (subjects(3, True)[k] for k in (6, 0, 1, 2))
+    outside = inclusions(seven, one).closure.evidence
+    (step,) = outside.steps
+    assert step.why is Why.RESULTANT and confirms(outside, seven, one)
+    inside = inclusions(three, two).closure.evidence
+    assert confirms(inside, three, two) and not confirms(inside, two, three)
+    for false in (
+        replace(outside, left_given=False),
+        replace(outside, steps=()),
+        replace(outside, steps=(step, step)),
+        replace(outside, steps=(step._replace(why=Why.COEFFICIENT, detail="b4"),)),
+        replace(outside, steps=(step._replace(why=Why.RANK, detail="7 > 6"),)),
+        replace(outside, steps=(step._replace(split="same"),)),
+        PartsInside(True, (step._replace(why=Why.FULL),)),
+        PartsInside(True, (step,)),
+    ):
+        assert not confirms(false, seven, one)
+    assert not confirms(replace(outside, steps=inside.steps), three, two)
+    assert not confirms(PartsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
 
 
 def test_false_evidence_is_refused():
     one, two = subjects(3, False)[:2]
-    true = inclusion_finding(two, one).evidence
+    true = inclusions(two, one).closure.evidence
     assert confirms(true, two, one)
     assert not confirms(replace(true, left_is_larger=True), two, one)
     assert not confirms(replace(true, free=true.free[1:], rank=4), two, one)
@@ -73,7 +147,7 @@ def test_false_evidence_is_refused():
 
 def test_false_evidence_of_parts_is_refused():
     seven, six = (subjects(3, True)[k] for k in (6, 5))
-    solved = inclusion_finding(seven, six).evidence
+    solved = included_by_parts(*(s.chain.structure for s in (seven, six)), "test", CLOSURE_LIMITS).evidence
     assert solved.is_member and confirms(solved, seven, six) and not confirms(replace(solved, left_given=False), seven, six)
     first, second = solved.steps
     spoiled = tuple(tuple(x + 1 for x in q) for q in second.shown.solutions)
@@ -85,19 +159,18 @@ def test_false_evidence_of_parts_is_refused():
 
 def test_false_refutations_of_parts_are_refused():
     small, large = (ENGINE.subject("", Chain(3, *ports, damped=True)) for ports in ((0, 0, 1, 0, 3), (2, 2, 3, 2, 3)))
-    found = inclusion_finding(small, large)
-    assert (found.inclusion, found.sense) == (Inclusion.NEITHER, Sense.IMAGE)
-    (step,) = found.evidence.steps
-    assert isinstance(step.shown, Vanishing) and found.certainty == "proven" and confirms(found.evidence, small, large)
+    evidence = refuted_by_parts(*(s.chain.structure for s in (small, large)), "test")
+    (step,) = evidence.steps
+    assert isinstance(step.shown, Vanishing) and confirms(evidence, small, large)
     for index in (0, 1, step.shown.index + 1, step.shown.index + 2):
-        assert not confirms(replace(found.evidence, steps=(replace(step, shown=Vanishing(index)),)), small, large)
-    assert not confirms(replace(found.evidence, steps=()), small, large)
+        assert not confirms(replace(evidence, steps=(replace(step, shown=Vanishing(index)),)), small, large)
+    assert not confirms(replace(evidence, steps=()), small, large)
 
 
 def test_false_relative_degrees_are_refused():
     small, large = (ENGINE.subject("", Chain(4, *ports)) for ports in ((2, 1, 3, 2, 4), (2, 2, 3, 2, 4)))
-    found = inclusion_finding(small, large)
-    assert (found.inclusion, found.sense, found.certainty) == (Inclusion.NEITHER, Sense.IMAGE, "proven")
+    found = inclusions(small, large).image
+    assert (found.inclusion, found.certainty) == (Inclusion.NEITHER, "proven")
     assert found.evidence == RelativeDegrees(False, 4, 2) and confirms(found.evidence, small, large)
     for false in (replace(found.evidence, left_is_larger=True), replace(found.evidence, right=3)):
         assert not confirms(false, small, large)
@@ -121,15 +194,17 @@ def test_a_lag_on_one_side_is_no_refutation():
 
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
 def test_no_inclusion_of_small_classes_is_unknown(n, damped):
-    assert all(inclusion_finding(a, b).inclusion is not Inclusion.UNKNOWN for a, b in unequal(n, damped))
+    assert all(inclusions(a, b).closure.is_known for a, b in unequal(n, damped))
 
 
 def test_verdicts_tell_it():
     family = Family(3, damped=True)
-    assert compare(family[6], family[7]).inclusion is Inclusion.RIGHT_IN_LEFT
-    assert compare(family[1], family[11]).inclusion is Inclusion.EQUAL
-    assert compare(family[1], family[6]).inclusion is Inclusion.NEITHER
-    assert compare(family[6], family[7], query=Query(View.COMBINED)).inclusion is Inclusion.UNKNOWN
+    assert compare(family[6], family[7]).closure is Inclusion.RIGHT_IN_LEFT
+    for found in (compare(family[1], family[11]), compare(family[1], family[6])):
+        assert found.image is found.closure
+    assert compare(family[1], family[11]).closure is Inclusion.EQUAL
+    assert compare(family[1], family[6]).closure is Inclusion.NEITHER
+    assert compare(family[6], family[7], query=Query(View.COMBINED)).closure is Inclusion.UNKNOWN
 
 
 def test_families_tell_it_as_pairs_do():
@@ -137,15 +212,16 @@ def test_families_tell_it_as_pairs_do():
     decided = ENGINE.decisions(family, Query())
     for i, j in combinations(range(len(family)), 2):
         one = compare(family[i].chain, family[j].chain, engine=ENGINE)
-        assert decided.verdict(i, j).inclusion is one.inclusion is decided.inclusion(i, j)
-        assert decided.verdict(i, j).inclusion_finding == one.inclusion_finding
-        assert (one.inclusion is Inclusion.EQUAL) == (one.relation is Relation.INDISTINGUISHABLE)
+        assert decided.verdict(i, j).image is one.image is decided.inclusion(i, j, Sense.IMAGE)
+        assert decided.verdict(i, j).closure is one.closure is decided.inclusion(i, j, Sense.CLOSURE)
+        assert decided.verdict(i, j).inclusions == one.inclusions
+        assert (one.closure is Inclusion.EQUAL) == (one.relation is Relation.INDISTINGUISHABLE)
 
 
 def test_equal_ranks_are_left_to_the_verdict():
     family = subjects(3, True)
     with pytest.raises(ValueError, match="equal rank"):
-        inclusion_finding(family[0], family[5])
+        inclusions(family[0], family[5])
 
 
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
@@ -155,11 +231,10 @@ def test_inclusion_is_transitive(n, damped):
     decided = ENGINE.decisions(models, Query())
     inside, apart = set(), set()
     for i, j in permutations(range(len(models)), 2):
-        found = decided.inclusions.get((min(i, j), max(i, j)))
-        inclusion = decided.inclusion(min(i, j), max(i, j))
+        inclusion = decided.inclusion(min(i, j), max(i, j), Sense.CLOSURE)
         if inclusion is Inclusion.EQUAL or inclusion is (Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT):
             inside.add((i, j))
-        elif inclusion is Inclusion.NEITHER and (found is None or found.sense is Sense.BOTH):
+        elif inclusion is Inclusion.NEITHER:
             apart.add((i, j))
     assert not [(i, j, k) for i, j in inside for k in range(len(models)) if (j, k) in inside and (i, k) in apart]
     assert inside and apart

@@ -13,8 +13,9 @@ from disting.algebra.matroid import rank_in
 from disting.algebra.sampling import Size, prime, safety
 from disting.invariants.codec import profile_from_json, profile_to_json
 from disting.invariants.expanded import expanded
+from disting.invariants.powers import degrees, is_sign_free
 from disting.invariants.profile import Unsearched, from_samples, minor_size, profile, samples
-from disting.invariants.sample import Representation
+from disting.invariants.sample import Representation, drawn
 from tests.conditions.handmade import LARGE, SMALL, sample
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin
@@ -81,10 +82,12 @@ def test_all_constant_markov_parameters_of_short_chains_are_proven(chain):
     assert p.proven_zeros == set(p.labels) - p.form
 
 
-def test_nothing_is_proven_zero_where_terms_may_cancel():
-    """Without a gap, force and sensor references lie in one block with both signs."""
+def test_zeros_are_known_exactly_where_terms_may_cancel():
+    """Without a gap, force and sensor references lie in one block with both signs: there the polynomials are written out."""
     whole = Chain(4, 1, 1, 3, 1, 3).structure.united(Chain(4, 2, 1, 3, 1, 3).structure)
-    assert profile(whole, TF, 0, Settings()).proven_zeros == frozenset()
+    found, table = profile(whole, TF, 0, Settings()), expanded(whole).table()
+    assert not is_sign_free(whole)
+    assert found.proven_zeros == {label for label, text in table.items() if text == "0"} == set(found.labels) - found.form
 
 
 def test_an_undamped_chain_has_every_other_markov_parameter_zero():
@@ -216,3 +219,17 @@ def test_symmetric_chains_share_one_profile():
     left, right = (ENGINE.subject("", Family(3, damped=True)[i]) for i in (2, 5))
     assert left.chain != right.chain
     assert left.profile(TF, 0) is right.profile(TF, 0)
+
+
+# --- degrees ---------------------------------------------------------------------------------------------------------
+
+
+@quick
+@given(chains(max_masses=4), st.integers(0, 10**6))
+def test_degrees_do_not_depend_on_the_luck_of_a_point(chain, seed):
+    """Modulo primes of 9 bits special points are frequent: they are drawn again, so the degrees are always the generic ones."""
+    table = expanded(replace(chain, dead_time=False).structure).table()
+    expected = tuple(max(int(x[1:]) for x, text in table.items() if x[0] == letter and text != "0") for letter in "ba")
+    assert degrees(chain.structure) == expected
+    where = drawn(chain.structure, f"small:{seed}", 9)
+    assert (where.quotient.num.degree(), where.quotient.den.degree()) == expected

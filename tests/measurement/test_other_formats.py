@@ -115,6 +115,30 @@ def test_matlab_7_3_files_of_h5py(tmp_path):
         read(path, response="settings")
 
 
+def test_matlab_7_3_files_that_lead_out_of_themselves_are_not_followed(tmp_path):
+    """A stranger's file could have had any file of the machine read as its numbers."""
+    h5py = pytest.importorskip("h5py")
+    path, secret = tmp_path / "a.mat", tmp_path / "secret"
+    secret.write_bytes(np.arange(12.0).tobytes())
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["G"] = np.arange(12.0)
+    with h5py.File(path, "w", userblock_size=512) as file:
+        file["f"] = FREQUENCY
+        file.create_dataset("G", (12,), "f8", external=[(str(secret), 0, 96)])
+        file["H"] = h5py.ExternalLink(str(tmp_path / "other.h5"), "G")
+        layout = h5py.VirtualLayout((12,), "f8")
+        layout[:] = h5py.VirtualSource(str(tmp_path / "other.h5"), "G", (12,))
+        file.create_virtual_dataset("FRF", layout)
+    with path.open("r+b") as stream:
+        stream.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64")
+    with pytest.raises(InputError, match="values of G are kept in another file"):
+        read(path, response="G")
+    with pytest.raises(InputError, match="values of FRF are kept in another file"):
+        read(path, response="FRF")
+    with pytest.raises(InputError, match="has no variable 'H'; variables: FRF, G, f"):
+        read(path, response="H")
+
+
 def test_universal_files_of_pyuff(tmp_path):
     pyuff = pytest.importorskip("pyuff")
     path = tmp_path / "a.uff"

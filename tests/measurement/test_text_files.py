@@ -18,6 +18,7 @@ from disting.measurement import (
     series_from_frame,
     write_csv,
 )
+from disting.measurement.text_table import table
 from disting.model.chain import Sensor
 
 FREQUENCY = np.arange(1.0, 13.0)
@@ -274,3 +275,9 @@ def test_parts_in_blocks_or_given_twice(tmp_path):
 def test_a_comment_of_three_words_is_no_header(tmp_path):
     path = written(tmp_path / "a.txt", ["# measured on Monday", *lines(ROWS, " ")])
     assert np.array_equal(read(path).G, G) and "no header" in read(path).notes[0]
+
+
+def test_a_cell_of_many_digits_is_refused_at_once():
+    """Matching took quadratic time: over two minutes for 40,000 digits. A hundred times as many are read here."""
+    with pytest.raises(InputError, match="is no number"):
+        table("f,re,im\n" + "1,2,3\n" * 20 + "1" * 4_000_000 + "x,1,2\n", "long.csv")

@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from disting import Certainty, Query, Relation, View
-from disting.conditions.evidence import Renaming
+from disting.conditions.evidence import NoEquivalent, Renaming
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
-from disting.parametric import Model, Witnesses, alternatives, compare, confirms
+from disting.parametric import Model, Witnesses, alternatives, compare, confirms, is_explicit, is_without
 from disting.parametric.admissible import points
 
 IRREVERSIBLE = Model.from_state_space([["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible")
@@ -25,7 +25,7 @@ def over(view, left, right):
 @pytest.mark.parametrize("view", [View.REAL, View.POSITIVE])
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_two_compartments_agree_for_some_rates_only(view, left, right):
-    assert compare(left, right).relation is Relation.INDISTINGUISHABLE
+    assert over(View.EXACT, left, right).relation is Relation.INDISTINGUISHABLE
     verdict = over(view, left, right)
     assert (verdict.relation, verdict.certainty) == (Relation.SOMETIMES, Certainty.PROVEN)
     evidence = verdict.evidence
@@ -65,17 +65,61 @@ def test_a_shift_is_a_bijection_of_the_reals_and_none_of_the_positive_numbers():
     assert positive.relation is Relation.SOMETIMES and positive.evidence.without_left_given
     assert confirms(positive.evidence, SQUARE, SHIFTED)
     real = over(View.REAL, SQUARE, SHIFTED)
-    assert real.relation is Relation.UNDECIDED
-    assert "found at 60 of 60 random points of square and at 60 of 60 random points of shifted" in real.sentence
+    assert (real.relation, real.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+    assert is_explicit(real.evidence, SQUARE, SHIFTED) and "k = k - 1" in real.sentence
 
 
 def test_special_points_are_no_witnesses():
-    """(s + a)(s + b) against a, a + 1/c: a = b has no equivalent, which is no open set, and the points avoid nothing."""
+    """(s + a)(s + b) against a, a + c: a = b has no equivalent, which is no open set; all other a, b have one."""
     pair = Model.from_transfer_function("1", "(s + a)*(s + b)", name="pair")
     apart = Model.from_transfer_function("1", "(s + a)*(s + a + c)", name="apart")
     verdict = over(View.POSITIVE, pair, apart)
-    assert verdict.relation is Relation.UNDECIDED
+    assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+    assert is_explicit(verdict.evidence, pair, apart)
     assert alternatives(pair, {"a": 2, "b": 2}, apart).exist(Domain.POSITIVE) is Outcome.FAILS
+
+
+def test_a_point_whose_equivalents_are_zero_is_no_witness():
+    """(a - 1)^2 = u v: a = 1 alone has no positive u, v."""
+    square = Model.from_transfer_function(["(a - 1)**2"], [1, 1], name="square")
+    product = Model.from_transfer_function(["u*v"], [1, 1], name="product")
+    verdict = over(View.POSITIVE, square, product)
+    assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+    assert is_explicit(verdict.evidence, square, product)
+
+
+def test_points_where_a_curve_meets_itself_are_no_witnesses():
+    """The curve of t and the same one at t = -u: for positive parameters they meet in single points only."""
+
+    def curve(t):
+        return Model.from_transfer_function([f"(({t})**2-1)*(5*({t})-18)", f"(({t})**2-1)*(({t})-2)*(({t})-3)"], [1, 1, 1])
+
+    one, other = curve("t"), curve("-u")
+    assert compare(one, other).relation is Relation.INDISTINGUISHABLE
+    verdict = over(View.POSITIVE, one, other)
+    assert (verdict.relation, verdict.certainty) == (Relation.DISTINGUISHABLE, Certainty.PROVEN)
+    assert is_without(verdict.evidence, one, other)
+    assert alternatives(one, {"t": 1}, other).exist(Domain.POSITIVE) is Outcome.HOLDS
+
+
+def test_opposite_signs_never_agree():
+    one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["-b"], [1, 1])
+    assert compare(one, other).relation is Relation.INDISTINGUISHABLE
+    verdict = over(View.POSITIVE, one, other)
+    assert (verdict.relation, verdict.certainty) == (Relation.DISTINGUISHABLE, Certainty.PROVEN)
+    assert over(View.REAL, one, other).relation is Relation.INDISTINGUISHABLE
+
+
+def test_evidence_is_refused_where_it_is_not_true():
+    square, product = Model.from_transfer_function(["(a-1)**2"], [1, 1]), Model.from_transfer_function(["u*v"], [1, 1])
+    evidence = over(View.POSITIVE, square, product).evidence
+    assert is_explicit(evidence, square, product) and not is_explicit(evidence, product, square)
+    left_given, where, values, root = evidence.formulas[0]
+    wrong = replace(
+        evidence, formulas=((left_given, where, ((values[0][0], "a + 1"), *values[1:]), root), *evidence.formulas[1:])
+    )
+    assert not is_explicit(wrong, square, product)
+    assert not is_without(NoEquivalent("positive", True, ("q0",)), square, product)
 
 
 def test_families_have_members_or_are_excluded():

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from disting import Chain, Family, InputError
+from disting import Certainty, Chain, Family, InputError
 from disting.positivity import PositiveFinding, Share, confirms_within, ranges, within_ranges
 from disting.positivity.evidence import BoxMap, Points
 from disting.positivity.points import random_point, read
@@ -109,3 +109,40 @@ def test_bad_ranges(bounds):
 def test_unknown_names():
     with pytest.raises(InputError, match="k99"):
         within_ranges(Chain(2), Chain(2), ranges({"k99": (1, 2)}, {}))
+
+
+def test_a_short_point_is_no_witness():
+    """24 bits cannot tell m1 from 1 in this range: one point of twenty has m1 = 1, all other models have another m1."""
+    chain, narrow = Chain(2, damped=True), ranges({"m1": (1, "4194305/4194304")}, {"m1": (1, 1)})
+    found = within_ranges(chain, chain, narrow)
+    assert found.share is Share.UNKNOWN and found.empirical.hits == 1
+    at_one = tuple((name, "1") for name in chain.parameters)
+    other = (("m1", "4194305/4194304"), *at_one[1:])
+    assert not confirms_within(Points(at_one, other), chain, chain, narrow)
+
+
+def test_what_is_found_rests_on_long_points_and_says_how_surely():
+    """Listed solutions are bounded, words are exact; each free coordinate of a witness has 100 bits at least."""
+    damped, box = (D3[1], D3[11]), ranges({}, {"m1": ("0.5", 5)})
+    found = within_ranges(*damped, box)
+    assert (found.share, found.certainty) == (Share.SOMETIMES, Certainty.BOUNDED) and found.safety >= 100
+    for values in (found.evidence.with_one, found.evidence.without):
+        assert all(max(int(part).bit_length() for part in text.split("/")) >= 100 for _, text in values)
+    six, two = Family(4)[6], Family(4)[2]
+    exact = within_ranges(six, two, ranges({"m1": (1, 2)}, {"m1": ("1e-9", "1e9")}))
+    assert (exact.share, exact.certainty) == (Share.SOMETIMES, Certainty.PROVEN)
+
+
+def test_a_witness_on_the_edge_of_a_range_proves_nothing_near_by():
+    """m1 of the equivalent is m1 itself: at the end of the other range half of the models near by have none."""
+    chain, box = D3[1], ranges({"m1": (1, 2)}, {"m1": (1, "3/2")})
+    found = within_ranges(chain, chain, box)
+    assert found.share is Share.SOMETIMES and confirms_within(found.evidence, chain, chain, box)
+    edge = tuple((name, "3/2" if name == "m1" else text) for name, text in found.evidence.with_one)
+    assert not confirms_within(Points(edge, found.evidence.without), chain, chain, box)
+
+
+def test_a_parameter_that_both_ranges_fix_may_sit_on_the_edge():
+    box = ranges({"m1": (1, 1)}, {"m1": (1, 1), "k12": (1, 2)})
+    found = within_ranges(D3[1], D3[1], box)
+    assert found.share is Share.SOMETIMES and confirms_within(found.evidence, D3[1], D3[1], box)

@@ -74,9 +74,9 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
 def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.mouse.click(**_place(tab, 2, 5))
-    assert "positive equivalents" in tab.inner_text("#detail .badges")
+    assert "over complex parameters (condition 6" in tab.inner_text("#detail .badges")
     tab.mouse.click(**_place(tab, 5, 2))
-    assert "condition 6" in tab.inner_text("#detail .badges")
+    assert "over positive parameters (equivalents with positive parameters)" in tab.inner_text("#detail .badges")
     tab.select_option("#below", "tf")
     tab.mouse.click(**_place(tab, 4, 1))
     assert tab.inner_text("#detail .badge") == "undecided"

@@ -83,7 +83,8 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog) -> None:
     for left, right, verdict in shipped.pairs(View.MARKOV):
         place = (right - 1) * (right - 2) // 2 + left - 1
         entry = data["entries"][_unpacked(data["views"]["markov"])[place]]  # type: ignore[index]
-        relation, by, where, _, _, why, formula = (data["texts"][n] for n in entry)  # type: ignore[index]
+        relation, by, where, _, domain, why, formula, rule = (data["texts"][n] for n in entry)  # type: ignore[index]
+        assert (domain, rule) == ("complex", verdict.rule)
         assert (relation, by, where) == (verdict.relation, verdict.decided_by, verdict.representation)
         if verdict.evidence:
             assert why.replace("{L}", f"A{left}").replace("{R}", f"A{right}") in verdict.sentence
@@ -131,3 +132,40 @@ def test_the_same_bytes_again(shipped: Catalog, largest: str) -> None:
     again = catalog(shipped.n_masses, damped=shipped.damped)
     assert page(again) == page(shipped)
     assert page(catalog(5, damped=True)) == largest
+
+
+def test_the_headline_speaks_of_positive_parameters_and_names_the_domain_of_every_count() -> None:
+    text = " ".join(Outline(page(catalog(4))).text.split())
+    assert "Over positive parameters: of 406 pairs of the 29 models, 357 are distinguishable" in text
+    assert "48 are indistinguishable: whatever the positive parameters of one, some of the other give the very same" in text
+    assert "For 1 that is so for some positive parameters only" in text
+    assert "Over complex parameters: of 406 pairs of the 29 models, 357 are distinguishable" in text
+    assert "49 are indistinguishable: whatever the complex parameters of one" in text
+    assert text.index("Over positive parameters") < text.index("Over complex parameters")
+
+
+def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_its_own_sentence() -> None:
+    outline = Outline(page(catalog(4)))
+    ids = {str(a["id"]) for _, a in outline.elements if "id" in a}
+    assert sum(re.fullmatch(r"group-\d+", i) is not None for i in ids) == 8
+    assert sum(re.fullmatch(r"complex-group-\d+", i) is not None for i in ids) == 9
+    text = " ".join(outline.text.split())
+    said = "For some positive parameters no experiment with this force and sensor tells them apart, for others one does: A2–A6"
+    assert said in text
+
+
+def test_the_order_by_groups_puts_what_is_related_side_by_side() -> None:
+    """A2 and A6 are no group over positive parameters; over complex ones they are."""
+    data = _data(page(catalog(4)))
+    positive, exact = (data["blocks"][view] for view in ("positive", "exact"))  # type: ignore[index]
+    assert [2, 6] in exact and positive.index([6]) == positive.index([2]) + 1
+    assert sorted(m for of in positive for m in of) == sorted(m for of in exact for m in of)
+    assert data["groups"]["positive"] == [list(group) for group in catalog(4).classes()]  # type: ignore[index]
+
+
+def test_the_first_view_is_that_of_positive_parameters() -> None:
+    outline = Outline(page(catalog(4)))
+    chosen = [a["value"] for t, a in outline.elements if t == "option" and "selected" in a]
+    assert chosen == ["exact", "positive"]  # above and below the diagonal
+    checked = [a["value"] for t, a in outline.elements if t == "input" and a.get("name") == "domain" and "checked" in a]
+    assert checked == ["positive"]

@@ -6,7 +6,7 @@ import pytest
 
 from disting.catalogs.combined import combined
 from disting.engine import Decisions
-from disting.inclusion import Inclusion
+from disting.inclusion import Inclusion, Sense
 from disting.report.scene import Text
 from disting.report.sizes import between, figure, outside, sizes_page, write_sizes
 from disting.verdict import Query
@@ -20,7 +20,7 @@ def decided() -> Decisions:
 def test_counts_are_those_of_the_pairs(decided: Decisions) -> None:
     (row,) = between(decided)
     assert (row.small, row.large, row.inside + row.outside + row.unknown) == (2, 3, 33)
-    found = [decided.inclusion(i, j) for i in range(3) for j in range(3, 14)]
+    found = [decided.inclusion(i, j, Sense.CLOSURE) for i in range(3) for j in range(3, 14)]
     assert row.inside == found.count(Inclusion.LEFT_IN_RIGHT)
     assert row.outside == len(list(outside(decided))) == found.count(Inclusion.NEITHER) > 0
 
@@ -31,7 +31,7 @@ def test_every_pair_has_its_sign(decided: Decisions) -> None:
     assert len(signs) == 14 * 13 // 2
     inside = [s for s in signs if isinstance(s, Text) and s.text in "⊂⊃"]
     kinds = (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
-    assert len(inside) == sum(decided.inclusion(j, i) in kinds for i in range(14) for j in range(i))
+    assert len(inside) == sum(decided.inclusion(j, i, Sense.CLOSURE) in kinds for i in range(14) for j in range(i))
 
 
 def test_the_page_says_it_in_words(decided: Decisions) -> None:

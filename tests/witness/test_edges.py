@@ -7,7 +7,7 @@ from flint import fmpq, nmod_mat
 
 from disting import Chain, Engine, Family, Query, Relation, Settings, View
 from disting.algebra.matroid import matroid
-from disting.synthesis.decide import rational_point, safety_of_point
+from disting.synthesis.decide import point_bits, rational_point, safety_of_point
 from disting.synthesis.fibre import fibre
 from disting.synthesis.result import Exclusions, Status
 from disting.synthesis.target import target
@@ -58,12 +58,16 @@ def test_the_model_itself_is_listed_where_both_slopes_vanish(chain: Chain, numbe
 # --- bounds and notes ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("n_masses", "unknowns"), [(3, 7), (4, 10), (5, 13), (6, 16), (5, 9)])
-def test_error_bound_of_one_point(n_masses: int, unknowns: int) -> None:
-    """2^-b is the smallest power of two not below 3 D^(n+1)/2^192, D = 3 N_B + 2, in whole numbers."""
-    bound, chances = safety_of_point(n_masses, unknowns), 3 * (3 * n_masses + 2) ** (unknowns + 1)
-    assert chances <= 2 ** (192 - bound) < 2 * chances
-    assert bound >= 100
+@pytest.mark.parametrize("n_masses", [1, 2, 3, 5, 8, 12])
+@pytest.mark.parametrize("rubbing", [False, True])
+@pytest.mark.parametrize("damped", [False, True])
+def test_error_bound_of_one_point(n_masses: int, rubbing: bool, damped: bool) -> None:
+    """2^-b is the smallest power of two not below 6 D^(n+1)/2^(B-1) in whole numbers, n of the searched chain."""
+    chain = Chain(n_masses, damped=damped, ground_dampers=tuple(range(1, n_masses + 1)) if rubbing else ())
+    n = len(chain.parameters)
+    chances = 6 * max(3 * n_masses + 2, n + 1) ** (n + 1)
+    assert chances <= 2 ** (point_bits(chain) - 1 - safety_of_point(chain)) < 2 * chances
+    assert safety_of_point(chain) >= 128
 
 
 @pytest.mark.parametrize("view", [View.TF, View.COMBINED])

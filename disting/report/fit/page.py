@@ -25,12 +25,13 @@ from disting.verdict import Relation
 
 FIRST = 30  # rows of candidates that are shown at once
 NEAREST = 5  # candidates that are named where none is admissible
-NEVER = (
-    "These structures have the same transfer functions for generic complex parameter values. No data with this force and "
-    "sensor tell them from the selected one, unless the values that they would need are not positive; another place "
-    "for the sensor may:"
+SAME = (
+    "Every positive model of the selected structure is a positive model of these, and the reverse. No data with this force and "
+    "sensor tell them apart; another place for the sensor may:"
 )
-UNKNOWN = "Whether these data can tell these structures from the selected one depends on the parameters, or is not known:"
+SOME = "These have the behaviour of the selected structure for some positive parameters and not for others:"
+OPEN = "Whether these have the behaviour of the selected structure with positive parameters, within the limits, is not known:"
+INTRODUCTIONS = {Relation.INDISTINGUISHABLE: SAME, Relation.SOMETIMES: SOME, Relation.UNDECIDED: OPEN}
 CERTAIN = 2  # starts that reach the best cost, at least
 
 
@@ -140,10 +141,10 @@ def reasoning(selection: Selection) -> list[tuple[str, str]]:
 
 def alternatives(selection: Selection) -> list[tuple[str, list[tuple[str, str]]]]:
     """What the same data can come from, and what is not decided: an introduction, then names and reasons."""
-    never, unknown = list[tuple[str, str]](), list[tuple[str, str]]()
-    for a in selection.alternatives:
-        (never if a.relation is Relation.INDISTINGUISHABLE else unknown).append((name(a.chain), _reason(a, selection)))
-    return [(NEVER, never), (UNKNOWN, unknown)]
+    return [
+        (introduction, [(name(a.chain), _reason(a, selection)) for a in selection.alternatives if a.relation is relation])
+        for relation, introduction in INTRODUCTIONS.items()
+    ]
 
 
 def _reason(found: Alternative, selection: Selection) -> str:

@@ -21,8 +21,10 @@ ONE_DOT = 0.01  # decades of the index within which dots of one size are one
 INFINITE = 1e12  # indices are drawn up to here
 
 
-def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn:
-    """Importance delta^msqr (16) of each parameter, the smallest admissible one dashed."""
+def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | None:
+    """Importance delta^msqr (16) of each parameter, the smallest admissible one dashed; None where all are given."""
+    if not candidate.practical.names:
+        return None
     rows = sorted(candidate.practical.importance.items(), key=lambda row: row[1])
     highest = max(value for _, value in rows)
     least = highest / thresholds.importance_ratio

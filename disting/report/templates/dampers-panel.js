@@ -28,9 +28,10 @@ const createDamperPanel = (data, classes, models) => {
     figure.hidden = false;
   };
   const show = (...names) => ["left-figure", "right-figure", "facts", "command"].forEach((part) => (slot(part).hidden = !names.includes(part)));
+  const NOT_ASKED = "Positive parameters are not asked here; the command below asks.";
   const REASONS = {
-    distinguishable: (rule) => (rule === "exact" ? "No necessary condition separates them, but the exact decision does: with generic parameters, at least one of them has a transfer function that the other cannot have." : `Indistinguishable models must have this in common: ${data.rules[rule][2]}. These two have not.`),
-    indistinguishable: (rule) => (rule === "exact" ? "The exact decision links them, directly or through other models of their group: they can have the very same transfer function." : `${data.rules[rule][2][0].toUpperCase()}${data.rules[rule][2].slice(1)}. So they can have the very same transfer function.`),
+    distinguishable: (rule) => (rule === "exact" ? "No necessary condition separates them, but the exact decision does: with generic parameters, complex or positive, at least one of them has a transfer function that the other cannot have." : `Indistinguishable models must have this in common: ${data.rules[rule][2]}. These two have not.`),
+    indistinguishable: (rule) => (rule === "exact" ? `The exact decision links them, directly or through other models of their group: over complex parameters they can have the very same transfer function. ${NOT_ASKED}` : `${data.rules[rule][2][0].toUpperCase()}${data.rules[rule][2].slice(1)}. So over complex parameters they can have the very same transfer function. ${NOT_ASKED}`),
     undecided: () => "Neither the conditions nor the exact decision settled their groups in the time that was given. With more time the command below may.",
   };
   const fact = (i) => {
@@ -49,7 +50,7 @@ const createDamperPanel = (data, classes, models) => {
   const members = (g) => (g < data.several ? `Group ${g + 1}, ${plural(classes.members[g].length, "model")}: ${runs(classes.members[g])}.` : "");
   const fillPair = (i, j) => {
     const relation = RELATIONS[classes.relation(i, j)], rule = classes.rule(i, j);
-    put({ title: `${name(i)} and ${name(j)}`, badge: relation, where: rule ? `by ${data.rules[rule][1]}` : "", why: REASONS[relation](rule) });
+    put({ title: `${name(i)} and ${name(j)}`, badge: relation, where: rule ? `over complex parameters, by ${data.rules[rule][1]}` : "", why: REASONS[relation](rule) });
     command("compare", models.onCommandLine(i), models.onCommandLine(j));
     put({ members: relation === "indistinguishable" ? members(classes.group(i)) : "" });
     facts(i, j);
@@ -61,7 +62,7 @@ const createDamperPanel = (data, classes, models) => {
     const found = RELATIONS.map(() => 0);
     for (const j of models.all) if (j !== i) found[classes.relation(i, j)]++;
     const words = RELATIONS.map((relation, code) => [relation, found[code]]).filter(([, n]) => n).map(([relation, n]) => `${relation} from ${number(n)}`);
-    put({ title: name(i), badge: "", where: "", why: `Of the other models: ${words.join("; ")}.`, members: members(classes.group(i)) });
+    put({ title: name(i), badge: "", where: "", why: `Of the other models, over complex parameters: ${words.join("; ")}.`, members: members(classes.group(i)) });
     facts(i);
     draw("left", structure(i), setOf(i));
     show("left-figure", "facts");
@@ -69,16 +70,16 @@ const createDamperPanel = (data, classes, models) => {
   const fillStructure = (s) => {
     const own = collected(models.ofStructure(s).map((i) => [classes.group(i), spelled(i)]));
     const same = [...own.values()].filter((sets) => sets.length > 1).map((sets) => sets.join(" = "));
-    put({ title: `A${s} with all sets of dampers`, badge: "", where: plural(models.ofStructure(s).length, "model"), members: same.length ? `Not told apart: ${same.join("; ")}.` : "" });
+    put({ title: `A${s} with all sets of dampers`, badge: "", where: plural(models.ofStructure(s).length, "model"), members: same.length ? `Not told apart over complex parameters: ${same.join("; ")}.` : "" });
     const groups = [...own.keys()], open = groups.flatMap((a, k) => groups.slice(k + 1).filter((b) => classes.undecided(a, b))).length;
-    const apart = open ? `; ${plural(open, "pair")} of these ${open === 1 ? "is" : "are"} undecided, all others are told apart` : groups.length > 1 ? " that are told apart" : "";
+    const apart = open ? `; ${plural(open, "pair")} of these ${open === 1 ? "is" : "are"} undecided, all others are distinguishable` : groups.length > 1 ? " that are distinguishable" : "";
     put({ why: `Its ${data.sets.length} sets of dampers to the ground fall into ${plural(groups.length, "group")}${apart}. A set is written by its masses, 0 is none.` });
     command("dampers", `${data.masses}:${s}`, "--sets all");
     draw("left", s, []);
     show("left-figure", "command");
   };
   const fillGroup = (g) => {
-    put({ title: `Group ${g + 1}`, badge: "indistinguishable", where: plural(classes.members[g].length, "model"), why: "No measurement with this force and sensor can tell these models apart.", members: `${runs(classes.members[g])}.` });
+    put({ title: `Group ${g + 1}`, badge: "indistinguishable", where: plural(classes.members[g].length, "model"), why: "Over complex parameters these models have the same transfer functions; positive ones are not asked here.", members: `${runs(classes.members[g])}.` });
     show();
   };
   return ({ pair, model, structure: s, group: g }) => {

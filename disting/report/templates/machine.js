@@ -70,14 +70,16 @@
   const put = (name, ...content) => slot(name).replaceChildren(...content);
   const say = (c, number, how) => {
     const twins = (c.groups.find((group) => group.includes(number)) || []).filter((other) => other !== number), open = c.open[number];
-    const one = twins.length === 1, others = c.models.length - 1 - twins.length;
+    const one = twins.length === 1, others = c.models.length - 1 - twins.length, depends = c.depends[number] || [];
+    const links = (of) => of.flatMap((other, at) => [at ? ", " : "", link(`A${other}`, `${c.name}.html${pairHash([number, other])}`, `A${other}: verdict and evidence`)]);
     put("number", `A${number} of ${c.title}`);
     put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
     put("twins", ...(twins.length ? [
-      `${twins.length} other ${one ? "model" : "models"} cannot be told apart from it, whatever is measured with this force and sensor: `,
-      ...twins.flatMap((other, at) => [at ? ", " : "", link(`A${other}`, `${c.name}.html${pairHash([number, other])}`, `A${other}: verdict and evidence`)]), ".",
-    ] : others ? [open ? "No other model is known that cannot be told apart from it." : "It can be told apart from every other model of this catalogue."] : ["The only model of this size."]));
-    put("open", open ? `With ${open} ${open === 1 ? "model" : "models"} this is undecided.` : "");
+      `Whatever its positive parameters, ${twins.length} other ${one ? "model" : "models"} cannot be told apart from it with this force and sensor: `,
+      ...links(twins), ".",
+    ] : others ? [open || depends.length ? "No other model is known that can never be told apart from it." : "With generic positive parameters it is distinguishable from every other model of this catalogue."] : ["The only model of this size."]));
+    put("depends", ...(depends.length ? ["It depends on the positive parameters whether an experiment tells it from ", ...links(depends), "."] : []));
+    put("open", open ? `With ${open} ${open === 1 ? "model" : "models"} this is undecided over positive parameters.` : "");
     put("links", link(`Model page of A${number}`, `${c.folder}/${number}.html`), link("Its column in the matrix", `${c.name}.html#A${number}`));
     form.dataset.model = `${c.masses}:${number}`;
     put("typed", form.dataset.model);

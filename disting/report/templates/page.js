@@ -1,15 +1,13 @@
 (() => {
   const data = JSON.parse(byId("data").textContent);
-  const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula"];
+  const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula", "rule"];
   const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
-  const WHERE = { tf: "transfer function", markov: "Markov parameters", structure: "structure", fibre: "one fibre", parameters: "equivalents" };
-  const RULES = { exact: "the exact decision", admissible: "positive equivalents" };
   const SIGNS = { exact: "E", admissible: "+" };
   const kind = data.damped ? "damped" : "undamped";
   const folder = `models/${data.masses}-${kind}`;
-  const rule = (by) => RULES[by] || `condition ${by}`;
   const said = { above: byId("above"), below: byId("below") };
   const views = () => [said.below.value, said.above.value];
+  const domain = () => document.querySelector('[name="domain"]:checked').value; // a view: positive, or exact for complex parameters
   const inOrder = (i, j) => (i < j ? [i, j] : [j, i]);
 
   // ---- data: entry (high-1)(high-2)/2 + low-1 of a view
@@ -24,7 +22,7 @@
     found.why = found.why.replaceAll("{L}", `A${low}`).replaceAll("{R}", `A${high}`);
     return found;
   };
-  const short = (v) => (v.by ? `${v.relation}, ${rule(v.by)}` : v.relation);
+  const short = (v) => (v.by ? `${data.said[v.relation]}, ${v.rule}` : data.said[v.relation]);
   const label = (i, j, view) => {
     if (i === j) return `A${i}, the model itself`;
     return `A${Math.min(i, j)} and A${Math.max(i, j)}: ${short(verdict(i, j, view))} (${data.titles[view].toLowerCase()})`;
@@ -43,10 +41,10 @@
   };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `A${low} and A${high}`, badge: v.relation, why: v.why, formula: v.formula, link: "" });
+    put({ title: `A${low} and A${high}`, badge: data.said[v.relation], why: v.why, formula: v.formula, link: "" });
     slot("badge").className = `badge ${v.relation}`;
-    slot("where").textContent = v.by ? `by ${rule(v.by)}, ${WHERE[v.representation] || v.representation}` : "";
-    slot("certainty").textContent = v.by ? `${v.certainty} Over ${v.domain} parameter values.` : "";
+    slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
+    slot("certainty").textContent = v.by ? v.certainty : "";
     draw("left", low);
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
@@ -56,7 +54,7 @@
   const fillModel = (model, view) => {
     const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
-    const words = counted.map(([r, of]) => `${r} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map((i) => `A${i}`).join(", ")})`}`);
+    const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map((i) => `A${i}`).join(", ")})`}`);
     put({ title: `A${model}`, badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "" });
     slot("badge").className = "badge";
     draw("left", model);
@@ -87,20 +85,43 @@
     onMove: (i, j, view) => (byId("readout").textContent = label(i, j, view)),
     onOpen: (i, j, view) => select(i === j ? [i] : inOrder(i, j), view),
   });
-  for (const radio of document.querySelectorAll('[name="order"]'))
-    radio.addEventListener("change", () => matrix.arrange(...(radio.value === "group" ? byGroup(data.groups, natural) : [natural, []])));
+  const grouped = () => { // related groups beside each other, in frames; then all others
+    const inside = new Set(data.blocks[domain()].flat()), frames = [];
+    data.blocks[domain()].reduce((from, members) => (members.length > 1 && frames.push([from, members.length, ""]), from + members.length), 0);
+    return [[...data.blocks[domain()].flat(), ...natural.filter((i) => !inside.has(i))], frames];
+  };
+  const arrange = () => matrix.arrange(...(document.querySelector('[name="order"]:checked').value === "group" ? grouped() : [natural, []]));
+  for (const radio of document.querySelectorAll('[name="order"]')) radio.addEventListener("change", arrange);
 
   // ---- filter and views
-  byId("filter").addEventListener("change", () => {
+  const filter = () => {
     const shown = RELATIONS.map((name) => byId("filter").elements[name].checked);
-    const members = byId("group").value ? new Set(data.groups[byId("group").value - 1]) : null;
+    const members = byId("group").value ? new Set(data.groups[domain()][byId("group").value - 1]) : null;
     matrix.filter((i, j, code) => shown[code] && (!members || (members.has(i) && members.has(j))));
-  });
+  };
+  const offerGroups = () => {
+    const named = (of) => `${of.slice(0, 6).map((i) => `A${i}`).join(" ")}${of.length > 6 ? " …" : ""}`;
+    byId("group").replaceChildren(new Option("all", ""), ...data.groups[domain()].map((of, at) => new Option(`${at + 1}: ${named(of)}`, at + 1)));
+  };
+  byId("filter").addEventListener("change", filter);
   for (const choice of Object.values(said))
     choice.addEventListener("change", () => {
       matrix.show(views());
       bench.again({ view: choice.value });
     });
+
+  // ---- the domain: what is said, the groups, and which view is below the diagonal
+  for (const radio of document.querySelectorAll('[name="domain"]'))
+    radio.addEventListener("change", () => {
+      document.documentElement.dataset.domain = domain();
+      [said.below.value, said.above.value] = [domain(), domain() === "exact" ? "positive" : "exact"];
+      offerGroups();
+      arrange();
+      filter();
+      matrix.show(views());
+      bench.again({ view: domain() });
+    });
+  offerGroups();
 
   // ---- what is typed, and deep links #2-5 (or #2:5) to a pair and #A5 to a model
   const there = (numbers) => numbers.every((i) => i >= 1 && i <= data.models) && numbers[0] !== numbers[1];

@@ -1,0 +1,86 @@
+"""Evidence of general models: equivalents as formulas for all real or positive parameters, or none at all; constants."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
+"""Left given; polynomials in its parameters that are positive; values of the other model's parameters; and, if a value contains
+a root, (its name, the equation's polynomial, two numbers or fractions between which it is)."""
+SHOWN = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Explicit:
+    """All generic parameters of either model have an equivalent: those of the first formula that applies."""
+
+    kind: ClassVar[str] = "explicit"
+    domain: str
+    formulas: tuple[Formula, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """One formula each way, and how many there are."""
+        said = []
+        for way, given, searched in ((True, left, right), (False, right, left)):
+            every = [f for f in self.formulas if f[0] is way]
+            more = f" ({len(every)} formulas for different parameters)" if len(every) > 1 else ""
+            said.append(f"{given} is {searched} at {_told(every[0])}{more}")
+        return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters."
+
+    @property
+    def formula(self) -> str:
+        """Both ways."""
+        return "∀ p ∈ A ∃ q ∈ A: Φ₂(q) = Φ₁(p),  ∀ q ∈ A ∃ p ∈ A: Φ₁(p) = Φ₂(q)"
+
+
+def _told(formula: Formula) -> str:
+    _, where, values, root = formula
+    said = ", ".join(f"{name} = {value}" for name, value in values)
+    said += f" with {root[0]} the root of {root[1]} between {root[2]} and {root[3]}" if root else ""
+    return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")
+
+
+@dataclass(frozen=True, slots=True)
+class NoEquivalent:
+    """No generic parameters of one model have an equivalent: in each case one of the `contradictions` would have to hold.
+
+    They are equations polynomial = 0 or inequalities, in the given parameters p0, p1, .. and the unknown ones q0, q1, .. in the
+    order of the models.
+    """
+
+    kind: ClassVar[str] = "no equivalent"
+    domain: str
+    left_given: bool
+    contradictions: tuple[str, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """What would have to hold."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        some = "; ".join(self.contradictions[:SHOWN]) + ("; .." if len(self.contradictions) > SHOWN else "")
+        return (
+            f"{given} with parameters p0, p1, .. has no equivalent in {searched} with {self.domain} parameters q0, q1, ..: "
+            f"impossible are {some}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """Both images have nothing in common."""
+        return "Φ₁(A) ∩ Φ₂(A) = ∅"
+
+
+@dataclass(frozen=True, slots=True)
+class Constants:
+    """Coefficients of the monic form that are constant in both models and have different values."""
+
+    kind: ClassVar[str] = "constants"
+    labels: tuple[str, ...]
+    left: tuple[str, ...]
+    right: tuple[str, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """The first of them."""
+        return f"{self.labels[0]} is {self.left[0]} in {left} and {self.right[0]} in {right}, for all parameters."
+
+    @property
+    def formula(self) -> str:
+        """The first of them."""
+        return f"{self.labels[0]} = {self.left[0]} ≠ {self.right[0]}"

@@ -1,0 +1,100 @@
+"""Two damped chains of equal rank that differ because one of their rows does.
+
+Neither has a gap: each is one free row, and the question is that of the rows.
+
+The searched one has a gap h: were the closures of both equal, generic models of the given chain would have equivalents with
+elements other than zero, and by the theorem of `parts` in one of the splits both parts would have the receptances that are
+there. Every other split than that of the same parts must be refuted by a Markov parameter (`by_parts.vanishing`), or not exist.
+In that of the same parts (gap h on both sides) a generic row of the given chain would be a row, of the same kind, of the
+searched one. Both have equally many parameters and, where the rank is full, closures of equal dimension: these would be equal.
+So an answer that two rows of full rank differ refutes it, whichever of the two is the given one.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from disting.ideals.by_parts import not_covered, vanishing_step
+from disting.ideals.parts import gap, is_plain, parts, power, splits
+from disting.ideals.row_answers import known_answers
+from disting.ideals.rows import DampedRow, rows_of
+from disting.ideals.zeros import Branched, confirms_branches
+from disting.model.structure import Structure
+
+PARTS = ("grounded", "free")
+
+
+@dataclass(frozen=True, slots=True)
+class ByRow:
+    """Exact decision: the `part` of both chains ("grounded", "free", "whole") is a row of so many masses, with a wall or not.
+
+    A generic one with the ports `given` is none with the ports `searched`: see `zeros.Branched` for the rest.
+    """
+
+    kind: ClassVar[str] = "row"
+    part: str
+    wall: bool
+    masses: int
+    given: tuple[int, int]
+    searched: tuple[int, int]
+    label: str
+    branches: int
+    degree: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found of the rows, and why it decides."""
+        ports = (f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched))
+        where = "are one row" if self.part == "whole" else f"have a {self.part} part"
+        rest = "" if self.part == "whole" else " An equivalent model would have the same poles in each of its parts."
+        return (
+            f"{left} and {right} {where} of {self.masses} masses{' with the wall' if self.wall else ''}.{rest} For random "
+            f"elements modulo a random prime, a row with {next(ports)} is none with {next(ports)}: of the ways to "
+            f"give the zeros to the factors of its numerator, all {self.branches} that need be tried are contradictory."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The fibre is empty."""
+        return "N₂(q) = Π(s − z), D₂(q) = D₁(p₀): 1 ∈ I for each choice of zeros"
+
+
+def differ_by_row(a: Structure, b: Structure, label: str) -> ByRow | None:
+    """The proof, but for its bound, that two chains of equal rank differ, by an answer that is known; None if there is none."""
+    for part, pair in row_pairs(a, b, label):
+        answer = known_answers().get(pair)
+        if answer is not None:
+            row = answer.given
+            told = (answer.given.ports, answer.searched.ports, answer.label, answer.branches, answer.degree)
+            return ByRow(part, row.wall, row.masses, *told)
+    return None
+
+
+def row_pairs(a: Structure, b: Structure, label: str) -> list[tuple[str, frozenset[DampedRow]]]:
+    """The rows, by their part, of which each pair that differs makes the two chains differ; they are canonical chains."""
+    if not _comparable(a, b) or not (gap(a) == 0 or _same_parts_only(a, b, label) or _same_parts_only(b, a, label)):
+        return []
+    found = zip(PARTS if gap(a) else ("whole",), map(frozenset, zip(rows_of(a), rows_of(b), strict=True)), strict=True)
+    return [(part, pair) for part, pair in found if len(pair) == 2]
+
+
+def _comparable(a: Structure, b: Structure) -> bool:
+    """Whether both are plain and damped, of one size, sensor and gap."""
+    kinds = [(s.n_masses, s.sensor_order, gap(s), power(s)) for s in (a, b)]
+    return is_plain(a) and is_plain(b) and kinds[0] == kinds[1] and power(a) == 2
+
+
+def _same_parts_only(given: Structure, other: Structure, label: str) -> bool:
+    """Whether an equivalent of `given` in `other` has the same parts, without any chance."""
+    if not_covered(given, other, f"{label}:poles"):
+        return False
+    return all(vanishing_step(s, parts(other)) for s in splits(given, gap(other)) if s.name != "same")
+
+
+def confirms_row(evidence: ByRow, a: Structure, b: Structure) -> bool:
+    """Whether the evidence holds of two structures: all of it is computed again."""
+    for part, pair in row_pairs(a, b, "verify"):
+        rows = {(r.wall, r.masses, r.ports) for r in pair}
+        if part == evidence.part and rows == {(evidence.wall, evidence.masses, p) for p in (evidence.given, evidence.searched)}:
+            given = next(r for r in pair if r.ports == evidence.given)
+            (searched,) = pair - {given}
+            return confirms_branches(Branched(given, searched, evidence.label, evidence.branches, evidence.degree))
+    return False

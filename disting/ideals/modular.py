@@ -1,0 +1,56 @@
+"""Matrices and polynomials modulo a prime of any length: FLINT's words where it fits into one, else its long integers."""
+
+from collections.abc import Sequence
+from functools import cache
+
+from flint import fmpz_mod_ctx, fmpz_mod_mat, fmpz_mod_poly, fmpz_mod_poly_ctx, nmod_mat, nmod_poly
+
+WORD = 64  # bits
+Matrix = nmod_mat | fmpz_mod_mat
+Polynomial = nmod_poly | fmpz_mod_poly
+
+
+def matrix(rows: int, columns: int, entries: Sequence[int], modulus: int) -> Matrix:
+    """A matrix by its entries, row by row.
+
+    >>> matrix(1, 2, [3, 4], (1 << 89) - 1).rank()
+    1
+    """
+    if modulus.bit_length() <= WORD:
+        return nmod_mat(rows, columns, entries, modulus)
+    return fmpz_mod_mat(rows, columns, entries, _context(modulus))
+
+
+def polynomial(coefficients: Sequence[int], modulus: int) -> Polynomial:
+    """A polynomial by its coefficients, ascending."""
+    if modulus.bit_length() <= WORD:
+        return nmod_poly(coefficients, modulus)
+    return _polynomials(modulus)(list(coefficients))
+
+
+def null_space(rows: Sequence[Sequence[int]], modulus: int) -> list[list[int]]:
+    """A basis of {w: row . w = 0 for all rows}, in echelon form from the right.
+
+    >>> null_space([[1, 2, 0]], 7)
+    [[5, 1, 0], [0, 0, 1]]
+    """
+    width = len(rows[0])
+    echelon, rank = matrix(len(rows), width, [x for row in rows for x in row], modulus).rref()
+    leads = [next(j for j in range(width) if int(echelon[i, j])) for i in range(rank)]
+    basis = list[list[int]]()
+    for free in (j for j in range(width) if j not in leads):
+        vector = [int(j == free) for j in range(width)]
+        for i, lead in enumerate(leads):
+            vector[lead] = -int(echelon[i, free]) % modulus
+        basis.append(vector)
+    return basis
+
+
+@cache
+def _context(modulus: int) -> fmpz_mod_ctx:
+    return fmpz_mod_ctx(modulus)
+
+
+@cache
+def _polynomials(modulus: int) -> fmpz_mod_poly_ctx:
+    return fmpz_mod_poly_ctx(_context(modulus))

@@ -1,0 +1,125 @@
+"""Evidence on limits part by part: what keeps a part of the larger model from having the receptance wanted, or lets it."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import ClassVar, NamedTuple
+
+
+class Why(StrEnum):
+    """What is shown of one part; INSIDE, FULL and MOMENTUM speak for limits, the others against."""
+
+    INSIDE = "inside"
+    FULL = "full"
+    MOMENTUM = "momentum"
+    COEFFICIENT = "coefficient"
+    RANK = "rank"
+    RESULTANT = "resultant"
+    EQUATION = "equation"
+
+
+SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
+
+
+class PartLimits(NamedTuple):
+    """What is shown of one `part` in one `split` (see `disting.ideals.parts`; "whole" for a chain without a gap).
+
+    `detail`: the coefficient's name, both ranks, or the label from which primes and points of an equation are drawn.
+    """
+
+    split: str
+    part: str
+    why: Why
+    detail: str = ""
+
+    def told(self, searched: str) -> str:
+        """The step in words."""
+        part = searched if self.part == WHOLE else f"the {self.part} part of {searched}"
+        return _TOLD[self.why].format(part=part, detail=self.detail) + _IN[self.split]
+
+
+WHOLE = "whole"
+
+
+@dataclass(frozen=True, slots=True)
+class _Steps:
+    left_given: bool
+    steps: tuple[PartLimits, ...]
+
+    def __post_init__(self) -> None:
+        made = (PartLimits(split, part, Why(why), detail) for split, part, why, detail in self.steps)
+        object.__setattr__(self, "steps", tuple(made))
+
+    def _names(self, left: str, right: str) -> tuple[str, str]:
+        return (left, right) if self.left_given else (right, left)
+
+
+@dataclass(frozen=True, slots=True)
+class Outside(_Steps):
+    """In every split some part cannot be, even in a limit; `left_given`: the right model is the one that is searched.
+
+    No steps: no set of poles is large enough for the searched grounded part.
+    """
+
+    kind: ClassVar[str] = "outside"
+
+    def sentence(self, left: str, right: str) -> str:
+        """Part by part."""
+        given, searched = self._names(left, right)
+        if not self.steps:
+            return (
+                f"The poles of each part of a generic {given} stay together in every limit of models {searched}, and no "
+                f"choice of parts has as many poles as the grounded part of {searched}."
+            )
+        told = "; ".join(step.told(searched) for step in self.steps)
+        return f"A generic {given} is no limit of models {searched}: {told}."
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether nothing is left to chance."""
+        return all(step.why is not Why.EQUATION for step in self.steps)
+
+    @property
+    def formula(self) -> str:
+        """What does not vanish."""
+        return "; ".join(_FORMULAS[step.why].format(detail=step.detail) for step in self.steps) or "R₂ + F₂ ≠ R₁ + F₁"
+
+
+@dataclass(frozen=True, slots=True)
+class PartsInside(_Steps):
+    """In one split every part can be, at least in a limit, and sums of limits are limits."""
+
+    kind: ClassVar[str] = "parts-inside"
+
+    def sentence(self, left: str, right: str) -> str:
+        """Part by part."""
+        given, searched = self._names(left, right)
+        told = "; ".join(step.told(searched) for step in self.steps)
+        return f"Every {given} is a limit of models {searched}: {told}."
+
+    @property
+    def formula(self) -> str:
+        """The sum of the parts."""
+        return "R₁ + F₁ = lim (R₂ + F₂)"
+
+
+_IN = {
+    WHOLE: "",
+    "same": ", with the same parts",
+    "exchanged": ", with the parts exchanged but for a rigid body",
+    "rigid": ", with a rigid body as the free part",
+}
+_TOLD = {
+    Why.INSIDE: "{part} can be the very same",
+    Why.FULL: "{part} can have any coefficients that it has at all",
+    Why.MOMENTUM: "{part} can have any coefficients that keep the momentum (a₂ b₁ = a₃ b₀)",
+    Why.COEFFICIENT: "coefficient {detail} is zero in {part} and would not be",
+    Why.RANK: "{part} has too few determinable parameters ({detail})",
+    Why.RESULTANT: "the coefficients of {part} fulfil an equation, a resultant, that would not hold",
+    Why.EQUATION: "a polynomial equation between the coefficients of {part} does not hold",
+}
+_FORMULAS = {
+    Why.COEFFICIENT: "{detail} ≠ 0",
+    Why.RANK: "{detail}",
+    Why.RESULTANT: "Res(U, V) ≠ 0",
+    Why.EQUATION: "F(b, a) ≠ 0",
+}

@@ -1,0 +1,114 @@
+"""Equivalents as formulas: written down as evidence, and put into the transfer function again."""
+
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+
+from disting.conditions.explicit import Explicit, Formula, NoEquivalent
+from disting.domain import Domain
+from disting.parametric.between import Path
+from disting.parametric.expression import names as symbols_of
+from disting.parametric.expression import tree, value
+from disting.parametric.model import Model, Terms
+from disting.parametric.ratio import Ratio
+from disting.parametric.sections import Section
+from disting.parametric.ways import Way, way
+
+
+def explicit(ways: list[Way], domain: Domain) -> Explicit:
+    """The evidence of two ways in which all generic parameters have an equivalent: the left model's first."""
+    formulas: list[Formula] = []
+    for left_given, one in zip((True, False), ways, strict=True):
+        if one.covering:
+            formulas += [_of_section(left_given, one, section) for section in one.covering]
+        elif found := one.path():
+            formulas.append(_of_path(left_given, one, found))
+    return Explicit(domain.value, tuple(formulas))
+
+
+def is_explicit(evidence: Explicit, left: Model, right: Model) -> bool:
+    """Whether every formula gives the same transfer function, and the ways found anew cover all parameters."""
+    domain = Domain(evidence.domain)
+    ways = [way(left, right, domain), way(right, left, domain)]
+    known = all(one and (one.covering or one.path()) for one in ways)
+    sides = {True: (left, right), False: (right, left)}
+    return (
+        known and {f[0] for f in evidence.formulas} == {True, False} and all(_fits(f, *sides[f[0]]) for f in evidence.formulas)
+    )
+
+
+def is_without(evidence: NoEquivalent, left: Model, right: Model) -> bool:
+    """Whether the cases found anew are all closed."""
+    given, other = (left, right) if evidence.left_given else (right, left)
+    one = way(given, other, Domain(evidence.domain))
+    return bool(one and one.never)
+
+
+def _of_section(left_given: bool, one: Way, section: Section) -> Formula:
+    names = _names(one)
+    values = tuple((q, _spelled(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True))
+    return left_given, tuple(_text(g, names) for g in section.where), values, ()
+
+
+def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
+    names = _names(one)
+    root = names[found.at] = next(n for n in ("x", "root", "x_") if n not in one.given.parameters)
+    values = tuple((q, _spelled(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True))
+    ends = [_spelled(Ratio(*end), names) if not end[1].is_zero() else "infinity" for end in (found.low, found.high)]
+    return left_given, (), values, (root, _text(found.equation, names), *ends)
+
+
+def _names(one: Way) -> list[str]:
+    """Of p, q and t: parameters of the given model as they are called, unknowns with names that do not occur."""
+    return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
+
+
+def _text(polynomial: fmpz_mpoly, names: list[str]) -> str:
+    context = fmpz_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
+    return str(context.from_dict(polynomial.to_dict())).replace("^", "**")
+
+
+def _spelled(ratio: Ratio, names: list[str]) -> str:
+    top, bottom = (_text(side, names) for side in (ratio.num, ratio.den))
+    if bottom == "1":
+        return top
+    return "/".join(f"({x})" if any(c in x for c in " */") else x for x in (top, bottom))
+
+
+def _fits(formula: Formula, given: Model, other: Model) -> bool:
+    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one; lead(q) is not zero."""
+    _, _, values, root = formula
+    names = [*root[:1], *given.parameters]
+    ring = dict(zip(names, _ring(names), strict=True))
+    one = next(iter(ring.values())) ** 0
+    trees = [tree(text) for _, text in values]
+    if tuple(name for name, _ in values) != other.parameters or not {n for t in trees for n in symbols_of(t)} <= ring.keys():
+        return False
+    point = [value(t, ring, one) for t in trees]
+    here = [value_of(c, [Ratio(ring[n], one) for n in given.parameters], one) for c in _every(given)]
+    there = [value_of(c, point, one) for c in _every(other)]
+    equation = value(tree(root[1]), ring, one).num if root else one - one
+    rests = [b * here[-1] + Ratio(-a.num, a.den) * there[-1] for a, b in zip(here, there, strict=True)]
+    return not there[-1].num.is_zero() and all(_is_multiple(r.num, equation) for r in rests)
+
+
+def value_of(terms: Terms, point: list[Ratio], one: fmpz_mpoly) -> Ratio:
+    """A polynomial at fractions."""
+    total = Ratio(one - one, one)
+    for exponents, number in terms:
+        term = Ratio(one * number, one)
+        for x, e in zip(point, exponents, strict=True):
+            term = term * x**e if e else term
+        total = total + term
+    return total
+
+
+def _ring(names: list[str]) -> tuple[fmpz_mpoly, ...]:
+    return tuple(fmpz_mpoly_ctx.get(tuple(names), Ordering.lex).gens())
+
+
+def _is_multiple(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
+    """Whether a polynomial vanishes where an irreducible one does (0: only zero does)."""
+    return bool(polynomial.is_zero()) or (not of.is_zero() and not of.is_constant() and bool(of.gcd(polynomial) in (of, -of)))
+
+
+def _every(model: Model) -> tuple[Terms, ...]:
+    return (*model.numerator_terms, *model.denominator_terms)

@@ -1,0 +1,84 @@
+"""What pages say of a catalogue over positive and over complex parameters: counts, groups, and the order by groups.
+
+Over complex parameters indistinguishable models form classes. Over positive ones a class may fall apart: into smaller groups,
+which are indistinguishable for all positive parameters, and pairs between them that are so for some values only, or that are
+open. Such groups stand beside each other in the order by groups.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from disting.catalogs import Catalog
+from disting.domain import Domain
+from disting.positivity import Share
+from disting.report.words import totals
+from disting.verdict import Relation, View
+
+Members = tuple[int, ...]
+VIEWS = (View.POSITIVE, View.EXACT)  # the engineer's first, then the paper's
+ABLE = (Share.ALWAYS, Share.SOMETIMES)
+
+
+@dataclass(frozen=True, slots=True)
+class OneSided:
+    """Of a distinguishable pair, models `given` have an equivalent `other` for all or some of their positive parameters."""
+
+    given: int
+    other: int
+    share: Share
+
+
+@dataclass(frozen=True, slots=True)
+class Over:
+    """A catalogue over one domain: pairs by relation, groups, pairs that depend on the values, one-sided ones.
+
+    `blocks`: the groups and single models that the order by groups puts first, related ones beside each other.
+    """
+
+    view: View
+    totals: dict[Relation, int]
+    groups: tuple[Members, ...]
+    depending: tuple[tuple[int, int], ...]
+    one_sided: tuple[OneSided, ...]
+    blocks: tuple[Members, ...]
+
+    @property
+    def domain(self) -> Domain:
+        """Which parameters."""
+        return self.view.domain
+
+
+def over(catalog: Catalog, view: View) -> Over:
+    """What pages say over the domain of a view, one of VIEWS."""
+    groups = catalog.classes(view)
+    sides = tuple(one_sided(catalog)) if view is View.POSITIVE else ()
+    return Over(
+        view, totals(catalog, view), groups, catalog.depending(view), sides, blocks(catalog.classes(View.EXACT), groups)
+    )
+
+
+def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[Members, ...]:
+    """The groups class by class, the largest first, and the single models of a class that falls apart behind its groups.
+
+    >>> blocks(((1, 4), (2, 3, 5)), ((1, 4), (2, 5)))
+    ((2, 5), (3,), (1, 4))
+    """
+    found: list[Members] = []
+    for members in sorted(classes, key=_size_first):
+        own = [group for group in groups if set(group) <= set(members)]
+        singles = [(m,) for m in members if not any(m in group for group in own)]
+        found += [*sorted(own, key=_size_first), *singles]
+    return tuple(found)
+
+
+def one_sided(catalog: Catalog) -> Iterator[OneSided]:
+    """The distinguishable pairs of which positive models on one side have equivalents on the other."""
+    for left, right, v in catalog.pairs(View.POSITIVE):
+        if v.relation is Relation.DISTINGUISHABLE:
+            for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
+                if found is not None and found.share in ABLE:
+                    yield OneSided(given, other, found.share)
+
+
+def _size_first(members: Members) -> tuple[int, Members]:
+    return -len(members), members

@@ -1,0 +1,30 @@
+"""Chains that are one model under two descriptions, and dead times: the answer is the same over positive parameters."""
+
+import pytest
+
+from disting import Chain, Query, Relation, Sensor, View, compare
+
+VIEWS = [View.EXACT, View.REAL, View.POSITIVE]
+
+
+@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize("extras", [{}, {"lag": True}, {"ground_dampers": (1,)}, {"dead_time": True}])
+def test_one_mass_without_springs_is_the_same_damped_and_undamped(extras, view):
+    """There is nothing to put a damper beside: the two chains have the same elements."""
+    verdict = compare(Chain(1, damped=True, **extras), Chain(1, **extras), query=Query(view))
+    assert verdict.relation is Relation.INDISTINGUISHABLE
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_lag_and_a_damper_to_the_ground(view):
+    """1/(m s + b) from a velocity is (1/m)/(1 + T1 s), with b for m and m/b for T1."""
+    lagging, braked = Chain(1, lag=True), Chain(1, ground_dampers=(1,), sensor=Sensor.VELOCITY)
+    for pair in ((lagging, braked), (braked, lagging)):
+        assert compare(*pair, query=Query(view)).relation is Relation.INDISTINGUISHABLE
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_dead_time_that_both_have_changes_nothing(view):
+    """Duals without a dead time stay the same with one: it is a factor of its own, equal where the rational parts are."""
+    plain, dual = Chain(2, damped=True, dead_time=True), Chain(2, 1, 1, 2, 1, 2, damped=True, dead_time=True)
+    assert compare(plain, dual, query=Query(view)).relation is Relation.INDISTINGUISHABLE

@@ -1,0 +1,137 @@
+"""Equivalents over positive parameters by formulas, against plain SymPy, Gröbner bases and hand calculation."""
+
+from fractions import Fraction
+from itertools import combinations, islice, permutations
+
+import networkx as nx
+import pytest
+import sympy as sp
+
+from disting import Query, Relation, View
+from disting.conditions.finding import Outcome
+from disting.domain import Domain
+from disting.errors import InputError
+from disting.parametric import Model, alternatives, compare, is_explicit
+from disting.parametric.admissible import points
+from disting.parametric.ways import way
+
+EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
+
+
+def tf(num, den):
+    return Model.from_transfer_function(num, den)
+
+
+def positive(left, right):
+    return compare(left, right, query=Query(view=View.POSITIVE))
+
+
+def compartments(edges, out):
+    """Rates k_ij from i to j, 0 the environment; input in 1; what one measures is the amount in `out`."""
+    a = [["0"] * 3 for _ in range(3)]
+    for i, j in edges:
+        a[i - 1][i - 1] += f"-k{i}{j}"
+        if j:
+            a[j - 1][i - 1] += f"+k{i}{j}"
+    return Model.from_state_space(a, [1, 0, 0], [int(k == out) for k in (1, 2, 3)], name=f"{edges} {out}")
+
+
+def is_reached(edges):
+    graph = nx.DiGraph(e for e in edges if e[1])
+    return all(graph.has_node(k) and graph.has_node(1) and nx.has_path(graph, 1, k) for k in (2, 3))
+
+
+def structures():
+    """One of each class that renumbering the compartments 2 and 3 makes, all three fed from the first."""
+    seen, found = set(), []
+    for count in (3, 4):
+        for edges in combinations(EDGES, count):
+            for out in (1, 2, 3):
+                names = [{0: 0, 1: 1, 2: a, 3: b} for a, b in permutations((2, 3))]
+                key = min((tuple(sorted((n[i], n[j]) for i, j in edges)), n[out]) for n in names)
+                if key not in seen and is_reached(edges):
+                    seen.add(key)
+                    try:
+                        found.append(compartments(edges, out))
+                    except InputError:
+                        continue
+    return found
+
+
+PAIRS = [
+    (tf("k12", "(s + k12 + k01)*(s + k02)"), tf("k12", "s**2 + (k12 + k01 + k21)*s + k01*k21"), Relation.SOMETIMES),
+    (tf("1", "(s + a)*(s + b)"), tf("1", "(s + a)*(s + a + c)"), Relation.INDISTINGUISHABLE),
+    (tf("a + b", "s + c"), tf("a", "s + c"), Relation.INDISTINGUISHABLE),
+    (tf("a + 1", "s + c"), tf("a", "s + c"), Relation.SOMETIMES),
+    (tf("a", "s + a + c"), tf("a + c", "s + a"), Relation.DISTINGUISHABLE),
+    (tf("1", "s**2 + (a + b + c)*s + a*c"), tf("1", "(s + a)*(s + b)"), Relation.INDISTINGUISHABLE),
+    (tf("1", "s**2 + a*s + b"), tf("1", "(s + a)*(s + b)"), Relation.SOMETIMES),
+    (tf("a*b", "s + c"), tf("a*b + 1", "s + c"), Relation.SOMETIMES),
+    (tf("a", "s + b"), tf("b - a", "s + b"), Relation.SOMETIMES),
+]
+
+
+@pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
+def test_relations_by_hand(left, right, relation):
+    for one, other in ((left, right), (right, left)):
+        assert positive(one, other).relation is relation
+
+
+@pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
+def test_points_against_groebner_bases(left, right, relation):
+    """What is said of all points around a point is true at the point itself."""
+    for given, other in ((left, right), (right, left)):
+        one = way(given, other, Domain.POSITIVE)
+        for values in islice(points(given, Domain.POSITIVE, "test"), 12):
+            exist = alternatives(given, values, other).exist(Domain.POSITIVE)
+            assert not one.having(values) or exist is not Outcome.FAILS
+            assert not one.lacking(values) or exist is not Outcome.HOLDS
+
+
+def test_formulas_put_in_by_sympy():
+    evidence = positive(tf("1", "(s + a)*(s + b)"), tf("1", "(s + a)*(s + a + c)")).evidence
+    assert evidence.formulas
+    c, d = sp.symbols("a b", positive=True)
+    s = sp.Symbol("s")
+    for left_given, _, values, root in evidence.formulas:
+        assert not root
+        numbers = {name: sp.sympify(text) for name, text in values}
+        given = (s + c) * (s + d) if left_given else (s + c) * (s + c + sp.Symbol("c"))
+        form = sp.sympify("(s + A)*(s + A + C)" if left_given else "(s + A)*(s + B)")
+        put = form.subs({name.upper(): x for name, x in numbers.items()})
+        plain = {x: sp.Symbol(str(x)) for x in (c, d)}
+        assert sp.expand(put - given.subs(plain)) == 0
+
+
+def test_a_root_between_two_formulas():
+    """k = x + y, w = x y + x z: a quadratic whose positive root lies between formulas for all positive parameters."""
+    ladder, poles = PAIRS[5][:2]
+    verdict = positive(ladder, poles)
+    assert verdict.relation is Relation.INDISTINGUISHABLE and is_explicit(verdict.evidence, ladder, poles)
+    root = next(f[3] for f in verdict.evidence.formulas if f[3])
+    name, equation, low, high = root
+    for numbers in ((1, 2, 3), (5, Fraction(1, 7), 2)):
+        at = dict(zip(("a", "b", "c"), numbers, strict=True))
+        ends = [sp.oo if e == "infinity" else sp.sympify(e).subs(at) for e in (low, high)]
+        between = [z for z in sp.Poly(sp.sympify(equation).subs(at), sp.Symbol(name)).real_roots() if min(ends) < z < max(ends)]
+        assert between
+
+
+@pytest.mark.slow
+def test_three_compartments():
+    """All pairs of 3-compartment models with 3 or 4 rates that agree over complex parameters; points against Gröbner bases."""
+    models, counts, looked = structures(), {}, 0
+    for left, right in combinations(models, 2):
+        if left.degrees != right.degrees or compare(left, right).relation is not Relation.INDISTINGUISHABLE:
+            continue
+        relation = positive(left, right).relation
+        counts[relation] = counts.get(relation, 0) + 1
+        one = way(left, right, Domain.POSITIVE)
+        for values in islice(points(left, Domain.POSITIVE, "test"), 2):
+            exist = alternatives(left, values, right).exist(Domain.POSITIVE)
+            assert not one.having(values) or exist is not Outcome.FAILS
+            assert not one.lacking(values) or exist is not Outcome.HOLDS
+            looked += 1
+    print(len(models), "models", counts, looked, "points looked at")
+    assert sum(counts.values()) == 543
+    assert counts[Relation.UNDECIDED] <= 100
