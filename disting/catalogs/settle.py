@@ -1,6 +1,7 @@
 """Pairs too large for the default limits of the exact decision: settled once with more time, carried by the catalogues.
 
-`settled.jsonl` holds the findings, a line a pair of canonical chains; `build` takes over what it finds there.
+`settled.jsonl` holds the findings, a line a pair of canonical chains; `build` takes over what it finds there. So does
+`damper_family` from `settled-dampers.jsonl`, where the chains have dampers to the ground.
 """
 
 import json
@@ -16,27 +17,29 @@ from disting.conditions.subject import EXACTLY, Subject
 from disting.engine import Engine
 from disting.engine.engine import question_key
 from disting.model.chain import Chain
+from disting.question import Question
 from disting.verdict import Relation, View
 
 SETTLED = "settled.jsonl"
+SETTLED_DAMPERS = "settled-dampers.jsonl"
 Settled = dict[tuple[str, str], Finding]
 """Findings on ordered pairs of canonical chains, by their texts."""
 
 
-def read_settled(folder: Path) -> Settled:
-    """What the folder's file holds; nothing if there is none."""
-    path = folder / SETTLED
+def read_settled(folder: Path, name: str = SETTLED) -> Settled:
+    """What a file of the folder holds; nothing if there is none."""
+    path = folder / name
     records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] if path.is_file() else []
     return {(r["left"], r["right"]): finding_from_json(json.dumps(r["finding"])) for r in records}
 
 
-def preload(engine: Engine, known: Settled, subjects: Sequence[Subject]) -> None:
-    """Let the engine know the findings on these subjects."""
+def preload(engine: Engine, known: Settled, subjects: Sequence[Subject], question: Question[Finding] = EXACTLY) -> None:
+    """Let the engine know the findings on these subjects as answers to a question."""
     chains = {str(s.canonical.chain): s.canonical.chain for s in subjects}
     for names, finding in known.items():
         if chains.keys() >= set(names):
             pair = (chains[names[0]], chains[names[1]])
-            engine.answers[question_key(EXACTLY, pair, engine.settings)] = finding
+            engine.answers[question_key(question, pair, engine.settings)] = finding
 
 
 def settle(catalog: Catalog, folder: Path, seconds: float, told: Callable[[str], None]) -> int:

@@ -48,6 +48,8 @@ def settle(options: argparse.Namespace) -> int:
 
 def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
+    from disting.catalogs.damper_files import SHIPPED_SIZES
+    from disting.catalogs.damper_verify import verify_dampers
     from disting.catalogs.verify import verify
 
     wrong: list[str] = []
@@ -56,6 +58,10 @@ def verify(options: argparse.Namespace) -> int:
             for damped in (False, True):
                 fresh = Engine()  # nothing is taken from the cache: a verification computes
                 found = verify(n, damped=damped, folder=options.catalog, engine=fresh, executor=pool, progress=progress)
+                if n in SHIPPED_SIZES:
+                    found += verify_dampers(
+                        n, damped=damped, folder=options.catalog, engine=fresh, executor=pool, progress=progress
+                    )
                 what = f"{n} masses, {'damped' if damped else 'undamped'}"
                 print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")
                 wrong += found

@@ -57,6 +57,11 @@ def sharing_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     return Finding(EXACT, Outcome.ABANDONED, note="the shares refute nothing") if found is None else found
 
 
+def settled_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """Nothing: what was settled once is told to the engine before it is asked (see `catalogs.settle`)."""
+    return Finding(EXACT, Outcome.ABANDONED, note="not settled")
+
+
 def quick_profile(chain: Chain, settings: Settings) -> Profile:
     """Profile of the Markov parameters of 1/G, as many as are used of G."""
     structure = chain.structure
@@ -64,6 +69,7 @@ def quick_profile(chain: Chain, settings: Settings) -> Profile:
 
 
 QUICKLY = Question("quick exact decisions", quick_finding, finding_to_json, finding_from_json)
+SETTLED = Question("settled decisions", settled_finding, finding_to_json, finding_from_json)
 SHARING = Question("decisions by shares", sharing_finding, finding_to_json, finding_from_json)
 PATIENTLY = Question("patient exact decisions", patient_finding, finding_to_json, finding_from_json)
 INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile_from_json)

@@ -6,9 +6,9 @@ holds: receptances of damped rows fall as s^-2. Its proof speaks of poles that a
 with dampers to the ground, simple, belongs to the free part of both chains: the second one's grounded part, generic too, has
 none. In the second case of that proof the residues at S sum to lim s H minus those of the free part, which sum to zero, the
 residue at zero included; so they do here. Multiplying all elements of R includes its dampers to the ground. So the second
-chain's 2 h poles S hold all or none of the 2 h roots of D_R and all or none of the roots of E. If E has not 2 h roots, S is D_R:
-the second chain has the same R and the same F. Where the closures of H are equal, those of R are equal, and those of F; and
-equal ranks of H and one common part mean equal ranks of the other. So it is enough to tell the other parts apart.
+chain's 2 h poles S hold all or none of the 2 h roots of D_R, and all or none of the roots of E. If E has not 2 h roots, S
+holds just those of D_R: the second chain has the same R and the same F. Where the closures of H are equal, so are those of R
+and those of F; equal ranks of H and one common part mean equal ranks of the other: it is enough to tell the others apart.
 """
 
 from dataclasses import replace

@@ -25,14 +25,15 @@ tangent spaces remain equal: W J2(q) = 0 for W J1(p0) = 0. A factor f of N/g mov
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, reduce
+from functools import reduce
 from operator import mul
 
-from flint import fmpz_mod_ctx, fmpz_mod_mat, fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx, fmpz_mpoly
+from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
 
 from disting.algebra.symbols import coefficients, symbols
 from disting.ideals.fibre_ideal import Polynomial, derivative, evaluated
-from disting.ideals.system import CoefficientMap, Span, Terms, ports_of, separated
+from disting.ideals.modular import long_polynomial, null_space
+from disting.ideals.system import CoefficientMap, Span, Terms, minors, ports_of, separated
 from disting.model.structure import Structure
 
 Point = tuple[int, ...]
@@ -97,18 +98,19 @@ def factored(structure: Structure, span: Span) -> FactoredMap:
         f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
         names,
         tuple(at[f"h{i}"] for i in range(a, b)),
-        *(_by_power(p) for p in (theta, phi, den // ring["s"] ** power)),
+        _by_power(theta),
+        _by_power(phi),
+        _by_power(den // ring["s"] ** power),
         separated((*names, "g"), num, den),
     )
 
 
 def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
     """The map and its derivatives at a point."""
-    ring = polynomials(modulus)
 
     def at(coordinates: Sequence[Terms], lead: int) -> fmpz_mod_poly:
         """Their values as a polynomial in s."""
-        return ring([*(evaluated(c, point, modulus) for c in coordinates), lead])
+        return long_polynomial([*(evaluated(c, point, modulus) for c in coordinates), lead], modulus)
 
     def slope(coordinates: Sequence[Terms], by: int) -> fmpz_mod_poly:
         """The derivative of that polynomial."""
@@ -116,19 +118,19 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
 
     roots = tuple(-point[h] % modulus for h in chain.joints)
     left, right = at(chain.left, 1), at(chain.right, 1)
-    numerator = reduce(mul, (ring([-z, 1]) for z in roots), left * right)
+    numerator = reduce(mul, (long_polynomial([-z, 1], modulus) for z in roots), left * right)
     slopes = []
     for by in range(len(point)):
         change = numerator // left * slope(chain.left, by) + numerator // right * slope(chain.right, by)
         if by in chain.joints:
-            change += numerator // ring([point[by], 1])
+            change += numerator // long_polynomial([point[by], 1], modulus)
         slopes.append((change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles)))
     poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
     return Values(roots, left, right, numerator, poles, tuple(slopes))
 
 
 def shared_fibre(given: Values, other: FactoredMap, share: Share, modulus: int) -> tuple[int, list[Polynomial]]:
-    """Number of unknowns and equations of the parameters of `other` over these values with this share; linear ones are solved."""
+    """Number of unknowns, and equations, of the parameters of `other` over these values with this share; linear ones solved."""
     field = fmpz_mod_mpoly_ctx.get(other.parameters, modulus=modulus)
     shares = [_product(share.left, modulus), _product(share.right, modulus)]
     wanted = [*(int(f[i]) for f in shares for i in range(f.degree())), *given.poles]
@@ -141,12 +143,6 @@ def shared_fibre(given: Values, other: FactoredMap, share: Share, modulus: int) 
     for h, z in zip(other.joints, share.joints, strict=True):
         placed[h] = field.constant(-z % modulus)
     return _solved([p.compose(*placed) for p in equations], field, set(other.joints))
-
-
-@cache
-def polynomials(modulus: int) -> fmpz_mod_poly_ctx:
-    """Polynomials in s modulo a prime of any length."""
-    return fmpz_mod_poly_ctx(fmpz_mod_ctx(modulus))
 
 
 def _names(structure: Structure, span: Span, ports: tuple[int, int]) -> tuple[str, ...]:
@@ -166,11 +162,7 @@ def _minors(
     near |= {i: _entries(i, ports, ring) for i in range(first, last)}
     diagonal = [s * s + near[i - 1][1] + near[i][0] + ring.get(f"f{i}", zero) * s for i in range(first, last + 1)]
     squares = [near[i][0] * near[i][1] for i in range(first, last)]
-    leading, trailing = [one, diagonal[0]], [one, diagonal[-1]]
-    for d, q in zip(diagonal[1:], squares, strict=True):
-        leading.append(d * leading[-1] - q * leading[-2])
-    for d, q in zip(diagonal[-2::-1], squares[::-1], strict=True):
-        trailing.append(d * trailing[-1] - q * trailing[-2])
+    leading, trailing = minors(diagonal, squares, one), minors(diagonal[::-1], squares[::-1], one)
     return leading[ports[0] - first], trailing[last - ports[1]], leading[-1]
 
 
@@ -190,8 +182,7 @@ def _by_power(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
 
 
 def _product(roots: Sequence[int], modulus: int) -> fmpz_mod_poly:
-    ring = polynomials(modulus)
-    return reduce(mul, (ring([-z, 1]) for z in roots), ring([1]))
+    return reduce(mul, (long_polynomial([-z, 1], modulus) for z in roots), long_polynomial([1], modulus))
 
 
 def _normals(given: Values, share: Share, modulus: int) -> list[list[int]]:
@@ -202,24 +193,7 @@ def _normals(given: Values, share: Share, modulus: int) -> list[list[int]]:
     for change, poles in given.slopes:
         moved = [(change * inverse % f, f.degree()) for f, inverse in parts]
         columns.append([*(int(d[i]) for d, size in moved for i in range(size)), *poles])
-    return kernel(columns, modulus)
-
-
-def kernel(equations: list[list[int]], modulus: int) -> list[list[int]]:
-    """A basis of the vectors that all these equations send to zero, modulo a prime; last coordinates first in echelon form."""
-    width = len(equations[0])
-    flat = [x % modulus for row in equations for x in row[::-1]]
-    reduced, rank = fmpz_mod_mat(len(equations), width, flat, fmpz_mod_ctx(modulus)).rref()
-    table = [[int(reduced[i, j]) for j in range(width)] for i in range(rank)]
-    pivots = [next(j for j in range(width) if row[j]) for row in table]
-    found = []
-    for free in (j for j in range(width) if j not in pivots):
-        vector = [0] * width
-        vector[free] = 1
-        for row, pivot in zip(table, pivots, strict=True):
-            vector[pivot] = -row[free] % modulus
-        found.append(vector[::-1])
-    return found
+    return [normal[::-1] for normal in null_space([column[::-1] for column in columns], modulus)]
 
 
 def _tangents(height: fmpz_mod_mpoly, other: FactoredMap, normal: Sequence[int]) -> list[fmpz_mod_mpoly]:

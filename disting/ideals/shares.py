@@ -29,8 +29,9 @@ from flint import fmpz_mod_poly
 from disting.algebra.sampling import prime, residues
 from disting.ideals.bounds import safety_of_empty
 from disting.ideals.elimination import Basis, TooLarge, basis_steps
-from disting.ideals.factored import FactoredMap, Share, Values, polynomials, shared_fibre, values
+from disting.ideals.factored import FactoredMap, Share, Values, shared_fibre, values
 from disting.ideals.fibre_ideal import Polynomial, evaluated
+from disting.ideals.modular import long_polynomial
 from disting.ideals.system import Terms, matched
 
 BITS = 192  # of the prime: one point gives more than 100 bits
@@ -98,7 +99,7 @@ def _refuted(given: FactoredMap, other: FactoredMap, label: str, entries: int) -
     if not is_symmetric(given, label):
         return None
     modulus = prime(label, BITS)
-    drawn = next((x for x in _points(given, label, modulus)), None)
+    drawn = next(_points(given, label, modulus), None)
     if drawn is None:
         return None
     at, types = drawn
@@ -130,7 +131,7 @@ def _points(given: FactoredMap, label: str, modulus: int) -> Iterator[tuple[Valu
     """Points with all roots of N in the field and distinct, with the roots and their types."""
     for draw in range(DRAWS):
         point = residues(f"{label}:{draw}", len(given.parameters), modulus)
-        found = [_roots(_monic(f, point, modulus)) for f in (given.left, given.right)]
+        found = [_roots(_monic(f, point, modulus), modulus) for f in (given.left, given.right)]
         if any(f is None for f in found):
             continue
         at = values(given, point, modulus)
@@ -156,16 +157,15 @@ def shares_by_type(roots: Sequence[tuple[int, str]], joints: int, left: int) -> 
 def is_symmetric(row: FactoredMap, label: str) -> bool:
     """Whether the Galois group of theta phi over Q(p) is proven to be the product of the full symmetric groups."""
     modulus = prime(f"{label}:group")
-    sizes = len(row.left), len(row.right)
-    wanted = {(k, cycles) for k in (0, 1) for cycles in _wanted(sizes[k])}
+    wanted = {(k, cycles) for k, factor in enumerate((row.left, row.right)) for cycles in _wanted(len(factor))}
     for draw in range(PATTERNS):
         if not wanted:
-            return True
+            break
         point = residues(f"{label}:group:{draw}", len(row.parameters), modulus)
         theta, phi = (_monic(f, point, modulus) for f in (row.left, row.right))
-        if (theta * phi).is_squarefree():
+        if all(e == 1 for _, e in (theta * phi).factor()[1]):
             cycles = _cycles(theta), _cycles(phi)
-            wanted -= {(k, cycles[k]) for k in (0, 1)}
+            wanted -= {(0, cycles[0]), (1, cycles[1])}
             wanted -= {(0, ())} if _transposes(cycles[0], ()) else set()
             wanted -= {(1, ())} if _transposes(cycles[1], cycles[0]) else set()
     return not wanted
@@ -184,21 +184,20 @@ def _transposes(cycles: tuple[int, ...], beside: tuple[int, ...]) -> bool:
     return sorted(c for c in cycles if not c % 2) == [2] and all(power % c == 0 for c in beside)
 
 
-def _cycles(polynomial: fmpz_mod_poly) -> tuple[int, ...]:
-    return tuple(sorted(int(f.degree()) for f, _ in polynomial.factor()[1])) if polynomial.degree() > 0 else ()
+def _cycles(factor: fmpz_mod_poly) -> tuple[int, ...]:
+    return tuple(sorted(int(f.degree()) for f, _ in factor.factor()[1])) if factor.degree() > 0 else ()
 
 
-def _roots(polynomial: fmpz_mod_poly) -> tuple[int, ...] | None:
-    """All roots, if the polynomial splits into distinct linear factors."""
-    degree = polynomial.degree()
+def _roots(factor: fmpz_mod_poly, modulus: int) -> tuple[int, ...] | None:
+    """All roots, if the polynomial splits into distinct linear factors; that x^p = x modulo it is found in no time."""
+    degree, x = factor.degree(), long_polynomial([0, 1], modulus)
     if degree < 1:
         return ()
-    x = polynomials(int(polynomial.modulus()))([0, 1])
-    if degree > 1 and x.pow_mod(int(polynomial.modulus()), polynomial) != x:
+    if degree > 1 and x.pow_mod(modulus, factor) != x:
         return None
-    found = tuple(sorted(int(z) for z, _ in polynomial.roots()))
+    found = tuple(sorted(int(z) for z, _ in factor.roots()))
     return found if len(found) == degree else None
 
 
 def _monic(coordinates: Sequence[Terms], point: Sequence[int], modulus: int) -> fmpz_mod_poly:
-    return polynomials(modulus)([*(evaluated(c, point, modulus) for c in coordinates), 1])
+    return long_polynomial([*(evaluated(c, point, modulus) for c in coordinates), 1], modulus)
