@@ -52,7 +52,7 @@ def settle(catalog: Catalog, folder: Path, seconds: float, told: Callable[[str],
         finding = _settled(first, second, seconds)
         told(f"{first} and {second}: {finding.note or finding.outcome}")
         if finding.outcome is not Outcome.ABANDONED:
-            _append(folder / SETTLED, first, second, finding)
+            append(folder / SETTLED, first, second, finding)
             count += 1
     return count
 
@@ -62,7 +62,8 @@ def _settled(first: Chain, second: Chain, seconds: float) -> Finding:
     return by_ideals(first, second, Subject("", first).settings, limits)
 
 
-def _append(path: Path, first: Chain, second: Chain, finding: Finding) -> None:
+def append(path: Path, first: Chain, second: Chain, finding: Finding) -> None:
+    """Add a finding to a file, at once."""
     record = {"left": str(first), "right": str(second), "finding": json.loads(finding_to_json(finding))}
     with path.open("a", encoding="utf-8") as file:
         file.write(json.dumps(record, separators=(",", ":")) + "\n")

@@ -6,6 +6,7 @@ from disting.catalogs import catalog
 from disting.catalogs.files import shipped_folder
 from disting.cli.work import engine_for
 from disting.engine import Engine
+from disting.settings import Settings
 
 
 def build(options: argparse.Namespace) -> int:
@@ -36,12 +37,16 @@ def candidates(options: argparse.Namespace) -> int:
 
 def settle(options: argparse.Namespace) -> int:
     """Settle what catalogues leave open."""
+    from disting.catalogs.damper_files import SHIPPED_SIZES, read
+    from disting.catalogs.damper_settle import settle_dampers
     from disting.catalogs.settle import settle
 
     for n in options.masses:
         for damped in (False, True):
             found = catalog(n, damped=damped, folder=options.catalog)
             count = settle(found, options.catalog, options.seconds, print)
+            if options.dampers and n in SHIPPED_SIZES:
+                count += settle_dampers(read(options.catalog, n, damped), options.catalog, Settings(), print)
             print(f"{found.name}: {count} settled")
     return 0
 

@@ -200,6 +200,7 @@ def _add_catalog(groups: Groups) -> None:
     q = _command(actions, "settle", catalogs.settle, "decide with more time what catalogues leave open, to be built in")
     q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")
     q.add_argument("--seconds", type=_seconds, default=3600.0, metavar="S", help="time for one pair (default: 3600)")
+    q.add_argument("--dampers", action="store_true", help="and of all models with dampers to the ground, of 3 to 5 masses")
     q.add_argument("--catalog", type=Path, default=Path("catalog"), metavar="DIR", help="folder (default: catalog)")
     q = _command(actions, "verify", catalogs.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
     q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")

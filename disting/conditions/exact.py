@@ -95,7 +95,7 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
 
 def by_row(a: Chain, b: Chain) -> Finding | None:
     """What is known once for all of rows of masses; a dead time that both have is a factor of its own."""
-    evidence = differ_by_row(*map(rational_part, (a, b)), "rows")
+    evidence = differ_by_row(rational_part(a), rational_part(b), "rows")
     if evidence is None:
         return None
     given, searched = (DampedRow(evidence.wall, evidence.masses, ports) for ports in (evidence.given, evidence.searched))

@@ -50,24 +50,25 @@ def physical(structure, span, numbers):
 
 def unknowns(row, found, ports):
     """The map's unknowns from masses, springs and dampers, as its text says."""
-    told = []
-    for name in row.parameters:
-        kind, i = name[0], int(name[1:])
-        spring, damper = found.get(("k", i)), found.get(("d", i))
-        left, right = found.get(("m", i)), found.get(("m", i + 1))
-        near = right if (left is None or i >= ports[1]) else left
-        wall = found.get(("b", i + 1), 0) if left is None else 0
-        told.append(
-            {
-                "u": lambda: spring / near,
-                "e": lambda: (damper + wall) / near,
-                "r": lambda: near / (left if near is right else right),
-                "h": lambda: spring / damper,
-                "x": lambda: damper / right,
-                "f": lambda: found["b", i] / found["m", i],
-            }[kind]()
-        )
-    return told
+    return [unknown(name[0], int(name[1:]), found, ports) for name in row.parameters]
+
+
+def unknown(kind, i, found, ports):
+    """One of them."""
+    spring, damper = found.get(("k", i)), found.get(("d", i))
+    left, right = found.get(("m", i)), found.get(("m", i + 1))
+    if kind == "f":
+        return found["b", i] / left
+    if kind == "h":
+        return spring / damper
+    if kind == "x":
+        return damper / right
+    near = right if (left is None or i >= ports[1]) else left
+    if kind == "r":
+        return near / (left if near is right else right)
+    if kind == "u":
+        return spring / near
+    return (damper + (found.get(("b", i + 1), 0) if left is None else 0)) / near
 
 
 @pytest.mark.parametrize("name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"])
