@@ -10,7 +10,6 @@ from pathlib import Path
 import disting
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
-from disting.catalogs.settle import Settled, preload
 from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
@@ -30,17 +29,12 @@ def build(
     *,
     damped: bool,
     engine: Engine,
-    settled: Settled | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Catalog:
-    """The catalogue of a family, computed (profiles may come from the engine's store or the executor's workers).
-
-    `settled`: findings on pairs that are too large for the exact decision's limits (see `settle`).
-    """
+    """The catalogue of a family, computed (profiles may come from the engine's store or the executor's workers)."""
     family = Family(n_masses, damped)
     subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
-    preload(engine, settled or {}, subjects)
     found = {
         part: engine.decisions(subjects, Query(view), executor=executor, progress=progress) for part, view in PARTS.items()
     }

@@ -5,9 +5,9 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from disting.catalogs.damper_settled import preload, read_settled
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.files import shipped_folder
-from disting.catalogs.settle import SETTLED_DAMPERS, preload, read_settled
 from disting.conditions.quick import PATIENTLY, SETTLED, SHARING
 from disting.engine import Engine, Progress, silent
 from disting.engine.classes import Classes
@@ -96,6 +96,6 @@ def damper_family(
     chains = [replace(chain, ground_dampers=masses) for chain in family for masses in sets]
     more = [SETTLED, *([SHARING, PATIENTLY] if n_masses <= PATIENT_UP_TO or patient else [])]
     engine = engine or Engine()
-    preload(engine, read_settled(shipped_folder(), SETTLED_DAMPERS), [engine.subject("", c) for c in chains], SETTLED)
+    preload(engine, read_settled(shipped_folder()), [engine.subject("", c) for c in chains])
     found = classes(chains, engine, more=more, executor=executor, progress=progress)
     return DamperFamily(family, sets, found)

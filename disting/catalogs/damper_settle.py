@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.settle import SETTLED_DAMPERS, append, read_settled
+from disting.catalogs.damper_settled import append, read_settled
 from disting.conditions.finding import Outcome
 from disting.conditions.quick import sharing_finding
 from disting.conditions.subject import Subject
@@ -13,7 +13,7 @@ from disting.settings import Settings
 
 def settle_dampers(found: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]) -> int:
     """Ask the shares about a representative of each open pair of classes that the file does not settle; the number settled."""
-    known, count = read_settled(folder, SETTLED_DAMPERS), 0
+    known, count = read_settled(folder), 0
     for low, high in sorted(found.found.open_groups):
         first, second = _representative(found, low).in_order(_representative(found, high))
         if (str(first), str(second)) in known:
@@ -21,7 +21,7 @@ def settle_dampers(found: DamperFamily, folder: Path, settings: Settings, told: 
         finding = sharing_finding(first, second, settings)
         told(f"{first} and {second}: {finding.note or finding.outcome}")
         if finding.outcome is not Outcome.ABANDONED:
-            append(folder / SETTLED_DAMPERS, first, second, finding)
+            append(folder, first, second, finding)
             count += 1
     return count
 

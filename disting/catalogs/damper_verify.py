@@ -6,7 +6,7 @@ from pathlib import Path
 
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import name_of, read, text_of, was_patient
-from disting.catalogs.settle import SETTLED_DAMPERS, read_settled
+from disting.catalogs.damper_settled import read_settled
 from disting.conditions.verify import Witness
 from disting.engine import Engine, Progress, silent
 from disting.model.symmetry import canonical
@@ -35,7 +35,7 @@ def verify_dampers(
 def false_settled(stored: DamperFamily, folder: Path, progress: Progress = silent) -> Iterator[str]:
     """Yield a sentence for each settled pair of the family whose evidence does not hold, or that the file contradicts."""
     place = {str(canonical(chain).chain): i for i, chain in enumerate(stored.found.chains)}
-    known = {names: found for names, found in read_settled(folder, SETTLED_DAMPERS).items() if place.keys() >= set(names)}
+    known = {names: found for names, found in read_settled(folder).items() if place.keys() >= set(names)}
     witness = Witness()
     for done, (names, found) in enumerate(known.items(), 1):
         left, right = (place[name] for name in names)

@@ -5,8 +5,9 @@ import io
 import json
 from collections.abc import Iterable, Sequence
 
+from disting.certainty import Certainty
 from disting.domain import Domain
-from disting.engine import Decisions
+from disting.engine import Decisions, family_safety
 from disting.inclusion import Inclusion, Sense
 from disting.positivity import PositiveFinding
 from disting.verdict import RULE_NAMES, Relation, error_bound
@@ -90,9 +91,11 @@ def inclusion_text(inclusion: Inclusion) -> str:
 
 
 def decisions_json(decided: Decisions) -> str:
-    """JSON text of all pairs with evidence and sentences."""
+    """JSON text of all pairs with evidence and sentences; `joint_error_bound` is that of all of it together."""
     size = len(decided.subjects)
     pairs = ((i, j) for i in range(size) for j in range(i + 1, size))
     names = _names(decided)
     verdicts = [decided.verdict(i, j).to_dict() | {"left": names[i], "right": names[j]} for i, j in pairs]
-    return json.dumps({"verdicts": verdicts}, ensure_ascii=False) + "\n"
+    safety = family_safety(decided)
+    bound = error_bound(Certainty.BOUNDED if safety else Certainty.PROVEN, safety)
+    return json.dumps({"joint_error_bound": bound, "verdicts": verdicts}, ensure_ascii=False) + "\n"

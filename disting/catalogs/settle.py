@@ -1,69 +1,55 @@
-"""Pairs too large for the default limits of the exact decision: settled once with more time, carried by the catalogues.
+"""Questions about rows that pairs of chains leave open: decided once, for chains of any size, and shipped as `rows.jsonl`.
 
-`settled.jsonl` holds the findings, a line a pair of canonical chains; `build` takes over what it finds there. So does
-`damper_family` from `settled-dampers.jsonl`, where the chains have dampers to the ground.
+The file is read wherever a pair is decided (see `disting.ideals.by_rows`), so an answer serves every command at once.
 """
 
-import json
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from itertools import combinations
 from pathlib import Path
 
-from disting.catalogs.catalog import Catalog
-from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import LIMITS, by_ideals
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.subject import EXACTLY, Subject
+from disting.conditions.exact import LIMITS, rational_part
 from disting.engine import Engine
-from disting.engine.engine import question_key
-from disting.model.chain import Chain
-from disting.question import Question
-from disting.verdict import Relation, View
+from disting.ideals.by_rows import row_pairs
+from disting.ideals.row_answers import ROWS, line_of, read_answers
+from disting.ideals.rows import DampedRow
+from disting.ideals.zeros import Branched, branches, refute, safety_of_branches
+from disting.model.family import Family
+from disting.verdict import Query, Relation
 
-SETTLED = "settled.jsonl"
-SETTLED_DAMPERS = "settled-dampers.jsonl"
-Settled = dict[tuple[str, str], Finding]
-"""Findings on ordered pairs of canonical chains, by their texts."""
-
-
-def read_settled(folder: Path, name: str = SETTLED) -> Settled:
-    """What a file of the folder holds; nothing if there is none."""
-    path = folder / name
-    records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] if path.is_file() else []
-    return {(r["left"], r["right"]): finding_from_json(json.dumps(r["finding"])) for r in records}
+LABEL = "rows:disting"
 
 
-def preload(engine: Engine, known: Settled, subjects: Sequence[Subject], question: Question[Finding] = EXACTLY) -> None:
-    """Let the engine know the findings on these subjects as answers to a question."""
-    chains = {str(s.canonical.chain): s.canonical.chain for s in subjects}
-    for names, finding in known.items():
-        if chains.keys() >= set(names):
-            pair = (chains[names[0]], chains[names[1]])
-            engine.answers[question_key(question, pair, engine.settings)] = finding
-
-
-def settle(catalog: Catalog, folder: Path, seconds: float, told: Callable[[str], None]) -> int:
-    """Settle what a catalogue leaves open, each pair within `seconds`; every finding is kept at once. The number of them."""
-    subjects = {number: Subject(f"A{number}", chain) for number, chain in enumerate(catalog.family, 1)}
-    stored = catalog.pairs(View.EXACT)
-    open_pairs = [subjects[i].in_order(subjects[j]) for i, j, v in stored if v.relation is Relation.UNDECIDED]
+def settle(n_masses: int, folder: Path, engine: Engine, told: Callable[[str], None]) -> int:
+    """Decide the rows that leave damped chains of so many masses open; every answer is kept at once. The number of them."""
     count = 0
-    for first, second in dict.fromkeys(open_pairs):
-        finding = _settled(first, second, seconds)
-        told(f"{first} and {second}: {finding.note or finding.outcome}")
-        if finding.outcome is not Outcome.ABANDONED:
-            append(folder / SETTLED, first, second, finding)
+    for pair in open_rows(n_masses, engine):
+        if pair in read_answers(folder):
+            continue
+        answer = decided(pair)
+        told(f"{' against '.join(map(str, sorted(pair)))}: {'differ' if answer else 'left open'}")
+        if answer is not None:
+            with (folder / ROWS).open("a", encoding="utf-8") as file:
+                file.write(line_of(answer))
             count += 1
     return count
 
 
-def _settled(first: Chain, second: Chain, seconds: float) -> Finding:
-    limits = replace(LIMITS, seconds=seconds, entries=10**9)
-    return by_ideals(first, second, Subject("", first).settings, limits)
+def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
+    """The rows that differ between damped chains which no condition and no known answer decides, each pair once."""
+    subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(Family(n_masses, True), 1)]
+    found = engine.decisions(subjects, Query(inclusion=False))
+    told = set[frozenset[DampedRow]]()
+    for i, j in combinations(range(len(subjects)), 2):
+        if found.relation(i, j) is Relation.UNDECIDED:
+            first, second = subjects[i].in_order(subjects[j])
+            pairs = row_pairs(rational_part(first), rational_part(second))
+            yield from (pair for _, pair in pairs if pair not in told)
+            told |= {pair for _, pair in pairs}
 
 
-def append(path: Path, first: Chain, second: Chain, finding: Finding) -> None:
-    """Add a finding to a file, at once."""
-    record = {"left": str(first), "right": str(second), "finding": json.loads(finding_to_json(finding))}
-    with path.open("a", encoding="utf-8") as file:
-        file.write(json.dumps(record, separators=(",", ":")) + "\n")
+def decided(pair: frozenset[DampedRow]) -> Branched | None:
+    """That the rows of a pair differ, searched in the direction with fewer branches first; None if it is not found."""
+    for given, searched in sorted([tuple(sorted(pair)), tuple(sorted(pair))[::-1]], key=lambda rows: len(branches(*rows))):
+        if safety_of_branches(given, searched) >= LIMITS.safety and (found := refute(given, searched, LABEL)):
+            return found
+    return None

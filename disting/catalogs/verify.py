@@ -7,10 +7,10 @@ from pathlib import Path
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
-from disting.catalogs.settle import read_settled
 from disting.conditions.subject import Subject
 from disting.conditions.verify import Witness
 from disting.engine import Engine, Progress, silent
+from disting.ideals.row_answers import false_answers
 from disting.inclusion import confirms
 from disting.model.symmetry import canonical
 from disting.positivity import proves
@@ -26,12 +26,13 @@ def verify(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> list[str]:
-    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is."""
+    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is. With the answers about damped rows."""
     stored = catalog(n_masses, damped=damped, folder=folder)
-    rebuilt = build(n_masses, damped=damped, engine=engine, settled=read_settled(folder), executor=executor, progress=progress)
+    rebuilt = build(n_masses, damped=damped, engine=engine, executor=executor, progress=progress)
     return [
         *_differences(stored, rebuilt, folder / f"{name_of(n_masses, damped)}.jsonl"),
         *false_evidence(stored, progress),
+        *(false_answers(folder, n_masses) if damped else ()),
     ]
 
 

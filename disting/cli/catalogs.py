@@ -2,22 +2,17 @@
 
 import argparse
 
-from disting.catalogs import catalog
-from disting.catalogs.files import shipped_folder
 from disting.cli.work import engine_for
 from disting.engine import Engine
-from disting.settings import Settings
 
 
 def build(options: argparse.Namespace) -> int:
     """Compute catalogues."""
     from disting.catalogs.build import build, write
-    from disting.catalogs.settle import read_settled
 
-    settled = read_settled(shipped_folder())
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses:
-            pair = [build(n, damped=d, engine=engine, settled=settled, executor=pool, progress=progress) for d in (False, True)]
+            pair = [build(n, damped=d, engine=engine, executor=pool, progress=progress) for d in (False, True)]
             for path in write(pair, options.out)[:-1]:
                 print(path)
     return 0
@@ -36,18 +31,18 @@ def candidates(options: argparse.Namespace) -> int:
 
 
 def settle(options: argparse.Namespace) -> int:
-    """Settle what catalogues leave open."""
+    """Decide the rows of masses that leave pairs open, and on request the classes with dampers to the ground."""
     from disting.catalogs.damper_files import SHIPPED_SIZES, read
     from disting.catalogs.damper_settle import settle_dampers
     from disting.catalogs.settle import settle
 
-    for n in options.masses:
-        for damped in (False, True):
-            found = catalog(n, damped=damped, folder=options.catalog)
-            count = settle(found, options.catalog, options.seconds, print)
+    with engine_for(options) as (engine, _, _):
+        for n in options.masses:
+            print(f"{n} masses, damped: {settle(n, options.catalog, engine, print)} pairs of rows settled")
             if options.dampers and n in SHIPPED_SIZES:
-                count += settle_dampers(read(options.catalog, n, damped), options.catalog, Settings(), print)
-            print(f"{found.name}: {count} settled")
+                found = (read(options.catalog, n, damped) for damped in (False, True))
+                count = sum(settle_dampers(family, options.catalog, engine.settings, print) for family in found)
+                print(f"{n} masses with dampers to the ground: {count} pairs of classes settled")
     return 0
 
 

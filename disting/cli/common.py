@@ -80,3 +80,12 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
         raise InputError(
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
         ) from None
+
+
+def joint_in_words(safety: int) -> str:
+    """How surely everything that is said of a family holds together.
+
+    >>> joint_in_words(121)
+    'all of it together is wrong with a probability of at most 2^-121'
+    """
+    return f"all of it together is wrong with a probability of at most 2^-{safety}" if safety else "nothing is left to chance"

@@ -32,6 +32,8 @@ def run(options: argparse.Namespace) -> int:
     asked = query(options.conditions, View.EXACT, options.domain)
     plain = sensor is Sensor.ACCELERATION and "+" not in "".join(texts)
     verdict = _shipped(references, options.damped, asked) if plain else None
+    if verdict is not None and references[0] > references[1]:
+        chains.reverse()  # a stored verdict names the model of the lower number first
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
             verdict = compare(*chains, query=asked, engine=engine)

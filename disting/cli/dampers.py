@@ -8,10 +8,11 @@ from itertools import combinations
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
-from disting.cli.common import emitted, emitted_lines, reference, relations_in_words
+from disting.cli.common import emitted, emitted_lines, joint_in_words, reference, relations_in_words
 from disting.cli.paths import written_file
 from disting.cli.work import engine_for
 from disting.domain import Domain
+from disting.engine import classes_safety
 from disting.errors import InputError
 from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
@@ -104,10 +105,11 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
 
 
 def counted(found: DamperFamily) -> str:
-    """Models and pairs in one line."""
+    """Models, pairs and how surely all of it holds, in one line."""
     counts = found.found.counts()
     told = ", ".join(f"{n} {relation}" for relation, n in counts.items())
-    return f"{len(found)} models, {sum(counts.values())} pairs, over complex parameters: {told}"
+    head = f"{len(found)} models, {sum(counts.values())} pairs, over complex parameters: {told}"
+    return f"{head}; {joint_in_words(classes_safety(found.found))}"
 
 
 def _rule(rule: str) -> str:

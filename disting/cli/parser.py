@@ -41,13 +41,6 @@ def _whole(low: int, high: int = 10**9) -> Callable[[str], int]:
     return number
 
 
-def _seconds(text: str) -> float:
-    """A time such as 60 or 0.5."""
-    if not re.fullmatch(r"\d{1,9}(\.\d*)?|\.\d+", text) or float(text) == 0:
-        raise argparse.ArgumentTypeError(f"seconds are a positive number such as 60, not {text!r}")
-    return float(text)
-
-
 def _sizes(text: str) -> range:
     """One size such as 4, or several such as 1-4."""
     match = re.fullmatch(r"([1-9]\d{0,2})(?:-([1-9]\d{0,2}))?", text)
@@ -197,10 +190,9 @@ def _add_catalog(groups: Groups) -> None:
     text = "ask the dearest method of what is left for 5 masses and more too: an hour instead of minutes"
     q.add_argument("--patient", action="store_true", help=text)
     _shared(q, work=True)
-    q = _command(actions, "settle", catalogs.settle, "decide with more time what catalogues leave open, to be built in")
+    q = _command(actions, "settle", catalogs.settle, "decide the rows of masses that leave pairs open, to be shipped")
     q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")
-    q.add_argument("--seconds", type=_seconds, default=3600.0, metavar="S", help="time for one pair (default: 3600)")
-    q.add_argument("--dampers", action="store_true", help="and of all models with dampers to the ground, of 3 to 5 masses")
+    q.add_argument("--dampers", action="store_true", help="and what is open with dampers to the ground, of 3 to 5 masses")
     q.add_argument("--catalog", type=Path, default=Path("catalog"), metavar="DIR", help="folder (default: catalog)")
     q = _command(actions, "verify", catalogs.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
     q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")

@@ -27,13 +27,9 @@ def doctor(options: argparse.Namespace) -> int:
     from importlib.metadata import version
     from importlib.util import find_spec
 
-    from disting.ideals.programs import installed
-
     print(f"{'disting':14}{__version__}")
     for name in ("python-flint", "numpy"):
         print(f"{name:14}{version(name)}")
-    for name, found, brings in installed():
-        print(f"{name:14}{found}: {brings}" if found else f"{name:14}not found; optional, it would bring {brings}")
     for name, brings in (("sympy", "maps as SymPy expressions"), ("distributed", "work on a cluster (--scheduler)")):
         print(f"{name:14}{version(name) if find_spec(name) else 'not found'}; optional, for {brings}")
     with Store.open(None) as store:

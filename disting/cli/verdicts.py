@@ -5,9 +5,9 @@ from itertools import combinations
 
 from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
-from disting.cli.common import VIEWS, emitted, query, relations_in_words, rules_in_words
+from disting.cli.common import VIEWS, emitted, joint_in_words, query, relations_in_words, rules_in_words
 from disting.cli.work import engine_for
-from disting.engine import Decisions
+from disting.engine import Decisions, family_safety
 from disting.errors import InputError
 from disting.inclusion import ONE_SIDED, Sense
 from disting.model.chain import Sensor
@@ -43,7 +43,8 @@ def _summary(decided: Decisions) -> str:
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
     told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts())}"
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
-    return told + (f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else "")
+    limits = f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else ""
+    return f"{told}{limits}\n{joint_in_words(family_safety(decided))}"
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:

@@ -6,31 +6,45 @@ parameters. None in one way and some in the other cannot be: the images of both 
 with positive parameters on both sides are either part of a proper subvariety of V, so that none occurs for generic parameters
 of either chain, or they contain an open set of V(R), which parameters on both sides reach.
 
-Real. Symmetry and duality are rational maps, which take real parameters to real ones. Odd fibres: let n be the number of
-parameter vectors of a chain with one generic behaviour of V, each a simple solution (n is the number of points of a generic
-fibre of a dominant map, all of them simple in characteristic zero). If the behaviour is real, the conjugate of a solution is a
-solution, so an odd n leaves at least one that is its own conjugate. A unique solution (n = 1) is real for that reason.
-"""
+Real. Symmetry and duality are rational maps, which take real parameters to real ones. Undamped chains: real factors of all
+degrees that are needed exist both ways, or in an open set of models of either chain they do not (see `positivity.real`). In
+the second case the verdict is "some" if in any way all or some positive models have positive, so real, equivalents. Odd
+fibres: let n be the number of parameter vectors of a chain with one generic behaviour of V, each a simple solution (n is the
+number of points of a generic fibre of a dominant map, all of them simple in characteristic zero). If the behaviour is real,
+the conjugate of a solution is a solution, so an odd n leaves at least one that is its own conjugate. A unique solution (n = 1)
+is real for that reason."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.evidence import Theorem
+from disting.conditions.evidence import Evidence, Renaming, Theorem
 from disting.conditions.exact import theorem
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.reality import RealFactors, RealWitnesses
 from disting.conditions.ways import BothWays, OddFibres, weakest
 from disting.errors import ContradictionError, InputError
 from disting.identifiability import Identifiability
 from disting.model.chain import Chain
-from disting.positivity import PositiveFinding, Share, positive_finding
+from disting.positivity import PositiveFinding, Share, always_real, positive_finding, real_witness
 from disting.question import Question
 from disting.settings import Settings
 
 ADMISSIBLE = 11  # number of this question, after the exact decision
 SAME = {Share.ALWAYS: Outcome.HOLDS, Share.SOMETIMES: Outcome.SOMETIMES, Share.NEVER: Outcome.FAILS}  # of both ways
-NOT_REAL = "over real parameters no rational map is known, and the numbers of equivalents are not odd or not known"
+NOT_REAL = (
+    "over real parameters no rational map is known, real factors are not known to exist or to lack, and the numbers of "
+    "equivalents are not odd or not known"
+)
 RATIONAL = ("symmetry", "duality")  # theorems whose maps are rational, so that they take real parameters to real ones
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Who answers what the real finding rests on: positive equivalents of the one in the other, and counts of solutions."""
+
+    positive: Callable[[Chain, Chain], PositiveFinding]
+    counted: Callable[[Chain], Identifiability]
 
 
 def positive_share(given: Chain, other: Chain, settings: Settings) -> PositiveFinding:
@@ -66,15 +80,42 @@ def rational_map(left: Chain, right: Chain) -> str:
     return named if named in RATIONAL else ""
 
 
-def real_finding(left: Chain, right: Chain, counted: Callable[[Chain], Identifiability]) -> Finding:
-    """Over real parameters: a rational map, or odd numbers of equivalents on both sides, for pairs that are equal over C."""
+def real_factors(left: Chain, right: Chain) -> bool:
+    """Whether every real model of either canonical chain has a real equivalent in the other, by real factors."""
+    return always_real(left, right) and always_real(right, left)
+
+
+def needs_counts(left: Chain, right: Chain) -> bool:
+    """Whether the numbers of solutions may be asked for; undamped chains are settled by their factors, as a rule."""
+    return bool(left.damped or left.ground_dampers) and not rational_map(left, right)
+
+
+def real_finding(left: Chain, right: Chain, asked: Asked, settings: Settings) -> Finding:
+    """Over real parameters, for pairs of canonical chains that are equal over C."""
     named = rational_map(left, right)
     if named:
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    return _by_counts(counted(left), counted(right))
+    if real_factors(left, right):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
+    found = _by_witnesses(left, right, asked, settings)
+    return by_counts(asked.counted(left), asked.counted(right)) if found is None else found
 
 
-def _by_counts(left: Identifiability, right: Identifiability) -> Finding:
+def _by_witnesses(left: Chain, right: Chain, asked: Asked, settings: Settings) -> Finding | None:
+    """An open set of real models without real equivalents, and positive ones with a positive equivalent."""
+    pairs = sorted(((left, right), (right, left)), key=lambda pair: pair[0].indices)
+    found = ((given is left, real_witness(given, other, settings.seed)) for given, other in pairs)
+    left_given, without = next((x for x in found if x[1]), (False, ()))
+    for given, other in pairs if without else ():
+        with_one = asked.positive(given, other)
+        if with_one.certainty and with_one.share in (Share.ALWAYS, Share.SOMETIMES):
+            evidence = RealWitnesses(left_given, without, given is left, with_one)
+            certainty, safety = weakest((Certainty.PROVEN, 0), (with_one.certainty, with_one.safety))
+            return Finding(ADMISSIBLE, Outcome.SOMETIMES, certainty, safety, evidence)
+    return None
+
+
+def by_counts(left: Identifiability, right: Identifiability) -> Finding:
     """As sure as both numbers are."""
     certainty, safety = weakest(left.count_grade, right.count_grade)
     if certainty is not Certainty.NUMERICAL and all(_is_odd(x) for x in (left, right)):
@@ -82,8 +123,14 @@ def _by_counts(left: Identifiability, right: Identifiability) -> Finding:
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_REAL)
 
 
-def resting_on(finding: Finding, equal: Grade) -> Finding:
-    """The finding on admissible parameters; odd fibres presuppose that the images are equal over C, which is so sure."""
+def resting_on(finding: Finding, equal: Grade, why: Evidence | None = None) -> Finding:
+    """The finding on admissible parameters, which may rest on that over complex ones, so sure, and on its evidence.
+
+    Odd fibres presuppose that the images are equal over C. A renaming takes real and positive parameters to such ones, whatever
+    the kinds of the two chains: it decides where nothing else does.
+    """
+    if finding.outcome is Outcome.ABANDONED and isinstance(why, Renaming):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, *equal, evidence=why)
     if not isinstance(finding.evidence, OddFibres):
         return finding
     certainty, safety = weakest((finding.certainty, finding.safety), equal)

@@ -22,28 +22,31 @@ from disting.conditions.evidence_of_decision import Theorem as Theorem
 from disting.conditions.explicit import Constants as Constants
 from disting.conditions.explicit import Explicit as Explicit
 from disting.conditions.explicit import NoEquivalent as NoEquivalent
+from disting.conditions.reality import RealFactors, RealWitnesses
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import ByRow, FullParts, Refuted, Shared, Solved
 
 ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted | Shared
-Evidence = ByConditions | ByDecision | BothWays | OddFibres | Witnesses | Explicit | NoEquivalent | Constants
+Nested = BothWays | RealFactors | RealWitnesses
+Evidence = ByConditions | ByDecision | Nested | OddFibres | Witnesses | Explicit | NoEquivalent | Constants
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}
 
 
 def to_dict(evidence: Evidence) -> dict[str, object]:
     """Plain data, ready for JSON."""
-    return evidence.to_dict() if isinstance(evidence, BothWays) else {"kind": evidence.kind, **asdict(evidence)}
+    return evidence.to_dict() if isinstance(evidence, Nested) else {"kind": evidence.kind, **asdict(evidence)}
 
 
 def from_dict(data: dict[str, object]) -> Evidence:
     """Evidence from plain data; lists become tuples. Raises KeyError, TypeError or ValueError for what is none."""
-    if data["kind"] == BothWays.kind:
-        return BothWays.from_dict(data)
     if data["kind"] == "program":
         raise ValueError("this verdict rests on an external program, which decides nothing now; ask for it again")
+    kind = _KINDS[str(data["kind"])]
+    if issubclass(kind, Nested):
+        return kind.from_dict(data)
     fields = {name: _tupled(value) for name, value in data.items() if name != "kind"}
-    return _KINDS[str(data["kind"])](**fields)  # type: ignore[arg-type]
+    return kind(**fields)  # type: ignore[arg-type]
 
 
 def _tupled(value: object) -> object:

@@ -6,6 +6,7 @@ from typing import ClassVar
 from disting.conditions.evidence_of_conditions import TRANSCENDENTAL
 
 _THEOREMS = {
+    "Foster and Cauer": "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such impedance",
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
     "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
     "Foster": "{left} and {right} are undamped, each with force and sensor at one place: both give any such resonances",

@@ -14,9 +14,9 @@ numerators have B random bits, B so large that the bound is small enough for thi
 and Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with dampers to the ground also
-some neighbouring ports) or finds only numbers, what is known of the rows of both chains decides (`ideals.by_rows`); with
-dampers to the ground the ways to share out the numerator's roots (`ideals.shares`); and then the fibre's ideal, modulo random
-primes and with bounds of its own (see `disting.ideals`). No other program is asked: the answer depends on the question alone.
+some neighbouring ports) or finds only numbers, what is known of the rows of both chains decides (`ideals.by_rows`), then the
+fibre's ideal, modulo random primes and with bounds of its own (see `disting.ideals`). No other program is asked: the answer
+depends on the question alone.
 
 Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero, exp(-Td s) is one as well. It has neither
 zeros nor poles, and a rational function without any is a constant: Td = 0. So models with and without dead time are
@@ -95,7 +95,7 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
 
 def by_row(a: Chain, b: Chain) -> Finding | None:
     """What is known once for all of rows of masses; a dead time that both have is a factor of its own."""
-    evidence = differ_by_row(rational_part(a), rational_part(b), "rows")
+    evidence = differ_by_row(rational_part(a), rational_part(b))
     if evidence is None:
         return None
     given, searched = (DampedRow(evidence.wall, evidence.masses, ports) for ports in (evidence.given, evidence.searched))

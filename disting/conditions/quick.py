@@ -58,7 +58,7 @@ def sharing_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
 
 
 def settled_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Nothing: what was settled once is told to the engine before it is asked (see `catalogs.settle`)."""
+    """Nothing: what was settled once is told to the engine before it is asked (see `catalogs.damper_settled`)."""
     return Finding(EXACT, Outcome.ABANDONED, note="not settled")
 
 
@@ -77,7 +77,10 @@ INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile
 
 @contextmanager
 def _limited(seconds: float) -> Iterator[None]:
-    """Raise _OutOfTime in the block after so many seconds; without effect outside a main thread and where there is no timer."""
+    """Raise _OutOfTime in the block after so many seconds of this process, whatever else the machine does.
+
+    Without effect outside a main thread and where there is no timer.
+    """
     if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
         yield
         return
@@ -86,10 +89,10 @@ def _limited(seconds: float) -> Iterator[None]:
         """Raised in the block by the timer."""
         raise _OutOfTime
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)

@@ -6,7 +6,7 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
-from disting.conditions.admissible import POSITIVELY, positive_ways, real_finding
+from disting.conditions.admissible import POSITIVELY, Asked, positive_ways, real_finding
 from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.exact import EXACT, exact_finding, mirrored
 from disting.conditions.finding import Finding, Outcome
@@ -54,11 +54,15 @@ class Subject:
         """Whether two models that are indistinguishable over complex parameters are so over this domain."""
         if domain is Domain.POSITIVE:
             return positive_ways(self.positive(other), other.positive(self))
-        return real_finding(self.canonical.chain, other.canonical.chain, self._identifiability)
+        asked = Asked(self._positive, self._identifiability)
+        return real_finding(self.canonical.chain, other.canonical.chain, asked, self.settings)
 
     def positive(self, other: "Subject") -> PositiveFinding:
         """Which positive models of the one have a positive equivalent in the other; evidence in canonical names."""
-        return self.answerer(POSITIVELY, (self.canonical.chain, other.canonical.chain), self.settings)
+        return self._positive(self.canonical.chain, other.canonical.chain)
+
+    def _positive(self, given: Chain, other: Chain) -> PositiveFinding:
+        return self.answerer(POSITIVELY, (given, other), self.settings)
 
     def _identifiability(self, canonical_chain: Chain) -> Identifiability:
         return self.answerer(IDENTIFIABILITY, (canonical_chain,), self.settings)

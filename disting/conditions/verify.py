@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from math import comb
 
+from disting.conditions.admissible import real_factors
 from disting.conditions.evidence import (
     ByConditions,
     Constants,
@@ -21,6 +22,7 @@ from disting.conditions.evidence import (
     Theorem,
 )
 from disting.conditions.exact import rational_part, theorem
+from disting.conditions.reality import RealFactors, RealWitnesses
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
 from disting.ideals import (
@@ -46,7 +48,7 @@ from disting.invariants.sample import Representation, Sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.positivity import proves
+from disting.positivity import Share, confirms_real, proves
 from disting.settings import Settings
 from disting.synthesis.decide import Grounds
 from disting.synthesis.fibre import fibre
@@ -85,6 +87,10 @@ class Witness:
                 return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
             case OddFibres():
                 return _odd(evidence, left, right)
+            case RealFactors():
+                return real_factors(canonical(left).chain, canonical(right).chain)
+            case RealWitnesses():
+                return _real_witnesses(evidence, canonical(left).chain, canonical(right).chain)
             case Witnesses() | Explicit() | NoEquivalent() | Constants():
                 return False  # these speak of general models, see `parametric.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)
@@ -183,6 +189,13 @@ def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
     """What is known of either way, once more; something is."""
     ways = [(x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty]
     return bool(ways) and all(proves(*way) for way in ways)
+
+
+def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
+    """Both once more."""
+    given, other = (a, b) if evidence.with_left_given else (b, a)
+    known = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(evidence.with_one, given, other)
+    return known and confirms_real(evidence.without, *((a, b) if evidence.without_left_given else (b, a)))
 
 
 def _full_parts(evidence: FullParts, left: Chain, right: Chain) -> bool:

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, rational_map, resting_on
+from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, needs_counts, resting_on
 from disting.conditions.exact import EXACT
+from disting.conditions.finding import Finding
 from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
@@ -54,7 +55,8 @@ class Decisions:
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs whose bounded finding by a
     necessary condition was proven afterwards, `inclusions` the findings on pairs of unequal rank. `shares[i, j]` tells, for i
     before or after j, which positive models i have a positive equivalent j: of indistinguishable pairs both ways, of included
-    models in the ones that they lie in.
+    models in the ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that were asked again
+    over real or positive ones.
     """
 
     subjects: tuple[Subject, ...]
@@ -65,6 +67,12 @@ class Decisions:
     proven: frozenset[tuple[int, int]] = frozenset()
     inclusions: dict[tuple[int, int], Inclusions] = field(default_factory=dict)
     shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
+    equal: dict[tuple[int, int], Finding] = field(default_factory=dict)
+
+    def profile(self, representation: str, i: int) -> Profile:
+        """The profile by which pairs of model i were decided in a representation."""
+        r = Representation(representation)
+        return self.subjects[i].profile(r, _count(r, self.query, self.subjects))
 
     def relation(self, i: int, j: int) -> Relation:
         """Relation of subjects i and j (counted from 0, in any order)."""
@@ -84,9 +92,7 @@ class Decisions:
         number, where = int(self.decided_by[i, j]), REPRESENTATIONS[self.representation[i, j]]
         if number == 0:
             return decide(left, right, self.query)
-        r = Representation(where)
-        profiles = [s.profile(r, _count(r, self.query, self.subjects)) for s in (left, right)]
-        finding = NECESSARY[number - 1].check(*profiles)
+        finding = NECESSARY[number - 1].check(self.profile(where, i), self.profile(where, j))
         if (i, j) in self.proven:
             finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
         return self._included(i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain))
@@ -121,8 +127,7 @@ class Decisions:
         def profile(where: int, i: int) -> Profile:
             """The profile of model i in the representation of this number, looked up once."""
             if (where, i) not in profiles:
-                r = Representation(REPRESENTATIONS[where])
-                profiles[where, i] = self.subjects[i].profile(r, _count(r, self.query, self.subjects))
+                profiles[where, i] = self.profile(REPRESENTATIONS[where], i)
             return profiles[where, i]
 
         for i, j in combinations(range(len(self.subjects)), 2):
@@ -213,12 +218,12 @@ def _admissible(result: Decisions, ask: Ask) -> None:
     for i, j in combinations(range(n), 2):
         same[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
     if domain is Domain.REAL:
-        pairs = [pair for pair in _pairs(result, same) if not rational_map(*(s.chain for s in pair))]
+        pairs = [pair for pair in _pairs(result, same) if needs_counts(*(s.canonical.chain for s in pair))]
         ask(IDENTIFIABILITY, [(s.canonical.chain,) for pair in pairs for s in pair])
     for i, j in zip(*np.nonzero(same), strict=True):
-        equal = result.steps.pop((int(i), int(j))).finding
+        equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
         found = result.subjects[i].admissible(result.subjects[j], domain)
-        step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety)))
+        step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety), equal.evidence))
         known = step.relation is not Relation.UNDECIDED
         if known:
             result.steps[int(i), int(j)] = step

@@ -57,9 +57,9 @@ class ByRow:
         return "N₂(q) = Π(s − z), D₂(q) = D₁(p₀): 1 ∈ I for each choice of zeros"
 
 
-def differ_by_row(a: Structure, b: Structure, label: str) -> ByRow | None:
+def differ_by_row(a: Structure, b: Structure) -> ByRow | None:
     """The proof, but for its bound, that two chains of equal rank differ, by an answer that is known; None if there is none."""
-    for part, pair in row_pairs(a, b, label):
+    for part, pair in row_pairs(a, b):
         answer = known_answers().get(pair)
         if answer is not None:
             row = answer.given
@@ -68,7 +68,7 @@ def differ_by_row(a: Structure, b: Structure, label: str) -> ByRow | None:
     return None
 
 
-def row_pairs(a: Structure, b: Structure, label: str) -> list[tuple[str, frozenset[DampedRow]]]:
+def row_pairs(a: Structure, b: Structure, label: str = "rows") -> list[tuple[str, frozenset[DampedRow]]]:
     """The rows, by their part, of which each pair that differs makes the two chains differ; they are canonical chains."""
     if not _comparable(a, b) or not (gap(a) == 0 or _same_parts_only(a, b, label) or _same_parts_only(b, a, label)):
         return []

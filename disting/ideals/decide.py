@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from math import ceil
-from time import monotonic
+from time import process_time
 
 from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
@@ -40,7 +40,10 @@ class Membership(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """`seconds` for the whole decision, `entries` of one matrix (about 1 microsecond each), `safety` wanted bits."""
+    """`entries` of one matrix (about 1 microsecond each), `safety` wanted bits, `seconds` for the whole decision.
+
+    The seconds are those of this process, whatever else the machine does.
+    """
 
     seconds: float = 60.0
     entries: int = 20_000_000
@@ -113,7 +116,7 @@ def decide(
     seed = about(f"ideals:{seed}", left.content, right.content)
     if safety_of_empty(left, right, equal_rank) < LEAST:
         return Decision(Membership.UNKNOWN, reason="primes of 64 bits give no useful bound for models of this size")
-    question = _Question(left, right, equal_rank, limits, monotonic() + limits.seconds)
+    question = _Question(left, right, equal_rank, limits, process_time() + limits.seconds)
     try:
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
@@ -136,7 +139,7 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
     """The first basis that is found, always doing the step with the least total work; raises _GivenUp."""
     why = "no direction"
     while runs:
-        if monotonic() > question.deadline:
+        if process_time() > question.deadline:
             raise _GivenUp(f"out of time ({question.limits.seconds:g} s)")
         run = min(runs, key=lambda r: r.work)
         try:

@@ -9,10 +9,10 @@ criteria of Gebauer and Möller. (J.-C. Faugère, A new efficient algorithm for 
 Algebra 139, 1999; R. Gebauer, H. M. Möller, On an installation of Buchberger's algorithm, J. Symb. Comp. 6, 1988.)
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import SupportsInt
 
-from disting.ideals.modular import Matrix
 from disting.ideals.modular import matrix as modular_matrix
 from disting.ideals.monomials import MAX_DEGREE, Order
 
@@ -55,6 +55,7 @@ class _Work:
     modulus: int
     waiting: list[Row]
     rows: list[Row] = field(default_factory=list)
+    leads: list[tuple[int, ...]] = field(default_factory=list)  # exponents of their leading monomials
     active: list[int] = field(default_factory=list)  # elements whose leading monomial no other one divides
     pairs: list[tuple[int, int, int]] = field(default_factory=list)  # lcm, two elements
     known: dict[int, int] = field(default_factory=dict)  # monomial -> element that reduces it
@@ -158,7 +159,8 @@ def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus
     if not kept:
         return []
     matrix, rank = modular_matrix(len(kept), len(free), [row[j] for row in kept for j in free], modulus).rref()
-    return [_new_row(matrix, r, [columns[j] for j in free]) for r in range(rank)]
+    entries, monomials, width = matrix.entries(), [columns[j] for j in free], len(free)
+    return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
 
 
 def _freed(
@@ -178,33 +180,34 @@ def _freed(
     return row
 
 
-def _new_row(matrix: Matrix, at: int, columns: list[int]) -> Row:
-    entries = ((m, int(matrix[at, j])) for j, m in enumerate(columns))
-    kept = [(m, c) for m, c in entries if c]
+def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> Row:
+    kept = [(m, int(c)) for m, c in zip(columns, entries, strict=True) if c]
     return Row(tuple(m for m, _ in kept), tuple(c for _, c in kept))
 
 
 def _insert(work: _Work, new: Row) -> None:
     """Add an element, its pairs that the criteria leave, and drop the old pairs that it makes superfluous."""
     order, lead, h = work.order, new.codes[0], len(work.rows)
-    exponents = order.decode(lead)
-    lcms = {i: _lcm(order, exponents, order.decode(work.rows[i].codes[0])) for i in work.active}
-    work.pairs = [p for p in work.pairs if not _superfluous(work, p, lead, exponents)]
+    guard, mask = order.guard, order.mask
+    exponents, low = order.decode(lead), lead & mask
+    lcms = {i: _lcm(order, exponents, work.leads[i]) for i in work.active}
+    # only where the new leading monomial divides the least common multiple
+    met = {p for p in work.pairs if (((p[0] & mask) | guard) - low) & guard == guard and _superfluous(work, p, exponents)}
+    work.pairs = [p for p in work.pairs if p not in met] if met else work.pairs
     work.pairs += [(lcm, i, h) for lcm, i in _minimal(work, lcms, lead)]
-    work.active = [i for i in work.active if not order.divides(lead, work.rows[i].codes[0])] + [h]
+    work.active = [i for i in work.active if (((work.rows[i].codes[0] & mask) | guard) - low) & guard != guard] + [h]
     work.rows.append(new)
+    work.leads.append(exponents)
 
 
 def _lcm(order: Order, a: tuple[int, ...], b: tuple[int, ...]) -> int:
     return order.encode(tuple(map(max, a, b)))
 
 
-def _superfluous(work: _Work, pair: tuple[int, int, int], lead: int, exponents: tuple[int, ...]) -> bool:
+def _superfluous(work: _Work, pair: tuple[int, int, int], exponents: tuple[int, ...]) -> bool:
+    """Whether the least common multiples of the new monomial with both of the pair are other ones than the pair's."""
     lcm, i, j = pair
-    guard, mask = work.order.guard, work.order.mask
-    if (((lcm & mask) | guard) - (lead & mask)) & guard != guard:  # lead does not divide the least common multiple
-        return False
-    return all(_lcm(work.order, exponents, work.order.decode(work.rows[k].codes[0])) != lcm for k in (i, j))
+    return all(_lcm(work.order, exponents, work.leads[k]) != lcm for k in (i, j))
 
 
 def _minimal(work: _Work, lcms: Mapping[int, int], lead: int) -> Iterator[tuple[int, int]]:
@@ -212,9 +215,10 @@ def _minimal(work: _Work, lcms: Mapping[int, int], lead: int) -> Iterator[tuple[
     groups: dict[int, list[int]] = {}
     for i, lcm in lcms.items():
         groups.setdefault(lcm, []).append(i)
-    kept: list[int] = []
+    guard, mask, kept = work.order.guard, work.order.mask, list[int]()
     for lcm in sorted(groups):
-        if not any(work.order.divides(k, lcm) for k in kept):
-            kept.append(lcm)
+        high = (lcm & mask) | guard
+        if not any((high - low) & guard == guard for low in kept):
+            kept.append(lcm & mask)
             if all(lcm != lead + work.rows[i].codes[0] for i in groups[lcm]):
                 yield lcm, groups[lcm][0]

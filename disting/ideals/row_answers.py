@@ -32,7 +32,9 @@ def read_answers(folder: Path | None = None) -> Answers:
     try:
         found = [_answer(json.loads(line)) for line in rows_text(folder).splitlines()]
     except (ValueError, LookupError, TypeError) as reason:
-        raise CatalogError(f"the answers about rows cannot be read ({reason}); make them with 'disting catalog settle'") from None
+        raise CatalogError(
+            f"the answers about rows cannot be read ({reason}); make them with 'disting catalog settle'"
+        ) from None
     return {frozenset((a.given, a.searched)): a for a in found}
 
 

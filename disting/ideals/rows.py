@@ -89,5 +89,5 @@ def row_map(row: DampedRow) -> RowMap:
     left, right, poles = leading[a - 1], trailing[n - b], leading[n] if row.wall else leading[n] // s**2
     heads = tuple(f"h{i}" for i in range(a, b))
     zeros = reduce(mul, (s + ring[h] for h in heads), left * right)
-    left, right, poles = (separated(names, p, one).numerator[:-1] for p in (left, right, poles))
-    return RowMap(names, heads, left, right, poles, separated(names, zeros, leading[n] if row.wall else leading[n] // s**2))
+    sides = [separated(names, p, one).numerator[:-1] for p in (left, right, poles)]
+    return RowMap(names, heads, sides[0], sides[1], sides[2], separated(names, zeros, poles))

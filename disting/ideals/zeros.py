@@ -44,6 +44,7 @@ from disting.algebra.sampling import prime, residues
 from disting.ideals.bounds import safety_of_empty
 from disting.ideals.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.ideals.fibre_ideal import Polynomial, derivative, evaluated, generic_rank, restricted
+from disting.ideals.modular import Polynomial as Modular
 from disting.ideals.modular import null_space, polynomial
 from disting.ideals.rows import DampedRow, RowMap, row_map
 from disting.ideals.system import Terms, terms
@@ -133,10 +134,10 @@ def zeros_are_free(row: DampedRow, label: str = "zeros") -> bool:
         if not wanted:
             return True
         point = residues(f"{label}:{draw}", len(found.parameters), modulus)
-        both = [polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus) for side in (found.left, found.right)]
-        _, factors = (both[0] * both[1]).factor()
-        if all(e == 1 for _, e in factors):
-            seen = [tuple(sorted(int(f.degree()) for f, _ in p.factor()[1])) for p in both]
+        both = [_at(side, point, modulus).factor()[1] for side in (found.left, found.right)]
+        factors = [(str(f), e) for side in both for f, e in side]
+        if all(e == 1 for _, e in factors) and len(set(factors)) == len(factors):  # the product is squarefree
+            seen = [tuple(sorted(int(f.degree()) for f, _ in side)) for side in both]
             wanted -= {(i, c) for i, c in enumerate(seen) if max(c, default=0) != 2 or max(seen[1 - i], default=1) == 1}
     return not wanted
 
@@ -185,7 +186,7 @@ def given_point(row: RowMap, label: str) -> GivenPoint | None:
     for draw in range(DRAWS):
         point = residues(f"zeros:{label}:{draw}", len(row.parameters), modulus)
         values = dict(zip(row.parameters, point, strict=True))
-        factors = [(-values[h] % modulus,) for h in row.heads]
+        factors: list[tuple[int, ...]] = [(-values[h] % modulus,) for h in row.heads]
         factors += [roots for side in (row.left, row.right) if (roots := _roots(side, point, modulus)) is not None]
         zeros = tuple(z for roots in factors for z in roots)
         if len(set(zeros)) == len(zeros) == row.whole.degrees[0]:
@@ -194,12 +195,16 @@ def given_point(row: RowMap, label: str) -> GivenPoint | None:
     return None
 
 
+def _at(side: Sequence[fmpz_mpoly], point: Sequence[int], modulus: int) -> Modular:
+    """A monic factor at a point."""
+    return polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus)
+
+
 def _roots(side: Sequence[fmpz_mpoly], point: Sequence[int], modulus: int) -> tuple[int, ...] | None:
     """Roots of a monic factor at the point if all are simple and in the prime field."""
     if not side:
         return ()
-    found = polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus)
-    _, factors = found.factor()
+    _, factors = _at(side, point, modulus).factor()
     split = all(f.degree() == e == 1 for f, e in factors)
     return tuple(-int(f[0]) * pow(int(f[1]), -1, modulus) % modulus for f, _ in factors) if split else None
 
@@ -225,7 +230,10 @@ def _relations(
 def _functionals(zeros: Sequence[int], modulus: int) -> list[list[int]]:
     """Of a monic factor f with these zeros: the weights of df -> df(z)/f'(z), for each z."""
     return [
-        [pow(z, i, modulus) * pow(reduce(mul, (z - y for y in zeros if y != z), 1), -1, modulus) % modulus for i in range(len(zeros))]
+        [
+            pow(z, i, modulus) * pow(reduce(mul, (z - y for y in zeros if y != z), 1), -1, modulus) % modulus
+            for i in range(len(zeros))
+        ]
         for z in zeros
     ]
 

@@ -28,7 +28,8 @@ the larger chain's parts can be, their sum is a limit of its models. So `of_clos
 
 from dataclasses import dataclass, replace
 
-from disting.algebra.sampling import prime, residues
+from disting.algebra.sampling import about, prime, residues
+from disting.certainty import LEAST_SAFETY
 from disting.ideals import CoefficientMap, normalised
 from disting.ideals.fibre_ideal import evaluated, generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
@@ -43,8 +44,8 @@ from disting.inclusion.rows import FREE, Row, rows_of
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
 
+LARGEST_ROW = 3  # masses of a row whose equations are looked for: those of larger ones have too many monomials
 TRIALS = 3  # primes and points at which an equation must not vanish
-LEAST = 100  # bits of an error bound that are asked for
 Support = tuple[frozenset[int], frozenset[int]]
 
 
@@ -68,11 +69,12 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsIn
     given, other = (replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large))
     if not _alike(given, other):
         return None
-    found = {name: [(p, _shown(p, seed)) for p in some] for name, some in _by_split(given, other, large).items()}
+    label = about(seed, small)
+    found = {name: [(p, _shown(p, label)) for p in some] for name, some in _by_split(given, other, large).items()}
     for told in found.values():
         if all(why is not None and why[0] in SUPPORTS for _, why in told):
             return PartsInside(True, tuple(_step(p, why) for p, why in told if why is not None)), 0
-    if not _covered(given, other, f"{seed}:poles"):
+    if not _covered(given, other, f"{seed}:{small}:poles"):
         return None
     against = [
         next(((p, why) for p, why in told if why is not None and why[0] not in SUPPORTS), None) for told in found.values()
@@ -129,10 +131,10 @@ def _step(piece: Piece, shown: tuple[Why, str]) -> PartLimits:
     return PartLimits(piece.split, piece.part, *shown)
 
 
-def _shown(piece: Piece, seed: str) -> tuple[Why, str] | None:
+def _shown(piece: Piece, label: str) -> tuple[Why, str] | None:
     """What settles a part, the cheapest first; None if nothing does."""
-    label = f"{seed}:{piece.row}"
-    return next(filter(None, (test(piece, label) for test in _TESTS)), None)
+    named = f"{label}:{piece.row}"
+    return next(filter(None, (test(piece, named) for test in _TESTS)), None)
 
 
 def _inside(piece: Piece, label: str) -> tuple[Why, str] | None:
@@ -167,7 +169,7 @@ def _resultant(piece: Piece, label: str) -> tuple[Why, str] | None:
 
 
 def _equation(piece: Piece, label: str) -> tuple[Why, str] | None:
-    if _coefficient(piece, label) is not None or _safety(piece.row) < LEAST:
+    if piece.row.n_masses > LARGEST_ROW or _coefficient(piece, label) is not None or _safety(piece.row) < LEAST_SAFETY:
         return None
     return (Why.EQUATION, label) if all(_does_not_vanish(piece, f"{label}:{k}") for k in range(TRIALS)) else None
 

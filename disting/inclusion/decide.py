@@ -6,7 +6,7 @@ kept. Chains of different sizes are compared in `across_sizes`: there CLOSURE is
 1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
 2. CLOSURE by parts: `closures` proves or refutes it; small ideals of both parts (`disting.ideals.by_parts`) prove it.
 3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of the parts refute it without any
-   chance; one fibre by the synthesis refutes or proves it (`image`), and with IMAGE CLOSURE is proven.
+   chance; one fibre by the synthesis refutes or proves it (`image`), and with it CLOSURE is proven; a small ideal refutes it.
 4. Where neither is known: the parts, then the whole model, as ideals of fibres, with the bounds of `disting.ideals.bounds`. An
    empty fibre refutes IMAGE, a solution, whose elements may be zero, proves CLOSURE.
 """
@@ -41,9 +41,9 @@ from disting.model.chain import Chain
 from disting.question import Question
 from disting.settings import Settings
 
-INCLUSION_LIMITS = Limits(seconds=20.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
-CLOSURE_LIMITS = Limits(seconds=5.0, entries=30_000, safety=100)  # of the ideal of one part, tried for every pair
-PART_LIMITS = Limits(seconds=20.0, entries=1_000_000, safety=100)  # of the ideal of one part
+INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
+CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)  # of the ideal of one part, tried for every pair
+PART_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one part
 NOT_ASKED = "of chains of different sizes only limits are asked for"
 
 

@@ -12,12 +12,13 @@ for what is dense and constructible holds a dense open set.
 An empty fibre proves the opposite, as in `disting.conditions.exact`, whose argument does not use equal ranks.
 """
 
+from dataclasses import replace
 from math import ceil, log2
 
-from disting.certainty import Certainty
+from disting.certainty import LEAST_SAFETY, Certainty
 from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
-from disting.ideals import refuted_by_parts
+from disting.ideals import Limits, Refuted, decide, normalised, refuted_by_parts
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.meeting import powers
 from disting.inclusion.profiles import by_relative_degrees
@@ -25,15 +26,22 @@ from disting.model.chain import Chain
 from disting.settings import Settings
 from disting.synthesis.decide import DRAWS, Exact, Grounds, Membership, member, point_bits, safety_of_point
 
+LIMITS = Limits(seconds=5.0, entries=20_000, safety=LEAST_SAFETY)  # of the ideal of one fibre
+
 
 def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    """The model of the smaller rank searched in the other: what is exact first, then one fibre by the synthesis."""
+    """The model of the smaller rank searched in the other: what is exact first, then one fibre."""
     falling = by_relative_degrees(small, large)
     if falling is not None:
         return falling
     exact = refuted_by_parts(rational_part(small), rational_part(large), settings.seed)
     if exact is not None:
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
+    found = _by_synthesis(small, large, settings)
+    return found if found.is_known else _by_ideal(small, large, settings, found)
+
+
+def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
     unknown = InclusionFinding(Inclusion.UNKNOWN, reason="no method finds all equivalents with finite elements")
     if any(c.lag or c.dead_time for c in (small, large)) or small.damped != large.damped:
         return unknown
@@ -47,8 +55,18 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
     return InclusionFinding(inclusion, Certainty.BOUNDED, safety, _evidence(found))
 
 
+def _by_ideal(small: Chain, large: Chain, settings: Settings, otherwise: InclusionFinding) -> InclusionFinding:
+    """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
+    maps = (normalised(rational_part(c)) for c in (small, large))
+    found = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
+    if not isinstance(found.evidence, Refuted) or found.safety < LEAST_SAFETY:
+        return otherwise
+    evidence = replace(found.evidence, is_normalised=True)
+    return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, found.safety, evidence)
+
+
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
-    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B = `point_bits` (Schwartz, Zippel): one equivalent tells of generic ones."""
+    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B bits a coordinate: one equivalent tells of generic ones."""
     here, there = (powers(rational_part(c)) for c in (small, large))
     coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)

@@ -16,7 +16,7 @@ from disting.inclusion.rows import Row, rows_of
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
 
-LIMITS = Limits(seconds=5.0, entries=30_000, safety=104)  # of the ideal of one fibre
+LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre
 LEAST = 100  # bits of an error bound that are asked for
 MODELS = 12  # that are tried for a pair
 RowSteps = tuple[tuple[str, tuple[Step, ...]], ...]

@@ -1,12 +1,23 @@
 """Checks the evidence of an inclusion again, from itself alone."""
 
 from dataclasses import replace
+from math import comb
 
 from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
 from disting.conditions.verify import POINTS, Witness
-from disting.ideals import ByParts, Refuted, Solved, coefficient_map, confirms_by_parts
+from disting.ideals import (
+    ByParts,
+    Limits,
+    Membership,
+    Refuted,
+    Solved,
+    coefficient_map,
+    confirms_by_parts,
+    decide,
+    normalised,
+)
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
 from disting.inclusion.closures import confirms_parts
@@ -17,6 +28,8 @@ from disting.invariants.profile import samples
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
+
+PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 
 
 def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool:
@@ -54,9 +67,27 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)
         case FibreAt():
             return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
-        case Solved() | Refuted():
-            plain = isinstance(evidence, Solved) or not evidence.tangent
-            return evidence.left_given == left_is_smaller and plain and fresh.confirms(evidence, "tf", a, b)
+        case Solved():
+            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
+        case Refuted():
+            told = evidence.left_given == left_is_smaller and not evidence.tangent
+            return told and (
+                _refuted_again(a, b, evidence) if _is_large(evidence, a, b) else fresh.confirms(evidence, "tf", a, b)
+            )
+
+
+def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:
+    """Whether plain elimination has too many monomials to bear."""
+    unknowns = max(len(coefficient_map(rational_part(c)).parameters) for c in (a, b))
+    return comb(unknowns + 1 + evidence.degree, evidence.degree) > PLAIN_MONOMIALS
+
+
+def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
+    """Whether the decision is the same at fresh points and primes."""
+    coordinates = normalised if evidence.is_normalised else coefficient_map
+    given, other = (coordinates(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a)))
+    again = decide(given, other, equal_rank=False, seed="verify", limits=Limits(seconds=600, entries=10**9, safety=1))
+    return again.membership is Membership.EXCLUDED
 
 
 def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:

@@ -11,5 +11,7 @@ from disting.parametric.formulas import is_without as is_without
 from disting.parametric.identifiability import LocalIdentifiability as LocalIdentifiability
 from disting.parametric.identifiability import local_identifiability as local_identifiability
 from disting.parametric.model import Model as Model
+from disting.parametric.solutions import GlobalIdentifiability as GlobalIdentifiability
+from disting.parametric.solutions import global_identifiability as global_identifiability
 from disting.parametric.verdicts import compare as compare
 from disting.parametric.verdicts import findings as findings

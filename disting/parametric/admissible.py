@@ -13,6 +13,7 @@ from itertools import islice
 from disting.algebra.sampling import residues
 from disting.certainty import Certainty
 from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.evidence import Theorem
 from disting.conditions.explicit import NoEquivalent
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.witnesses import Point, Witnesses
@@ -22,6 +23,7 @@ from disting.parametric.fibre import Extent, solved
 from disting.parametric.formulas import explicit
 from disting.parametric.groebner import Bounds, TooLarge
 from disting.parametric.model import Model
+from disting.parametric.one_ports import same_one_ports
 from disting.parametric.target import fibre_equations, rational_values, target
 from disting.parametric.ways import Way, way
 
@@ -43,6 +45,8 @@ def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> 
             return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
     if all(one and one.covering for one in ways):
         return _always(ways, domain)
+    if domain is Domain.POSITIVE and same_one_ports(left, right):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer"))
     having, lacking, shares = _seen(ways, domain, seed)
     if having and lacking:
         return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=_witnesses(ways, having, lacking, domain))

@@ -2,9 +2,11 @@
 
 EQUATIONS. Let given and searched model have the same degrees m in the numerator and n in the denominator, and let p be such
 that N1(p), D1(p) are coprime and lead D1(p) is not zero; both hold outside of the zeros of a polynomial in p that is not zero.
-Then N2(q)/D2(q) = N1(p)/D1(p) with lead D2(q) != 0 is the same as c_i(q) lead(p) = c_i(p) lead(q) for all coefficients c_i of
-both sides with lead(q) != 0: D1(p) divides N1(p) D2(q), so D2(q), which has the same degree, so D2(q) is a number times D1(p),
-and N2(q) the same number times N1(p). The other direction is plain.
+Then N2(q)/D2(q) = N1(p)/D1(p) with lead D2(q) != 0 is the same as equality of all coefficients over the leading one: D1(p)
+divides N1(p) D2(q), so D2(q), which has the same degree, so D2(q) is a number times D1(p), and N2(q) the same number times
+N1(p). The other direction is plain. For m = n the numerators are replaced by N - G(oo) D, G(oo) = b_n/a_n, from which they
+follow. So invariants u(q)/v(q) = u(p)/v(p) are to be equal, fractions in lowest terms, whose denominators divide powers of the
+leading coefficients and are not zero where these are not: u(q) v(p) = u(p) v(q).
 
 CASES. A case is a set of equations, of inequalities g > 0 and of unknowns that are solved for, q_j = N/c. It starts with all
 equations and, over positive numbers, with nothing else: q > 0 is asked of each unknown when it is solved for. Each step
@@ -67,9 +69,15 @@ def searched(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) 
 
     Both models have the same degrees.
     """
-    search = Search(ring, order)
+    search = cases_of(ring, Case(tuple(ring.equations(given, other))), order)
     search.generic.append(ring.lifted(given.denominator_terms[-1], 0))
-    _open(search, Case(tuple(ring.equations(given, other))))
+    return search
+
+
+def cases_of(ring: Orthant, case: Case, order: tuple[int, ...]) -> Search:
+    """All cases that one case leads to; raises TooMuch."""
+    search = Search(ring, order)
+    _open(search, case)
     return search
 
 

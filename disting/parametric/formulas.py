@@ -4,13 +4,14 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.conditions.explicit import Explicit, Formula, NoEquivalent
 from disting.domain import Domain
-from disting.parametric.between import Path
+from disting.parametric.between import End, Path
 from disting.parametric.expression import names as symbols_of
 from disting.parametric.expression import tree, value
 from disting.parametric.model import Model, Terms
 from disting.parametric.ratio import Ratio
 from disting.parametric.sections import Section
 from disting.parametric.ways import Way, way
+from disting.parametric.words import polynomial_text, text_of
 
 
 def explicit(ways: list[Way], domain: Domain) -> Explicit:
@@ -44,33 +45,27 @@ def is_without(evidence: NoEquivalent, left: Model, right: Model) -> bool:
 
 def _of_section(left_given: bool, one: Way, section: Section) -> Formula:
     names = _names(one)
-    values = tuple((q, _spelled(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True))
-    return left_given, tuple(_text(g, names) for g in section.where), values, ()
+    values = tuple((q, text_of(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True))
+    return left_given, tuple(polynomial_text(g, names) for g in section.where), values, ()
 
 
 def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
     names = _names(one)
     root = names[found.at] = next(n for n in ("x", "root", "x_") if n not in one.given.parameters)
-    values = tuple((q, _spelled(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True))
-    ends = [_spelled(Ratio(*end), names) if not end[1].is_zero() else "infinity" for end in (found.low, found.high)]
-    return left_given, (), values, (root, _text(found.equation, names), *ends)
+    values = tuple((q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True))
+    ends = [_end_text(end, names) for end in (found.low, found.high)]
+    return left_given, (), values, (root, polynomial_text(found.equation, names), *ends)
+
+
+def _end_text(end: End, names: list[str]) -> str:
+    if end[1].is_zero():
+        return "infinity" if end[0].is_one() else "-infinity"
+    return text_of(Ratio(*end), names)
 
 
 def _names(one: Way) -> list[str]:
     """Of p, q and t: parameters of the given model as they are called, unknowns with names that do not occur."""
     return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
-
-
-def _text(polynomial: fmpz_mpoly, names: list[str]) -> str:
-    context = fmpz_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
-    return str(context.from_dict(polynomial.to_dict())).replace("^", "**")
-
-
-def _spelled(ratio: Ratio, names: list[str]) -> str:
-    top, bottom = (_text(side, names) for side in (ratio.num, ratio.den))
-    if bottom == "1":
-        return top
-    return "/".join(f"({x})" if any(c in x for c in " */") else x for x in (top, bottom))
 
 
 def _fits(formula: Formula, given: Model, other: Model) -> bool:

@@ -2,8 +2,8 @@
 
 Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere. Over real numbers the same is
 said of one in which all exponents are even, coefficients have one sign and some term contains no unknown: it has this sign for
-all q and all p without zeros. Polynomials in the p alone that are not zero vanish on no open set; they are passed over and
-listed by whoever rests on that.
+all q and all p without zeros. Over complex numbers only constants have a sign, which then says that they are not zero.
+Polynomials in the p alone that are not zero vanish on no open set; they are passed over and listed by whoever rests on that.
 """
 
 from collections.abc import Iterable
@@ -17,6 +17,7 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.domain import Domain
 from disting.parametric.model import Model, Terms
+from disting.parametric.ratio import Ratio
 
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign of a polynomial, or is zero."""
@@ -67,10 +68,24 @@ class Orthant:
         return self.context.from_dict({(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms})
 
     def equations(self, given: Model, other: Model) -> list[fmpz_mpoly]:
-        """c_i(q) lead(p) = c_i(p) lead(q) for all coefficients c_i: the same transfer function, for generic p (see `cases`)."""
-        here = [self.lifted(c, 0) for c in (*given.numerator_terms, *given.denominator_terms)]
-        there = [self.lifted(c, self.n_given) for c in (*other.numerator_terms, *other.denominator_terms)]
-        return [b * here[-1] - a * there[-1] for a, b in zip(here[:-1], there[:-1], strict=True)]
+        """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for generic p (see `cases`)."""
+        here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
+        return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
+
+    def monic(self, model: Model) -> list[Ratio]:
+        """All coefficients over the leading one, in the p."""
+        sides = [self.lifted(c, 0) for c in (*model.numerator_terms, *model.denominator_terms)]
+        return [Ratio(c, sides[-1]) for c in sides[:-1]]
+
+    def _invariants(self, model: Model, first: int) -> list[Ratio]:
+        """Coefficients of G over the leading one, the numerator without the multiple of the denominator that G is at s = oo."""
+        top, bottom = ([self.lifted(c, first) for c in side] for side in (model.numerator_terms, model.denominator_terms))
+        lead = bottom[-1]
+        monic = [Ratio(c, lead) for c in bottom[:-1]]
+        if len(top) < len(bottom):
+            return [*(Ratio(c, lead) for c in top), *monic]
+        rest = [b * lead - top[-1] * a for a, b in zip(bottom[:-1], top[:-1], strict=True)]
+        return [Ratio(top[-1], lead), *(Ratio(c, lead * lead) for c in rest), *monic]
 
     def lead(self, other: Model) -> fmpz_mpoly:
         """Leading denominator coefficient of the searched model."""
@@ -83,11 +98,13 @@ class Orthant:
 
     def sign(self, polynomial: fmpz_mpoly) -> int:
         """1 or -1 where it has this sign for all admissible values (see above), 0 where that is not seen."""
+        if self.domain is Domain.COMPLEX and not polynomial.is_constant():
+            return 0
         terms = polynomial.to_dict()
         signs = {1 if c > 0 else -1 for c in terms.values()}
         if len(signs) != 1:
             return 0
-        if self.domain is not Domain.POSITIVE:
+        if self.domain is Domain.REAL:
             even = all(e % 2 == 0 for exponents in terms for e in exponents)
             if not even or all(any(exponents[i] for i in self.unknowns) for exponents in terms):
                 return 0

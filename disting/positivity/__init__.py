@@ -7,6 +7,9 @@ from disting.positivity.ranges import confirms_within as confirms_within
 from disting.positivity.ranges import ranges as ranges
 from disting.positivity.ranges import renamings as renamings
 from disting.positivity.ranges import within_ranges as within_ranges
+from disting.positivity.real import always_real as always_real
+from disting.positivity.real import confirms_real as confirms_real
+from disting.positivity.real import real_witness as real_witness
 from disting.positivity.result import Empirical as Empirical
 from disting.positivity.result import PositiveFinding as PositiveFinding
 from disting.positivity.result import Share as Share

@@ -132,9 +132,15 @@ def subset_sums(items: list[Ball], size: int) -> list[Ball]:
 
 
 @cache
+def _subsets(count: int, size: int) -> list[tuple[int, ...]]:
+    """All subsets of that size, in the order of itertools.combinations."""
+    return list(combinations(range(count), size))
+
+
+@cache
 def _incidence(count: int, size: int) -> acb_mat:
     """Rows: the subsets; 1 for each element."""
-    subsets = list(combinations(range(count), size))
+    subsets = _subsets(count, size)
     return acb_mat(len(subsets), count, [int(i in chosen) for chosen in subsets for i in range(count)])
 
 
@@ -171,13 +177,17 @@ def _unit(count: int) -> list[Ball]:
 
 
 def _with_damper(branch: Branch, d: Ball, found_by: Callable[[Poly, int], list[Ball]]) -> Iterator[Leaf]:
-    """Every subset of the roots of G_d that may be Phi's."""
+    """Every subset of the roots of G_d that may be Phi's; all that are refuted are one leaf."""
     nodes, size, sigma = branch.segment.nodes, 2 * (branch.segment.nodes - branch.segment.a), branch.sigma
     found = found_by(branch.grounded(d), 2 * nodes)
-    inverse = [1 / z for z in found]
-    for chosen, total in zip(combinations(range(2 * nodes), size), subset_sums(inverse, size), strict=True):
-        value = sigma + total
-        if is_boundary(value) and vanishes(value, sum((abs(inverse[i]) for i in chosen), abs(sigma))):
+    inverse, wanted = [1 / z for z in found], -sigma
+    sums = subset_sums(inverse, size)
+    met = [k for k, total in enumerate(sums) if total.overlaps(wanted)]
+    if len(met) < len(sums):
+        yield NONZERO
+    for k in met:
+        chosen = _subsets(2 * nodes, size)[k]
+        if vanishes(sigma + sums[k], sum((abs(inverse[i]) for i in chosen), abs(sigma))):
             left = [z for i, z in enumerate(found) if i not in chosen]
             yield from _sides(branch, d, product(left), product([found[i] for i in chosen]))
         else:

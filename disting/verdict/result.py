@@ -34,7 +34,9 @@ GROUNDS = {
     "fibre": "one fibre",
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
+    "row": "a row of masses decided once for all",
     "full-parts": "parts that can have any receptance",
+    "constants": "constants",
 }  # on which the exact decision rests, by the kind of its evidence
 
 

@@ -8,9 +8,9 @@ import pytest
 from disting import CatalogError, Engine, InputError, Relation, catalog, compare
 from disting.catalogs.damper_family import damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, name_of, read, text_of, write
+from disting.catalogs.damper_settled import read_settled
 from disting.catalogs.damper_verify import verify_dampers
 from disting.catalogs.files import shipped_folder
-from disting.catalogs.settle import SETTLED_DAMPERS, read_settled
 from disting.cli import main
 from disting.conditions import Outcome
 from disting.conditions.quick import quick_finding, quick_profile
@@ -155,7 +155,7 @@ def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
 
 
 def test_what_was_settled_once_is_in_the_file_and_holds():
-    known = read_settled(shipped_folder(), SETTLED_DAMPERS)
+    known = read_settled(shipped_folder())
     chains = {str(canonical(c).chain): canonical(c).chain for c in damper_catalog(5, damped=True).found.chains}
     assert len(known) > 90
     assert all(f.safety >= 100 and f.outcome is Outcome.FAILS for f in known.values())

@@ -18,18 +18,18 @@ LABELS = ("b0", "b1")
 ROOT = {LARGE: 2**31, SMALL: 2**16}
 
 
-def summary(rows_and_values):
-    """Profile of two moment invariants, each (value, derivative by a, derivative by b) at a, b, modulo p."""
+def summary(rows_and_values, *, constants=()):
+    """Profile of two moment invariants, each (value, derivative by a, derivative by b) at a, b, modulo p; constants by name."""
     samples = []
     for label, modulus in [("one", LARGE), ("two", LARGE), ("search", SMALL)]:
         entries = rows_and_values(*residues(label, 2, modulus), modulus)
         samples.append(sample([row for _, *row in entries], [value for value, *_ in entries], LABELS, modulus))
-    return from_samples(samples[:2], samples[2], frozenset(), (1, 0), 0, 1, Size(2, 2), Settings())
+    return from_samples(samples[:2], samples[2], frozenset(constants), (1, 0), 0, 1, Size(2, 2), Settings())
 
 
 MAGNITUDE_PHASE = (
-    summary(lambda a, b, p: [(a * b, b, a), (0, 0, 0)]),
-    summary(lambda a, b, p: [(ROOT[p] * a * b, ROOT[p] * b, ROOT[p] * a), (pow(8, -1, p), 0, 0)]),
+    summary(lambda a, b, p: [(a * b, b, a), (0, 0, 0)], constants=["b1"]),
+    summary(lambda a, b, p: [(ROOT[p] * a * b, ROOT[p] * b, ROOT[p] * a), (pow(8, -1, p), 0, 0)], constants=["b1"]),
 )
 REAL_IMAGINARY = (
     summary(lambda a, b, p: [(a * b, b, a), (0, 0, 0)]),

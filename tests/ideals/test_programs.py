@@ -6,9 +6,9 @@ import pytest
 
 from disting.ideals import normalised
 from disting.ideals.fibre_ideal import fibre_ideal
-from disting.ideals.programs import MSOLVE, PROGRAMS, SINGULAR, emptiness, installed
-from disting.ideals.rational import Emptiness, fibre_over_rationals
 from disting.model.family import Family
+from tests.oracles.programs import MSOLVE, PROGRAMS, SINGULAR, emptiness, installed
+from tests.oracles.rational import Emptiness, fibre_over_rationals
 
 POINT = [3, 7, 2, 5, 11, 13, 4]
 CASES = [(6, Emptiness.EMPTY), (11, Emptiness.NOT_EMPTY)]  # model 1 of three damped masses searched in them

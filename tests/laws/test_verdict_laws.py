@@ -2,13 +2,15 @@
 
 import json
 from dataclasses import fields
+from typing import get_args
 
 import pytest
 from hypothesis import given
 
-from disting import Chain, Engine, Relation, Verdict
+from disting import Chain, Engine, Family, Query, Relation, Verdict, View, compare
 from disting.certainty import Certainty
-from disting.conditions.evidence import Counts, from_dict, to_dict
+from disting.conditions.evidence import ByDecision, Counts, from_dict, to_dict
+from disting.verdict.result import GROUNDS
 from tests.laws.pairs import any_pair, often, quick, verdict, with_examples
 
 
@@ -71,7 +73,9 @@ def test_a_decided_verdict_lacks_nothing(missing):
 def test_an_undecided_verdict_has_no_proof():
     with pytest.raises(ValueError, match="exactly a decided verdict"):
         Verdict("a", "b", Relation.UNDECIDED, **DECIDED)
-    assert Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided: nothing settles them."
+    assert (
+        Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided over complex parameters: nothing settles them."
+    )
 
 
 def test_verdicts_are_values():
@@ -81,3 +85,11 @@ def test_verdicts_are_values():
     with pytest.raises(AttributeError):
         found.relation = Relation.UNDECIDED
     assert [f.name for f in fields(found)][:4] == ["left", "right", "relation", "decided_by"]
+
+
+def test_every_kind_of_evidence_of_the_exact_decision_has_words_for_the_rule():
+    """What decided is named: a theorem is not called a fibre."""
+
+    assert {kind.kind for kind in get_args(ByDecision)} <= GROUNDS.keys()
+    dual = compare(Family(3, damped=True)[1], Family(3, damped=True)[11], query=Query(View.EXACT))
+    assert dual.rule == "exact decision, a theorem" and f"over complex parameters ({dual.rule})" in dual.sentence

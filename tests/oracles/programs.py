@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from disting.ideals.fibre_ideal import FibreIdeal, Polynomial
-from disting.ideals.rational import Emptiness
+from tests.oracles.rational import Emptiness
 
 PROGRAM_BITS = 31
 
