@@ -36,6 +36,7 @@ from disting.model.symmetry import Symmetry as Symmetry
 from disting.parametric import Alternatives as Alternatives
 from disting.parametric import Model as Model
 from disting.parametric import alternatives as alternatives
+from disting.parametric import global_identifiability as global_identifiability
 from disting.parametric import local_identifiability as local_identifiability
 from disting.proof import prove as prove
 from disting.settings import Settings as Settings

@@ -28,6 +28,7 @@ NAMES = [
         "equivalents",
         "explicit_map",
         "findings",
+        "global_identifiability",
         "local_identifiability",
         "prove",
         "transfer_function",

@@ -45,7 +45,19 @@ def about(label: str, *content: object) -> str:
 
 def digest(*content: object) -> str:
     """128 bits of SHA-256 of the content, as text."""
-    return hashlib.sha256("\0".join(map(repr, content)).encode()).hexdigest()[:32]
+    return hashlib.sha256("\0".join(map(_text, content)).encode()).hexdigest()[:32]
+
+
+def _text(content: object) -> str:
+    """`repr`; numbers of more digits than Python writes in decimal are hexadecimal."""
+    try:
+        return repr(content)
+    except ValueError:
+        if isinstance(content, int):
+            return hex(content)
+        if not isinstance(content, tuple):
+            raise
+        return f"({','.join(map(_text, content))})"
 
 
 def residues(label: str, count: int, modulus: int) -> list[int]:

@@ -5,8 +5,10 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from disting.catalogs.damper_settled import preload, read_settled
 from disting.catalogs.dampers import DamperSets, Masses
-from disting.conditions.quick import PATIENTLY
+from disting.catalogs.files import shipped_folder
+from disting.conditions.quick import PATIENTLY, SETTLED, SHARING
 from disting.engine import Engine, Progress, silent
 from disting.engine.classes import Classes
 from disting.engine.grouping import classes
@@ -14,7 +16,7 @@ from disting.errors import InputError
 from disting.model.family import Family
 from disting.verdict import Relation
 
-PATIENT_UP_TO = 4  # masses: there the ideals of fibres are asked where the synthesis is silent; for 5 they take an hour
+PATIENT_UP_TO = 4  # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
 Name = tuple[int, Masses]
 """A model: its number in the family and the masses with a damper to the ground."""
 
@@ -83,7 +85,8 @@ def damper_family(
 ) -> DamperFamily:
     """The classes of a family with sets of ground dampers; what is finished is in the engine's store, so that a run resumes.
 
-    `patient`: ask the ideals of fibres for more than PATIENT_UP_TO masses too.
+    `patient`: ask the shares and the ideals of fibres for more than PATIENT_UP_TO masses too; what was settled with them once
+    is shipped and always known.
 
     >>> found = damper_family(2, damped=True)
     >>> len(found), found.look_up((2, (1,)), (2, (2,)))[0].value
@@ -91,6 +94,8 @@ def damper_family(
     """
     family, sets = Family(n_masses, damped), which.of(n_masses)
     chains = [replace(chain, ground_dampers=masses) for chain in family for masses in sets]
-    more = [PATIENTLY] if n_masses <= PATIENT_UP_TO or patient else []
-    found = classes(chains, engine or Engine(), more=more, executor=executor, progress=progress)
+    more = [SETTLED, *([SHARING, PATIENTLY] if n_masses <= PATIENT_UP_TO or patient else [])]
+    engine = engine or Engine()
+    preload(engine, read_settled(shipped_folder()), [engine.subject("", c) for c in chains])
+    found = classes(chains, engine, more=more, executor=executor, progress=progress)
     return DamperFamily(family, sets, found)

@@ -77,6 +77,12 @@ def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
         raise CatalogError(f"{path} cannot be read ({reason}); {remedy}") from None
 
 
+def was_patient(folder: Path, n_masses: int, damped: bool) -> bool:
+    """Whether a file was made with --patient."""
+    header = (folder / f"{name_of(n_masses, damped)}.jsonl").read_text(encoding="utf-8").partition("\n")[0]
+    return str(json.loads(header)["command"]).endswith("--patient")
+
+
 def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: bool = False) -> Path:
     """Write the file; a killed run leaves no half-written one under its name."""
     folder.mkdir(parents=True, exist_ok=True)

@@ -192,6 +192,7 @@ def _add_catalog(groups: Groups) -> None:
     _shared(q, work=True)
     q = _command(actions, "settle", catalogs.settle, "decide the rows of masses that leave pairs open, to be shipped")
     q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")
+    q.add_argument("--dampers", action="store_true", help="and what is open with dampers to the ground, of 3 to 5 masses")
     q.add_argument("--catalog", type=Path, default=Path("catalog"), metavar="DIR", help="folder (default: catalog)")
     q = _command(actions, "verify", catalogs.verify, "rebuild catalogues, compare bytes, and check every evidence anew")
     q.add_argument("masses", type=MASSES, nargs="+", metavar="N", help="numbers of masses")

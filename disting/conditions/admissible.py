@@ -18,7 +18,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.evidence import Theorem
+from disting.conditions.evidence import Evidence, Renaming, Theorem
 from disting.conditions.exact import theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.reality import RealFactors, RealWitnesses
@@ -123,8 +123,14 @@ def by_counts(left: Identifiability, right: Identifiability) -> Finding:
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_REAL)
 
 
-def resting_on(finding: Finding, equal: Grade) -> Finding:
-    """The finding on admissible parameters; odd fibres presuppose that the images are equal over C, which is so sure."""
+def resting_on(finding: Finding, equal: Grade, why: Evidence | None = None) -> Finding:
+    """The finding on admissible parameters, which may rest on that over complex ones, so sure, and on its evidence.
+
+    Odd fibres presuppose that the images are equal over C. A renaming takes real and positive parameters to such ones, whatever
+    the kinds of the two chains: it decides where nothing else does.
+    """
+    if finding.outcome is Outcome.ABANDONED and isinstance(why, Renaming):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, *equal, evidence=why)
     if not isinstance(finding.evidence, OddFibres):
         return finding
     certainty, safety = weakest((finding.certainty, finding.safety), equal)

@@ -25,9 +25,9 @@ from disting.conditions.explicit import NoEquivalent as NoEquivalent
 from disting.conditions.reality import RealFactors, RealWitnesses
 from disting.conditions.ways import BothWays, OddFibres
 from disting.conditions.witnesses import Witnesses
-from disting.ideals import ByRow, FullParts, Refuted, Solved
+from disting.ideals import ByRow, FullParts, Refuted, Shared, Solved
 
-ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted
+ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted | Shared
 Nested = BothWays | RealFactors | RealWitnesses
 Evidence = ByConditions | ByDecision | Nested | OddFibres | Witnesses | Explicit | NoEquivalent | Constants
 _KINDS: dict[str, type[Evidence]] = {c.kind: c for c in get_args(Evidence)}

@@ -30,7 +30,7 @@ from disting import ideals
 from disting.certainty import Certainty
 from disting.conditions.evidence import DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
-from disting.ideals import Limits, Refuted, Solved, coefficient_map, normalised
+from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised
 from disting.ideals.by_rows import differ_by_row
 from disting.ideals.full_parts import same_by_full_parts
 from disting.ideals.rows import DampedRow
@@ -61,6 +61,8 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         found = by_full_parts(a, b)
     if found is None:
         found = by_row(a, b)
+    if found is None and (a.ground_dampers or b.ground_dampers):  # they make the ideals of whole fibres too large
+        found = by_shares(a, b, settings)
     return by_ideals(a, b, settings, LIMITS) if found is None else found
 
 
@@ -81,6 +83,14 @@ def by_full_parts(a: Chain, b: Chain) -> Finding | None:
     """What parts that can have any receptance prove; a dead time that both have is a factor of its own."""
     evidence = same_by_full_parts(a.structure, b.structure)
     return None if evidence is None else Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
+
+
+def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the shares of the numerator's roots refute; a dead time that both have is a factor of its own."""
+    found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
+    if found is None or found[1] < LIMITS.safety:
+        return None
+    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, found[1], found[0])
 
 
 def by_row(a: Chain, b: Chain) -> Finding | None:
@@ -116,7 +126,7 @@ def rational_part(chain: Chain) -> Structure:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | DeadTime):
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | Shared | DeadTime):
         return finding
     return replace(finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given))
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from disting.certainty import Certainty
 from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.evidence import Theorem
-from disting.conditions.exact import EXACT, by_full_parts, by_ideals, by_synthesis, theorem
+from disting.conditions.exact import EXACT, by_full_parts, by_ideals, by_shares, by_synthesis, theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import Limits
 from disting.invariants.codec import profile_from_json, profile_to_json
@@ -51,6 +51,17 @@ def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     return by_ideals(a, b, settings, LIMITS)
 
 
+def sharing_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """What the shares of the numerator's roots refute, in a second to some minutes."""
+    found = by_shares(a, b, settings)
+    return Finding(EXACT, Outcome.ABANDONED, note="the shares refute nothing") if found is None else found
+
+
+def settled_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """Nothing: what was settled once is told to the engine before it is asked (see `catalogs.damper_settled`)."""
+    return Finding(EXACT, Outcome.ABANDONED, note="not settled")
+
+
 def quick_profile(chain: Chain, settings: Settings) -> Profile:
     """Profile of the Markov parameters of 1/G, as many as are used of G."""
     structure = chain.structure
@@ -58,6 +69,8 @@ def quick_profile(chain: Chain, settings: Settings) -> Profile:
 
 
 QUICKLY = Question("quick exact decisions", quick_finding, finding_to_json, finding_from_json)
+SETTLED = Question("settled decisions", settled_finding, finding_to_json, finding_from_json)
+SHARING = Question("decisions by shares", sharing_finding, finding_to_json, finding_from_json)
 PATIENTLY = Question("patient exact decisions", patient_finding, finding_to_json, finding_from_json)
 INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile_from_json)
 

@@ -31,7 +31,9 @@ from disting.ideals import (
     Limits,
     Membership,
     Refuted,
+    Shared,
     Solved,
+    chains_told_apart,
     coefficient_map,
     confirms,
     confirms_row,
@@ -75,6 +77,8 @@ class Witness:
                 return (left.dead_time, right.dead_time) == (evidence.left_given, not evidence.left_given)
             case FullParts():
                 return _full_parts(evidence, left, right)
+            case Shared():
+                return _shares(evidence, left, right)
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
             case ByRow():
@@ -198,6 +202,13 @@ def _full_parts(evidence: FullParts, left: Chain, right: Chain) -> bool:
     """Both ranks once more, at fresh points."""
     a, b = (canonical(chain).chain.structure for chain in (left, right))
     return same_by_full_parts(a, b, "verify") == evidence
+
+
+def _shares(evidence: Shared, left: Chain, right: Chain) -> bool:
+    """Every share refuted once more, at a fresh point."""
+    a, b = (rational_part(canonical(chain).chain) for chain in (left, right))
+    again = chains_told_apart(a, b, "verify")
+    return again is not None and (again[0].part, again[0].shares > 0) == (evidence.part, evidence.shares > 0)
 
 
 def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:

@@ -223,7 +223,7 @@ def _admissible(result: Decisions, ask: Ask) -> None:
     for i, j in zip(*np.nonzero(same), strict=True):
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
         found = result.subjects[i].admissible(result.subjects[j], domain)
-        step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety)))
+        step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety), equal.evidence))
         known = step.relation is not Relation.UNDECIDED
         if known:
             result.steps[int(i), int(j)] = step

@@ -15,6 +15,7 @@ from disting.ideals.by_parts import refuted_by_parts as refuted_by_parts
 from disting.ideals.by_rows import ByRow as ByRow
 from disting.ideals.by_rows import confirms_row as confirms_row
 from disting.ideals.by_rows import differ_by_row as differ_by_row
+from disting.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.ideals.decide import Decision as Decision
 from disting.ideals.decide import Limits as Limits
 from disting.ideals.decide import Membership as Membership
@@ -26,6 +27,7 @@ from disting.ideals.evidence import confirms as confirms
 from disting.ideals.fibre_ideal import generic_rank as generic_rank
 from disting.ideals.full_parts import FullParts as FullParts
 from disting.ideals.full_parts import same_by_full_parts as same_by_full_parts
+from disting.ideals.shares import Shared as Shared
 from disting.ideals.system import CoefficientMap as CoefficientMap
 from disting.ideals.system import coefficient_map as coefficient_map
 from disting.ideals.system import normalised as normalised

@@ -28,6 +28,11 @@ def polynomial(coefficients: Sequence[int], modulus: int) -> Polynomial:
     return _polynomials(modulus)(list(coefficients))
 
 
+def long_polynomial(coefficients: Sequence[int], modulus: int) -> fmpz_mod_poly:
+    """The same in long integers whatever the prime, for what words do not offer."""
+    return _polynomials(modulus)(list(coefficients))
+
+
 def null_space(rows: Sequence[Sequence[int]], modulus: int) -> list[list[int]]:
     """A basis of {w: row . w = 0 for all rows}, in echelon form from the right.
 

@@ -157,7 +157,12 @@ def terms(polynomial: fmpz_mpoly) -> Terms:
     return tuple((tuple(map(int, e)), int(c)) for e, c in polynomial.to_dict().items())
 
 
-def _ports(structure: Structure, span: tuple[int, int]) -> tuple[int, int] | None:
+def ports_of(structure: Structure, span: Span) -> tuple[int, int]:
+    """The two ports (a, b), a <= b, of a row that has some."""
+    return _ports(structure, span) or (span[0], span[0])
+
+
+def _ports(structure: Structure, span: Span) -> tuple[int, int] | None:
     """The two ports (a, b), a <= b, of a row of masses: of the plus side, of the minus side, or none."""
     p = structure.ports
     for pair in ((p.act_plus, p.meas_plus), (p.act_minus, p.meas_minus)):
@@ -198,7 +203,7 @@ def receptance_of_row(structure: Structure, span: Span, ring: dict[str, fmpz_mpo
     ratio = {i: ring.get(f"r{i}", one) for i in range(first - 1, last)}
     diagonal = [s * s + joint[i - 1] * ratio[i - 1] + joint[i] + ring.get(f"f{i}", zero) * s for i in range(first, last + 1)]
     squares = [joint[i] * joint[i] * ratio[i] for i in range(first, last)]
-    a, b = _ports(structure, span) or (first, first)
+    a, b = ports_of(structure, span)
     leading = minors(diagonal, squares, one)
     trailing = minors(diagonal[::-1], squares[::-1], one)
     between = reduce(mul, (joint[i] for i in range(a, b)), ring[f"g{first}"])

@@ -44,6 +44,7 @@ from disting.inclusion.rows import FREE, Row, rows_of
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
 
+LARGEST_ROW = 3  # masses of a row whose equations are looked for: those of larger ones have too many monomials
 TRIALS = 3  # primes and points at which an equation must not vanish
 Support = tuple[frozenset[int], frozenset[int]]
 
@@ -168,7 +169,7 @@ def _resultant(piece: Piece, label: str) -> tuple[Why, str] | None:
 
 
 def _equation(piece: Piece, label: str) -> tuple[Why, str] | None:
-    if _coefficient(piece, label) is not None or _safety(piece.row) < LEAST_SAFETY:
+    if piece.row.n_masses > LARGEST_ROW or _coefficient(piece, label) is not None or _safety(piece.row) < LEAST_SAFETY:
         return None
     return (Why.EQUATION, label) if all(_does_not_vanish(piece, f"{label}:{k}") for k in range(TRIALS)) else None
 

@@ -54,6 +54,22 @@ def path(ring: Orthant, case: Case) -> Path | None:
     return None
 
 
+def odd_path(ring: Orthant, case: Case, lead: fmpz_mpoly) -> Path | None:
+    """Over the real numbers: a root of an equation of odd degree in its only unknown, its leading coefficient not being zero.
+
+    The equation is irreducible, so for generic p no polynomial that is not its multiple vanishes at its roots.
+    """
+    free = ring.occurring((*case.equations, *case.positive))
+    if len(case.equations) != 1 or len(free) != 1 or case.equations[0].degrees()[free[0]] % 2 == 0:
+        return None
+    for i, value in case.solved:
+        lead = ring.put(lead, i, value.num, value.den)[0]
+    if any((g % case.equations[0]).is_zero() for g in (lead, *(value.den for _, value in case.solved))):
+        return None
+    one, zero = ring.number(1), ring.number(0)
+    return Path(case.equations[0], free[0], (-one, zero), (one, zero), _values(ring, case, free[0]))
+
+
 def _chosen(ring: Orthant, case: Case, at: int, value: Ratio) -> Case | None:
     positive, failing = inequalities(ring, (put_positive(ring, g, at, value) for g in case.positive))
     equation = ring.put(case.equations[0], at, value.num, value.den)[0]

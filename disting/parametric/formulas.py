@@ -4,7 +4,7 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.conditions.explicit import Explicit, Formula, NoEquivalent
 from disting.domain import Domain
-from disting.parametric.between import Path
+from disting.parametric.between import End, Path
 from disting.parametric.expression import names as symbols_of
 from disting.parametric.expression import tree, value
 from disting.parametric.model import Model, Terms
@@ -53,8 +53,14 @@ def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
     names = _names(one)
     root = names[found.at] = next(n for n in ("x", "root", "x_") if n not in one.given.parameters)
     values = tuple((q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True))
-    ends = [text_of(Ratio(*end), names) if not end[1].is_zero() else "infinity" for end in (found.low, found.high)]
+    ends = [_end_text(end, names) for end in (found.low, found.high)]
     return left_given, (), values, (root, polynomial_text(found.equation, names), *ends)
+
+
+def _end_text(end: End, names: list[str]) -> str:
+    if end[1].is_zero():
+        return "infinity" if end[0].is_one() else "-infinity"
+    return text_of(Ratio(*end), names)
 
 
 def _names(one: Way) -> list[str]:

@@ -22,6 +22,7 @@ from disting.parametric.ratio import Ratio
 from disting.parametric.response import response
 from disting.parametric.written import written
 
+LONGEST = 12_000  # bits of a number: longer ones are not written as text by Python
 Terms = tuple[tuple[tuple[int, ...], int], ...]
 """A polynomial in the parameters: exponents and coefficient of each term, in falling lexicographic order."""
 
@@ -132,6 +133,8 @@ def _model(ratio: Ratio, parameters: tuple[str, ...], name: str) -> Model:
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
     top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))
+    if any(abs(number).bit_length() > LONGEST for terms in (*top, *bottom) for _, number in terms):
+        raise InputError(f"numbers of a model have {LONGEST} bits at most in lowest terms")
     if len(top) > len(bottom):
         raise InputError(f"the transfer function is not proper: degree {len(top) - 1} over degree {len(bottom) - 1}")
     return Model(parameters, top, bottom, name)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from disting.algebra.colouring import renamings
-from disting.algebra.sampling import about, prime
+from disting.algebra.sampling import about, digest, prime
 from disting.certainty import Certainty
 from disting.conditions.evidence import Renaming
 from disting.conditions.finding import Finding, Outcome
@@ -23,7 +23,7 @@ def condition_6(left: Model, right: Model) -> Finding:
     """A renaming that makes both transfer functions identical, or the proof that there is none."""
     if (left.degrees, len(left.parameters)) != (right.degrees, len(right.parameters)):
         return Finding(6, Outcome.FAILS, note="no renaming exists")
-    modulus = prime(about("renaming", *sorted(map(repr, (left.content, right.content)))))
+    modulus = prime(about("renaming", *sorted(digest(*m.content) for m in (left, right))))
     here, there = (_Columns((*m.numerator_terms, *m.denominator_terms), modulus) for m in (left, right))
     candidates = list(islice(renamings(here, there, len(left.parameters)), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:

@@ -10,7 +10,7 @@ from fractions import Fraction
 from itertools import islice, permutations
 
 from disting.domain import Domain
-from disting.parametric.between import Path, path, without_equations
+from disting.parametric.between import Path, odd_path, path, without_equations
 from disting.parametric.cases import Case, searched
 from disting.parametric.model import Model
 from disting.parametric.orthant import Orthant, TooMuch
@@ -37,6 +37,8 @@ class Way:
     def path(self) -> Path | None:
         """A root that gives an equivalent for every p, if one that is tried does."""
         ring = self.parted.search.ring
+        if ring.domain is Domain.REAL:
+            return next((p for case in self.parted.others if (p := odd_path(ring, case, self.parted.lead))), None)
         if ring.domain is not Domain.POSITIVE or not ring.sign(self.parted.lead):
             return None
         return next((p for case in self.parted.others if (p := path(ring, case))), None)

@@ -64,7 +64,7 @@ def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
     grade = (found.certainty or Certainty.NUMERICAL, found.safety)
-    step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade))
+    step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade, found.evidence))
     open_pair = Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(open_note(step.finding.note),))
     said = open_pair if step.relation is Relation.UNDECIDED else verdict_of(left.name, right.name, step, domain)
     said = replace(said, image=found.image, closure=found.closure)

@@ -9,7 +9,7 @@ from flint import fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
-from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, about, enough, prime, residues, safety
+from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, about, digest, enough, prime, residues, safety
 from disting.certainty import LEAST_SAFETY
 
 sizes = st.builds(Size, st.integers(1, 10**6), st.integers(1, 10**6))
@@ -96,3 +96,9 @@ def test_enough_points_reach_the_least_safety(degree, bits, asked):
     size = Size(degree, bits)
     assert enough(size, asked) >= asked
     assert safety(size, enough(size, asked)) >= LEAST_SAFETY + 19
+
+
+def test_numbers_of_any_length_are_told_apart():
+    """Python does not write integers of more than 4300 digits in decimal."""
+    long = 10**5000
+    assert len({digest(("a", (x, 1))) for x in (long, long + 1, -long)}) == 3

@@ -5,13 +5,16 @@ from random import Random
 
 import pytest
 
-from disting import CatalogError, InputError, Relation, catalog, compare
+from disting import CatalogError, Engine, InputError, Relation, catalog, compare
 from disting.catalogs.damper_family import damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, name_of, read, text_of, write
+from disting.catalogs.damper_settled import read_settled
+from disting.catalogs.damper_verify import verify_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions import Outcome
 from disting.conditions.quick import quick_finding, quick_profile
+from disting.conditions.verify import Witness
 from disting.model.symmetry import canonical
 from disting.scheduling import executor
 from disting.settings import Settings
@@ -136,3 +139,25 @@ def test_the_command_answers_from_the_shipped_file(tmp_path, capsys):
 def test_models_that_are_not_there_are_refused():
     with pytest.raises(InputError, match="models 1 to 73"):
         damper_catalog(5).look_up((74, ()), (1, ()))
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
+    name = f"{name_of(3, damped)}.jsonl"
+    text = shipped_text(3, damped)
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    engine = Engine()
+    assert verify_dampers(3, damped=damped, folder=tmp_path, engine=engine) == []
+    (tmp_path / name).write_text(text.replace('"undecided":[]', '"undecided":[[0,1]]'), encoding="utf-8")
+    assert verify_dampers(3, damped=damped, folder=tmp_path, engine=engine) == [
+        f"{name_of(3, damped)} is not what is computed now"
+    ]
+
+
+def test_what_was_settled_once_is_in_the_file_and_holds():
+    known = read_settled(shipped_folder())
+    chains = {str(canonical(c).chain): canonical(c).chain for c in damper_catalog(5, damped=True).found.chains}
+    assert len(known) > 90
+    assert all(f.safety >= 100 and f.outcome is Outcome.FAILS for f in known.values())
+    for names in sorted(known)[::60]:
+        assert Witness().confirms(known[names].evidence, "fibre", *(chains[n] for n in names))

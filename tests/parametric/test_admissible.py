@@ -95,7 +95,7 @@ def test_points_where_a_curve_meets_itself_are_no_witnesses():
         return Model.from_transfer_function([f"(({t})**2-1)*(5*({t})-18)", f"(({t})**2-1)*(({t})-2)*(({t})-3)"], [1, 1, 1])
 
     one, other = curve("t"), curve("-u")
-    assert compare(one, other).relation is Relation.INDISTINGUISHABLE
+    assert over(View.EXACT, one, other).relation is Relation.INDISTINGUISHABLE
     verdict = over(View.POSITIVE, one, other)
     assert (verdict.relation, verdict.certainty) == (Relation.DISTINGUISHABLE, Certainty.PROVEN)
     assert is_without(verdict.evidence, one, other)
@@ -104,7 +104,7 @@ def test_points_where_a_curve_meets_itself_are_no_witnesses():
 
 def test_opposite_signs_never_agree():
     one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["-b"], [1, 1])
-    assert compare(one, other).relation is Relation.INDISTINGUISHABLE
+    assert over(View.EXACT, one, other).relation is Relation.INDISTINGUISHABLE
     verdict = over(View.POSITIVE, one, other)
     assert (verdict.relation, verdict.certainty) == (Relation.DISTINGUISHABLE, Certainty.PROVEN)
     assert over(View.REAL, one, other).relation is Relation.INDISTINGUISHABLE

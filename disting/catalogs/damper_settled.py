@@ -1,0 +1,43 @@
+"""Pairs of chains with dampers to the ground that were decided once with much time: `settled-dampers.jsonl`, shipped.
+
+A line a pair of canonical chains with its finding; `damper_family` takes over what it finds there.
+"""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from disting.conditions.codec import finding_from_json, finding_to_json
+from disting.conditions.finding import Finding
+from disting.conditions.quick import SETTLED
+from disting.conditions.subject import Subject
+from disting.engine import Engine
+from disting.engine.engine import question_key
+from disting.model.chain import Chain
+
+FILE = "settled-dampers.jsonl"
+Settled = dict[tuple[str, str], Finding]
+"""Findings on ordered pairs of canonical chains, by their texts."""
+
+
+def read_settled(folder: Path) -> Settled:
+    """What the folder's file holds; nothing if there is none."""
+    path = folder / FILE
+    records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] if path.is_file() else []
+    return {(r["left"], r["right"]): finding_from_json(json.dumps(r["finding"])) for r in records}
+
+
+def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
+    """Add a finding to the file, at once."""
+    record = {"left": str(first), "right": str(second), "finding": json.loads(finding_to_json(finding))}
+    with (folder / FILE).open("a", encoding="utf-8") as file:
+        file.write(json.dumps(record, separators=(",", ":")) + "\n")
+
+
+def preload(engine: Engine, known: Settled, subjects: Sequence[Subject]) -> None:
+    """Let the engine know the findings on these subjects."""
+    chains = {str(s.canonical.chain): s.canonical.chain for s in subjects}
+    for names, finding in known.items():
+        if chains.keys() >= set(names):
+            pair = (chains[names[0]], chains[names[1]])
+            engine.answers[question_key(SETTLED, pair, engine.settings)] = finding
