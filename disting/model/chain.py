@@ -7,6 +7,7 @@ gap. The force acts with +F on mass `act_plus` and with -F on `act_minus`; the s
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from disting.errors import ConstraintViolation, InputError
@@ -73,13 +74,7 @@ class Chain:
     @property
     def structure(self) -> Structure:
         """The elements and ports of this chain, as a graph knows them."""
-        joints = [i for i in range(self.n_masses) if i != self.gap]
-        elements: list[Mass | Spring | Damper | GroundDamper] = [Mass(i) for i in range(1, self.n_masses + 1)]
-        elements += [Spring(i) for i in joints]
-        elements += [Damper(i) for i in joints if self.damped]
-        elements += [GroundDamper(i) for i in self.ground_dampers]
-        ports = Ports(self.act_minus, self.act_plus, self.meas_minus, self.meas_plus)
-        return Structure(self.n_masses, tuple(elements), ports, self.sensor.order, self.lag, self.dead_time)
+        return _structure(self)
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -107,6 +102,17 @@ class Chain:
         extras += [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"] * bool(self.ground_dampers)
         extras += ["lag"] * self.lag + ["dead time"] * self.dead_time
         return ", ".join([f"{self.n_masses} masses, gap {self.gap}, {ports}", *extras])
+
+
+@lru_cache(maxsize=10_000)  # asked for again and again, dearer to make than to find
+def _structure(chain: Chain) -> Structure:
+    joints = [i for i in range(chain.n_masses) if i != chain.gap]
+    elements: list[Mass | Spring | Damper | GroundDamper] = [Mass(i) for i in range(1, chain.n_masses + 1)]
+    elements += [Spring(i) for i in joints]
+    elements += [Damper(i) for i in joints if chain.damped]
+    elements += [GroundDamper(i) for i in chain.ground_dampers]
+    ports = Ports(chain.act_minus, chain.act_plus, chain.meas_minus, chain.meas_plus)
+    return Structure(chain.n_masses, tuple(elements), ports, chain.sensor.order, chain.lag, chain.dead_time)
 
 
 def _sensor(value: str) -> Sensor:

@@ -68,7 +68,7 @@ def _part(segment: Segment, t: Target) -> Answer:
 
 
 def _damped(whole: Target, other: Chain) -> Answer:
-    found = fibre(other, whole)
+    found = fibre(other, whole, confirm=False)
     listed = found.status is Status.COMPLETE and not found.tests.boundary
     none = listed and all(s.positive is Answer.NO for s in found.solutions)
     return Answer.NO if none or found.status is Status.EMPTY else Answer.UNKNOWN

@@ -37,12 +37,16 @@ from disting.synthesis.target import Target, degrees_differ, is_regular, poles_a
 PRECISIONS = (192, 384, 768, 1536, 3072, 5000)
 
 
-def fibre(chain: Chain, target: Target) -> Fibre:
-    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`."""
+def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
+    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`.
+
+    `confirm`: look for a proof that each solution solves a square subsystem, which takes longer than all the rest; without it
+    solutions are told to hold within their balls.
+    """
     if chain.dead_time:
         return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")
     form = canonical(chain)
-    found = _canonical_fibre(form.chain, target)
+    found = _canonical_fibre(form.chain, target, confirm)
     back = {here: given for given, here in form.renaming.items()}
     return replace(found, solutions=tuple(_renamed(s, back, chain) for s in found.solutions))
 
@@ -58,17 +62,17 @@ def segments(chain: Chain) -> tuple[Segment | None, Segment]:
     return (Segment(g, below, above, True, q, inner, elastic) if g else None), free
 
 
-def _canonical_fibre(chain: Chain, target: Target) -> Fibre:
+def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
     if chain.damped and chain.gap and 1 in chain.ground_dampers:
         single = replace(chain, ground_dampers=chain.ground_dampers[1:])
-        return shared(chain, _canonical_fibre(single, target))
+        return shared(chain, _canonical_fibre(single, target, confirm))
     if chain.lag and not chain.damped and not chain.ground_dampers:
         found = without_lag(target)
         if found is None:
             return _without_lag_pole(chain, target)
-        return lagged(chain, _canonical_fibre(replace(chain, lag=False), found[0]), found[1])
+        return lagged(chain, _canonical_fibre(replace(chain, lag=False), found[0], confirm), found[1])
     ruled_out = _ruled_out(chain, target)
-    return _searched(chain, target) if ruled_out is None else ruled_out
+    return _searched(chain, target, confirm) if ruled_out is None else ruled_out
 
 
 def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
@@ -95,12 +99,13 @@ def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
     return None
 
 
-def _searched(chain: Chain, target: Target) -> Fibre:
+def _searched(chain: Chain, target: Target, confirm: bool) -> Fibre:
     """Every branch, with as many bits as it takes."""
     for bits in PRECISIONS:
         with ctx.workprec(bits):
             try:
-                return _judged(chain, target, list(_solutions(chain, target)), bits)
+                leaves = list(_solutions(chain, target))
+                return replace(_judged(chain, target, leaves, confirm), precision_bits=bits)
             except Imprecise as failure:
                 reason = str(failure)
     return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
@@ -155,13 +160,14 @@ def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solutio
     return replace(solution, values={name: values[name] for name in chain.parameters})
 
 
-def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], bits: int) -> Fibre:
+def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], confirm: bool) -> Fibre:
     """Status from what the branches ended in."""
     count = Counter(leaf.reason for leaf in leaves if isinstance(leaf, Dead))
     tests = Exclusions(count[Reason.NONZERO], count[Reason.BOUNDARY], count[Reason.OPEN])
-    solutions = listed(chain, [leaf for leaf in leaves if isinstance(leaf, Checked)], target, not tests.uncovered)
+    found = [leaf for leaf in leaves if isinstance(leaf, Checked)]
+    solutions = listed(chain, found, target, complete=not tests.uncovered, confirm=confirm)
     status, reason = _status(solutions, tests)
-    return Fibre(status, solutions, bits, tests, reason)
+    return Fibre(status, solutions, tests=tests, reason=reason)
 
 
 def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status, str]:

@@ -14,16 +14,21 @@ from disting.synthesis.target import Target
 Values = dict[str, Ball]
 
 
-def listed(chain: Chain, found: list[Checked], target: Target, complete: bool) -> tuple[Solution, ...]:
-    """Solutions with their properties. A complete list is closed under conjugation; otherwise nothing is known to be real."""
-    return tuple(_solution(chain, c, [x.values for x in found if x is not c or not complete], target) for c in found)
+def listed(chain: Chain, found: list[Checked], target: Target, *, complete: bool, confirm: bool) -> tuple[Solution, ...]:
+    """Solutions with their properties. A complete list is closed under conjugation; otherwise nothing is known to be real.
+
+    `confirm`: whether those that are no members of a family are looked at by `confirmation`.
+    """
+    solutions = (_solution(c, [x.values for x in found if x is not c or not complete]) for c in found)
+    return tuple(
+        replace(s, confirmation=confirmation(chain, s.values, target)) if confirm and not s.gauges else s for s in solutions
+    )
 
 
-def _solution(chain: Chain, c: Checked, others: list[Values], target: Target) -> Solution:
+def _solution(c: Checked, others: list[Values]) -> Solution:
     """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
     real = _real(c.values, others)
-    plain = Solution(c.values, real, _positive(c.values, real), c.gauges, c.width)
-    return plain if c.gauges else replace(plain, confirmation=confirmation(chain, c.values, target))
+    return Solution(c.values, real, _positive(c.values, real), c.gauges, c.width)
 
 
 def _real(values: Values, others: list[Values]) -> Answer:
