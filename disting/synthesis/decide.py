@@ -104,7 +104,7 @@ def member(left: Chain, right: Chain, seed: str = "disting", way: Direction = Di
     _refuse(given, other)
     for draw in range(DRAWS):
         point = rational_point(given, about(f"synthesis:{seed}:{draw}", given, other), point_bits(other))
-        found = fibre(other, target(given.structure, point))
+        found = fibre(other, target(given.structure, point), confirmed=not is_untested(other))
         if found.status is not Status.DEGENERATE:
             break
     return _finding(found, way, point, _grounds(given, other, point, found))

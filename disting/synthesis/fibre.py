@@ -37,12 +37,16 @@ from disting.synthesis.target import Target, degrees_differ, is_regular, poles_a
 PRECISIONS = (192, 384, 768, 1536, 3072, 5000)
 
 
-def fibre(chain: Chain, target: Target) -> Fibre:
-    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`."""
+def fibre(chain: Chain, target: Target, *, confirmed: bool = True) -> Fibre:
+    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`.
+
+    Without `confirmed` no solution is looked at once more by itself (see `Confirmation`), which takes most of the time where
+    there are many.
+    """
     if chain.dead_time:
         return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")
     form = canonical(chain)
-    found = _canonical_fibre(form.chain, target)
+    found = _canonical_fibre(form.chain, target, confirmed)
     back = {here: given for given, here in form.renaming.items()}
     return replace(found, solutions=tuple(_renamed(s, back, chain) for s in found.solutions))
 
@@ -58,17 +62,17 @@ def segments(chain: Chain) -> tuple[Segment | None, Segment]:
     return (Segment(g, below, above, True, q, inner, elastic) if g else None), free
 
 
-def _canonical_fibre(chain: Chain, target: Target) -> Fibre:
+def _canonical_fibre(chain: Chain, target: Target, confirmed: bool) -> Fibre:
     if chain.damped and chain.gap and 1 in chain.ground_dampers:
         single = replace(chain, ground_dampers=chain.ground_dampers[1:])
-        return shared(chain, _canonical_fibre(single, target))
+        return shared(chain, _canonical_fibre(single, target, confirmed))
     if chain.lag and not chain.damped and not chain.ground_dampers:
         found = without_lag(target)
         if found is None:
             return _without_lag_pole(chain, target)
-        return lagged(chain, _canonical_fibre(replace(chain, lag=False), found[0]), found[1])
+        return lagged(chain, _canonical_fibre(replace(chain, lag=False), found[0], confirmed), found[1])
     ruled_out = _ruled_out(chain, target)
-    return _searched(chain, target) if ruled_out is None else ruled_out
+    return _searched(chain, target, confirmed) if ruled_out is None else ruled_out
 
 
 def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
@@ -95,12 +99,12 @@ def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
     return None
 
 
-def _searched(chain: Chain, target: Target) -> Fibre:
+def _searched(chain: Chain, target: Target, confirmed: bool) -> Fibre:
     """Every branch, with as many bits as it takes."""
     for bits in PRECISIONS:
         with ctx.workprec(bits):
             try:
-                return _judged(chain, target, list(_solutions(chain, target)), bits)
+                return _judged(chain, target, list(_solutions(chain, target)), bits, confirmed)
             except Imprecise as failure:
                 reason = str(failure)
     return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
@@ -155,11 +159,12 @@ def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solutio
     return replace(solution, values={name: values[name] for name in chain.parameters})
 
 
-def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], bits: int) -> Fibre:
+def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], bits: int, confirmed: bool) -> Fibre:
     """Status from what the branches ended in."""
     count = Counter(leaf.reason for leaf in leaves if isinstance(leaf, Dead))
     tests = Exclusions(count[Reason.NONZERO], count[Reason.BOUNDARY], count[Reason.OPEN])
-    solutions = listed(chain, [leaf for leaf in leaves if isinstance(leaf, Checked)], target, not tests.uncovered)
+    checked_leaves = [leaf for leaf in leaves if isinstance(leaf, Checked)]
+    solutions = listed(chain, checked_leaves, target if confirmed else None, not tests.uncovered)
     status, reason = _status(solutions, tests)
     return Fibre(status, solutions, bits, tests, reason)
 

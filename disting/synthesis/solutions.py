@@ -14,16 +14,19 @@ from disting.synthesis.target import Target
 Values = dict[str, Ball]
 
 
-def listed(chain: Chain, found: list[Checked], target: Target, complete: bool) -> tuple[Solution, ...]:
-    """Solutions with their properties. A complete list is closed under conjugation; otherwise nothing is known to be real."""
+def listed(chain: Chain, found: list[Checked], target: Target | None, complete: bool) -> tuple[Solution, ...]:
+    """Solutions with their properties, confirmed where there is a target.
+
+    A complete list is closed under conjugation; otherwise nothing is known to be real.
+    """
     return tuple(_solution(chain, c, [x.values for x in found if x is not c or not complete], target) for c in found)
 
 
-def _solution(chain: Chain, c: Checked, others: list[Values], target: Target) -> Solution:
+def _solution(chain: Chain, c: Checked, others: list[Values], target: Target | None) -> Solution:
     """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
     real = _real(c.values, others)
     plain = Solution(c.values, real, _positive(c.values, real), c.gauges, c.width)
-    return plain if c.gauges else replace(plain, confirmation=confirmation(chain, c.values, target))
+    return plain if c.gauges or target is None else replace(plain, confirmation=confirmation(chain, c.values, target))
 
 
 def _real(values: Values, others: list[Values]) -> Answer:
