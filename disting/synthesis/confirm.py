@@ -34,7 +34,8 @@ def confirmation(chain: Chain, values: dict[str, Ball], target: Target) -> Confi
 def _krawczyk(chain: Chain, values: dict[str, Ball], target: Target, rows: list[int], residual: list[Ball]) -> Confirmation:
     box = {name: _inflated(v) for name, v in values.items()}
     mid = {name: v.mid() for name, v in values.items()}
-    wide = acb_mat([_system(chain, box, target)[1][i] for i in rows])
+    _, jacobian = _system(chain, box, target)
+    wide = acb_mat([jacobian[i] for i in rows])
     try:
         inverse = wide.mid().inv().mid()
     except ZeroDivisionError:

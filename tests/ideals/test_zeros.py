@@ -26,6 +26,7 @@ from disting.ideals.zeros import (
     zeros_are_free,
 )
 from disting.model.chain import Chain
+from disting.shipped import shipped_folder
 
 P = prime("test of zeros")
 LONG = prime("test of zeros", BITS)
@@ -143,3 +144,9 @@ def test_a_forged_or_damaged_answer_is_found(tmp_path):
     (tmp_path / ROWS).write_text(line_of(true)[:-9])
     with pytest.raises(CatalogError, match="rows"):
         read_answers(tmp_path)
+
+
+@pytest.mark.slow
+def test_every_shipped_answer_is_found_again():
+    """Some minutes: all branches of all answers."""
+    assert [wrong for n in range(1, 8) for wrong in false_answers(shipped_folder(), n)] == []
