@@ -3,7 +3,9 @@
 In a case without equations an unknown x is eliminated where all inequalities are products of factors linear in it (Fourier and
 Motzkin). The signs of the factors of each product are tried in all ways; a x + b > 0 is x > -b/a or x < -b/a by the sign of a,
 tried in both ways unless it is seen. Then x exists exactly if some lower bound L (0 is one) is the largest, some upper bound U
-the smallest and L < U, and x = (L + U)/2 will do, or x = L + 1 if there is no upper bound. A solution of strict inequalities
+the smallest and L < U, and x = (L + U)/2 will do, or x = L + 1 if there is no upper bound. A factor of two inequalities gives
+one bound, not two: factors are irreducible and primitive, so equal bounds are those of one factor, but for its sign, and with
+both signs no x is between them. (Taken twice, a bound would have to be larger than itself.) A solution of strict inequalities
 stays one if the unknowns move a little, so those at which bounds are equal or a factor a is zero may be left out, unless a
 contains the p alone: then it is listed as not zero. What is found is a list of sections q = q(p), each with polynomials
 `where`:
@@ -101,7 +103,7 @@ def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:
     ring = search.ring
     rest = [g for g in case.positive if not g.degrees()[at]]
     for linear, others in _signs(ring, [g for g in case.positive if g.degrees()[at]], at):
-        split = [_bound(ring, f, at) for f in linear]
+        split = [_bound(ring, f, at) for i, f in enumerate(linear) if f not in linear[:i]]
         unseen = [a for a, _, sign in split if not sign]
         search.generic += [a for a in unseen if not ring.occurring([a])]
         for signs in product((1, -1), repeat=len(unseen)):

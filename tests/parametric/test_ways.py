@@ -14,6 +14,9 @@ from disting.domain import Domain
 from disting.errors import InputError
 from disting.parametric import Model, alternatives, compare, is_explicit
 from disting.parametric.admissible import points
+from disting.parametric.cases import Case, Search
+from disting.parametric.orthant import Orthant, value_at
+from disting.parametric.sections import sections
 from disting.parametric.ways import way
 
 EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
@@ -152,3 +155,34 @@ def test_three_compartments():
     print(len(models), "models", counts, looked, "points looked at")
     assert sum(counts.values()) == 543
     assert counts[Relation.UNDECIDED] <= 100
+
+
+SHARED_FACTORS = [
+    (tf(["e"], ["1", "f", "g"]), tf(["b/(a1*a2)"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
+    (tf(["e", "h"], ["1", "f", "g"]), tf(["b/(a1*a2)", "h"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
+    (tf(["e", "h"], ["1", "f", "g"]), tf(["b*a1*a2", "h"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
+    (tf(["e", "h"], ["1", "f", "g"]), tf(["b/(k1*k2)", "h"], ["1", "k1+u", "k2+u"]), Relation.INDISTINGUISHABLE),
+]
+
+
+@pytest.mark.parametrize(("left", "right", "relation"), SHARED_FACTORS)
+def test_a_factor_of_two_inequalities_is_one_bound(left, right, relation):
+    """Any e, f, g, h: c smaller than f and g, then a1 = f - c, a2 = g - c, and b is what e wants, whatever the names are."""
+    verdict = positive(left, right)
+    assert verdict.relation is relation and is_explicit(verdict.evidence, left, right)
+    assert positive(right, left).relation is relation
+
+
+def test_sections_of_two_products_with_a_common_factor():
+    """(x - p0)(x - p1) > 0 and (x - p0)(x - p2) > 0: x > p0 where p0 is the largest, x > p1 where p1 is, and so on."""
+    ring = Orthant(3, 1, Domain.POSITIVE)
+    p, x = ring.generators[:3], ring.generators[3]
+    case = Case((), ((x - p[0]) * (x - p[1]), (x - p[0]) * (x - p[2])))
+    found, left = sections(Search(ring, (3,)), case)
+    assert not left
+    for numbers in permutations((1, 2, 3)):
+        at = dict(enumerate(map(Fraction, numbers)))
+        here = [s for s in found if all(value_at(g, at) > 0 for g in s.where)]
+        values = [value_at(s.values[0].num, at) / value_at(s.values[0].den, at) for s in here]
+        assert any(v > max(numbers) for v in values)
+        assert all(v > 0 and all(value_at(g, at | {3: v}) > 0 for g in case.positive) for v in values)
