@@ -18,9 +18,10 @@ from disting.conditions.explicit import NoEquivalent
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.witnesses import Point, Witnesses
 from disting.domain import Domain
+from disting.errors import ContradictionError
 from disting.parametric.equivalent import spelled
 from disting.parametric.fibre import Extent, solved
-from disting.parametric.formulas import explicit
+from disting.parametric.formulas import explicit, fit
 from disting.parametric.groebner import Bounds, TooLarge
 from disting.parametric.model import Model
 from disting.parametric.one_ports import same_one_ports
@@ -83,7 +84,12 @@ def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fracti
 
 
 def _always(ways: Ways, domain: Domain) -> Finding:
-    evidence = explicit([one for one in ways if one], domain)
+    known = [one for one in ways if one]
+    evidence = explicit(known, domain)
+    if not fit(evidence, known[0].given, known[0].other):
+        raise ContradictionError(
+            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer function"
+        )
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 

@@ -137,3 +137,24 @@ def test_points_are_of_their_domain_and_determined():
         assert seen[0] == next(points(IRREVERSIBLE, domain, "seed")) and len({str(p) for p in seen}) > 40
         assert all(set(p) == set(IRREVERSIBLE.parameters) for p in seen)
         assert all(x > 0 for p in seen for x in p.values()) is (domain is Domain.POSITIVE)
+
+
+REAL_PAIRS = [
+    (Model.from_transfer_function([text], ["1", "e"]), Model.from_transfer_function(["a"], ["1", "b"]))
+    for text in ("c*(d-f)", "c*(d-1)")
+]
+REAL_PAIRS.append(
+    (
+        Model.from_transfer_function("12*a1+2+(6*a1+1)*s", "1+3*s+s**2"),
+        Model.from_transfer_function("-4*b1*b3+4*b1+(-2*b1*b3+2*b1)*s", "1+3*s+s**2"),
+    )
+)
+
+
+@pytest.mark.parametrize(("left", "right"), REAL_PAIRS)
+def test_real_factors_are_chosen_so_that_no_denominator_vanishes(left, right):
+    """c = a/(d - f): d = f = 1 would be no choice."""
+    for one, other in ((left, right), (right, left)):
+        verdict = over(View.REAL, one, other)
+        assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+        assert is_explicit(verdict.evidence, one, other)
