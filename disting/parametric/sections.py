@@ -55,6 +55,8 @@ def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
             todo += _eliminated(search, one, at)
         if len(found) + len(left) + len(todo) > SECTIONS:
             raise TooMuch(f"more than {SECTIONS} sections")
+    if not found and not left:
+        search.closed.append(" and ".join(f"{g} > 0" for g in case.positive))
     return found, left
 
 
