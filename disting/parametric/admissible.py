@@ -18,9 +18,10 @@ from disting.conditions.explicit import NoEquivalent
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.witnesses import Point, Witnesses
 from disting.domain import Domain
+from disting.errors import ContradictionError
 from disting.parametric.equivalent import spelled
 from disting.parametric.fibre import Extent, solved
-from disting.parametric.formulas import explicit
+from disting.parametric.formulas import explicit, fit
 from disting.parametric.groebner import Bounds, TooLarge
 from disting.parametric.model import Model
 from disting.parametric.one_ports import same_one_ports
@@ -28,6 +29,7 @@ from disting.parametric.target import fibre_equations, rational_values, target
 from disting.parametric.ways import Way, way
 
 POINTS = 40  # of either model
+GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 TOO_LARGE = "the search for all equivalents grew too large"
 
@@ -38,16 +40,23 @@ Found = tuple[bool, Point, Point]
 
 def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> Finding:
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
-    ways = way(left, right, domain), way(right, left, domain)
+    return of_ways(left, right, (way(left, right, domain), way(right, left, domain)), domain, seed)
+
+
+def of_ways(left: Model, right: Model, ways: Ways, domain: Domain, seed: str) -> Finding:
+    """The finding from what is known each way; raises ContradictionError where that cannot all be true."""
     for left_given, one in zip((True, False), ways, strict=True):
         if one and one.never:
-            evidence = NoEquivalent(domain.value, left_given, tuple(dict.fromkeys(one.parted.search.closed)))
-            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
+            _refuse_equivalents(ways, domain, seed)
+            closed = tuple(dict.fromkeys(one.parted.search.closed))
+            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=NoEquivalent(domain.value, left_given, closed))
     if all(one and one.covering for one in ways):
         return _always(ways, domain)
     if domain is Domain.POSITIVE and same_one_ports(left, right):
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer"))
     having, lacking, shares = _seen(ways, domain, seed)
+    if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
+        raise ContradictionError(f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none")
     if having and lacking:
         return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=_witnesses(ways, having, lacking, domain))
     if not lacking and all(one and (one.covering or one.path()) for one in ways):
@@ -57,12 +66,15 @@ def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> 
 
 
 def confirms(evidence: Witnesses, left: Model, right: Model) -> bool:
-    """Whether both points are what they are said to be, and all parameters near them: the search is done anew."""
+    """Whether both points are what they are said to be, and all parameters near them: the search is done anew.
+
+    Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
+    """
     domain = Domain(evidence.domain)
     ways = {True: way(left, right, domain), False: way(right, left, domain)}
     with_, without = ways[evidence.with_left_given], ways[evidence.without_left_given]
     points_ = [{name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)]
-    if domain is Domain.POSITIVE and min(x for p in points_ for x in p.values()) <= 0:
+    if any(x == 0 or (x < 0 and domain is Domain.POSITIVE) for p in points_ for x in p.values()):
         return False
     return bool(with_ and without and with_.having(points_[0]) and without.lacking(points_[1]))
 
@@ -82,8 +94,20 @@ def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fracti
         k += 1
 
 
+def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:
+    """Raise ContradictionError if one model has equivalents although the other has none: they would be equivalents of it."""
+    for one in ways:
+        if one and (one.covering or one.path() or any(map(one.having, islice(points(one.given, domain, seed), GUARDS)))):
+            raise ContradictionError(f"{one.given.name} has equivalents in {one.other.name}, which has none in it")
+
+
 def _always(ways: Ways, domain: Domain) -> Finding:
-    evidence = explicit([one for one in ways if one], domain)
+    known = [one for one in ways if one]
+    evidence = explicit(known, domain)
+    if not fit(evidence, known[0].given, known[0].other):
+        raise ContradictionError(
+            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer function"
+        )
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 

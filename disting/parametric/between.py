@@ -2,20 +2,23 @@
 
 In a case with one equation h = 0 some unknowns are chosen as fractions of the p, and for the last one, x, two points a, b of
 [0, oo] are sought between which h changes its sign for all p: the numerators of h(a) and h(b) have opposite signs, and all
-inequalities hold on the whole way x = (a + b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t
-they have positive coefficients. So h has a root on the way, where all other unknowns are positive. What is tried: 0, oo, 1,
-single p, sums and quotients of products of a few of them, and the roots of linear inequalities.
+inequalities hold on the whole way x = (a + b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they
+have positive coefficients. So h has a root on the way. What is solved for is N/c, and inequalities lose even powers, so it is
+also asked that the `nonzero` polynomials of the case, among them these c, N and lead(q), have no common factor with h that
+contains x: then for generic p none of them is zero at any root of h (their resultant with h, a polynomial in the p, is not
+zero), and all other unknowns are positive there. What is tried: 0, oo, 1, single p, sums and quotients of products of a few of
+them, and the roots of linear inequalities.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations, combinations_with_replacement, islice
 from math import prod
 
 from flint import fmpz_mpoly
 
 from disting.algebra.sampling import residues
-from disting.parametric.cases import Case, inequalities, put_positive, put_ratio
+from disting.parametric.cases import Case, numbered, placed
 from disting.parametric.orthant import Orthant
 from disting.parametric.ratio import Ratio
 
@@ -29,7 +32,7 @@ End = tuple[fmpz_mpoly, fmpz_mpoly]
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """An equivalent for every p: `values` of the unknowns, x among them being a root of `equation` between `low` and `high`."""
+    """An equivalent for every generic p: `values`, x among them being a root of `equation` between `low` and `high`."""
 
     equation: fmpz_mpoly
     at: int
@@ -54,37 +57,35 @@ def path(ring: Orthant, case: Case) -> Path | None:
     return None
 
 
-def odd_path(ring: Orthant, case: Case, lead: fmpz_mpoly) -> Path | None:
-    """Over the real numbers: a root of an equation of odd degree in its only unknown, its leading coefficient not being zero.
-
-    The equation is irreducible, so for generic p no polynomial that is not its multiple vanishes at its roots.
-    """
+def odd_path(ring: Orthant, case: Case) -> Path | None:
+    """Over the real numbers: a root of an equation of odd degree in its only unknown, whose leading coefficient is not zero."""
     free = ring.occurring((*case.equations, *case.positive))
     if len(case.equations) != 1 or len(free) != 1 or case.equations[0].degrees()[free[0]] % 2 == 0:
         return None
-    for i, value in case.solved:
-        lead = ring.put(lead, i, value.num, value.den)[0]
-    if any((g % case.equations[0]).is_zero() for g in (lead, *(value.den for _, value in case.solved))):
-        return None
     one, zero = ring.number(1), ring.number(0)
-    return Path(case.equations[0], free[0], (-one, zero), (one, zero), _values(ring, case, free[0]))
+    return _known(ring, case, free[0], (-one, zero), (one, zero))
 
 
 def _chosen(ring: Orthant, case: Case, at: int, value: Ratio) -> Case | None:
-    positive, failing = inequalities(ring, (put_positive(ring, g, at, value) for g in case.positive))
-    equation = ring.put(case.equations[0], at, value.num, value.den)[0]
-    if failing is not None or equation.is_zero() or not ring.occurring([equation]):
-        return None
-    solved = tuple((i, put_ratio(ring, x, at, value)) for i, x in case.solved)
-    return Case((equation,), positive, (*solved, (at, value)))
+    found = placed(ring, case, at, value)
+    return found if isinstance(found, Case) and ring.occurring(found.equations) else None
 
 
 def _root(ring: Orthant, case: Case, at: int) -> Path | None:
     for low, high in _promising(ring, case, at):
         signs = [_seen(ring, ring.put(case.equations[0], at, *end)[0]) for end in (low, high)]
         if signs[0] * signs[1] < 0 and all(_holds_between(ring, g, at, low, high) for g in case.positive):
-            return Path(case.equations[0], at, low, high, _values(ring, case, at))
+            return _known(ring, case, at, low, high)
     return None
+
+
+def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | None:
+    """The path, unless a polynomial that must not be zero has a common root with the equation for all p."""
+    whole, equation = numbered(ring, case), case.equations[0]
+    if any(c.gcd(equation).degrees()[at] for c in whole.nonzero):
+        return None
+    values = dict(whole.solved) | {at: Ratio(ring.generators[at], ring.number(1))}
+    return Path(equation, at, low, high, tuple(values[i] for i in ring.unknowns))
 
 
 def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:
@@ -127,19 +128,6 @@ def _holds_between(ring: Orthant, polynomial: fmpz_mpoly, at: int, low: End, hig
     return ring.sign(value) > 0
 
 
-def _values(ring: Orthant, case: Case, at: int) -> tuple[Ratio, ...]:
-    """Of all unknowns; x itself is x, those that nothing depends on are 1."""
-    one, solved = Ratio(ring.number(1), ring.number(1)), dict(case.solved)
-    solved[at] = Ratio(ring.generators[at], ring.number(1))
-    found = []
-    for i in ring.unknowns:
-        value = solved.get(i, one)
-        for x in ring.unknowns:
-            value = value if x in solved else put_ratio(ring, value, x, one)
-        found.append(value)
-    return tuple(found)
-
-
 def _ends(ring: Orthant, case: Case, at: int) -> Iterator[End]:
     zero, one = ring.number(0), ring.number(1)
     yield from ((zero, one), (one, zero))
@@ -175,10 +163,8 @@ def without_equations(ring: Orthant, case: Case) -> Case | None:
         return None
     for num, den in _candidates(ring):
         value = Ratio(num, den)
-        positive, failing = inequalities(ring, (put_positive(ring, g, free[0], value) for g in case.positive))
-        if failing is None:
-            solved = tuple((i, put_ratio(ring, x, free[0], value)) for i, x in case.solved)
-            found = without_equations(ring, replace(case, positive=positive, solved=(*solved, (free[0], value))))
-            if found:
-                return found
+        chosen = placed(ring, case, free[0], value)
+        found = without_equations(ring, chosen) if isinstance(chosen, Case) else None
+        if found:
+            return found
     return None

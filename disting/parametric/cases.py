@@ -19,17 +19,25 @@ replaces one case by others which together have the same admissible solutions:
   Else one case with c = N = 0 and one with q_j = -N/c, where c is not zero. All other polynomials are multiplied by powers of
   c to be polynomials again, by even ones for inequalities unless c is positive. Over positive numbers -N/c > 0 is one more
   inequality.
+* The case with q_j = -N/c holds only where c is not zero, nor N over positive numbers. Neither of it follows from the other
+  equations, which were multiplied by c, nor from the inequalities, which lose even powers. So the irreducible factors of c (and
+  N) that contain unknowns are kept as `nonzero`, and all that is solved for later is put into them. If one of them becomes 0,
+  or is an equation of the case, but for a constant factor, no solution is in the case: it is closed. The first of them are
+  the factors of lead(q). All denominators of the solved values divide products of these c and of polynomials in the p, so none
+  of them becomes 0 in a case that is open.
 * Two different irreducible equations in one and the same unknown and the p: they have no common factor over the field of
   fractions of the p, so their resultant is a polynomial in the p that is not zero. It is listed, and the case is closed.
 * Of an inequality factors of one sign are left out, and even powers. These are positive or zero, so no solution is lost; what
-  is gained is a solution at which an inequality g >= 0 is an equation. An inequality that is seen to fail closes the case.
+  is gained are points at which g >= 0 is an equation, or at which a denominator is zero. An inequality that is seen to fail
+  closes the case.
 
 So every admissible equivalent of a p at which no `generic` polynomial vanishes belongs to a case; and a point of a case gives
-an equivalent if no denominator, no lead(q) and none of the values required to be positive is zero there.
+an equivalent if no `nonzero` polynomial, and so no denominator, no lead(q) and none of the values required to be positive, is
+zero there.
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from flint import fmpz_mpoly
@@ -45,11 +53,15 @@ RESULTANTS = 24  # sum of total degrees: resultants stay a matter of millisecond
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """Equations left over (irreducible, in no unknown linear), polynomials that are positive, unknowns that are solved for."""
+    """Equations left over (irreducible, in no unknown linear), polynomials that are positive, unknowns that are solved for.
+
+    `nonzero`: irreducible polynomials with unknowns that are not zero.
+    """
 
     equations: tuple[fmpz_mpoly, ...] = ()
     positive: tuple[fmpz_mpoly, ...] = ()
     solved: tuple[tuple[int, Ratio], ...] = ()
+    nonzero: tuple[fmpz_mpoly, ...] = ()
 
 
 @dataclass(slots=True)
@@ -69,7 +81,8 @@ def searched(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) 
 
     Both models have the same degrees.
     """
-    search = cases_of(ring, Case(tuple(ring.equations(given, other))), order)
+    start = Case(tuple(ring.equations(given, other)), nonzero=unknown_factors(ring, [ring.lead(other)]))
+    search = cases_of(ring, start, order)
     search.generic.append(ring.lifted(given.denominator_terms[-1], 0))
     return search
 
@@ -92,16 +105,20 @@ def _open(search: Search, case: Case) -> None:
     if several:
         others = tuple(search.ring.product(f) for f in found if f is not several)
         for factor in several:
-            _open(search, Case((factor, *others), case.positive, case.solved))
+            _open(search, replace(case, equations=(factor, *others)))
         return
     plain = tuple(f[0] for f in found)
+    void = next((c for c in case.nonzero if c in plain or -c in plain), None)
+    if void is not None:
+        search.closed.append(f"{void} != 0")
+        return
     if _excluded(search, plain):
         return
     step = _linear(search, plain)
     if step is None:
-        search.cases.append(Case(plain, case.positive, case.solved))
+        search.cases.append(replace(case, equations=plain))
     else:
-        _solve(search, Case(plain, case.positive, case.solved), *step)
+        _solve(search, replace(case, equations=plain), *step)
 
 
 def _factored(search: Search, equations: tuple[fmpz_mpoly, ...]) -> list[tuple[fmpz_mpoly, ...]] | None:
@@ -152,34 +169,63 @@ def _linear(search: Search, equations: tuple[fmpz_mpoly, ...]) -> tuple[int, int
 
 def _solve(search: Search, case: Case, number: int, at: int, factor: fmpz_mpoly, rest: fmpz_mpoly, hard: int) -> None:
     """Both cases of one linear equation, the one with factor 0 first."""
-    ring = search.ring
+    ring, positive = search.ring, search.ring.domain is Domain.POSITIVE
     others = (*case.equations[:number], *case.equations[number + 1 :])
     if hard == 3:
-        _open(search, Case((*others, factor, rest), case.positive, case.solved))
+        _open(search, replace(case, equations=(*others, factor, rest)))
     elif hard == 2:
         search.generic.append(factor)
-    by = Ratio(-rest, factor)
-    asked = (*case.positive, ring.generators[at]) if ring.domain is Domain.POSITIVE else case.positive
-    positive = _kept(search, [put_positive(ring, g, at, by) for g in asked])
-    if positive is None:
-        return
-    equations = tuple(ring.put(e, at, by.num, by.den)[0] for e in others)
+    nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
+    asked = (*case.positive, ring.generators[at]) if positive else case.positive
+    found = placed(ring, Case(others, asked, case.solved, (*case.nonzero, *nonzero)), at, Ratio(-rest, factor))
+    if isinstance(found, Case):
+        _open(search, found)
+    else:
+        search.closed.append(found)
+
+
+def placed(ring: Orthant, case: Case, at: int, by: Ratio) -> Case | str:
+    """A case with one unknown replaced by a fraction whose denominator is not zero; else what would have to hold and fails."""
+    put = [ring.put(c, at, by.num, by.den)[0] for c in case.nonzero]
+    void = next((c for c, found in zip(case.nonzero, put, strict=True) if found.is_zero()), None)
+    if void is not None:
+        return f"{void} != 0"
+    positive, failing = inequalities(ring, (put_positive(ring, g, at, by) for g in case.positive))
+    if failing is not None:
+        return f"{failing} > 0"
+    equations = tuple(ring.put(e, at, by.num, by.den)[0] for e in case.equations)
     solved = tuple((i, put_ratio(ring, value, at, by)) for i, value in case.solved)
-    _open(search, Case(equations, positive, (*solved, (at, by))))
+    return Case(equations, positive, (*solved, (at, by)), unknown_factors(ring, put))
+
+
+def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
+    """The distinct irreducible factors that contain unknowns."""
+    every = [f for polynomial in polynomials for f, _ in polynomial.factor()[1] if ring.occurring([f])]
+    return tuple(f for i, f in enumerate(every) if f not in every[:i])
+
+
+def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], Ratio]) -> Case:
+    """A case with an unknown of no equation and no inequality replaced by the first of values(1), values(2), .. that may be.
+
+    These are different fractions. A polynomial of degree d in the unknown is zero at d of them at most, if it is not zero.
+    """
+    numbers = range(1, 2 + sum(int(c.degrees()[at]) for c in case.nonzero))
+    return next(c for k in numbers if isinstance(c := placed(ring, case, at, values(k)), Case))
+
+
+def numbered(ring: Orthant, case: Case) -> Case:
+    """A case whose unknowns of no equation and no inequality are numbers at which no `nonzero` polynomial is zero."""
+    left = ring.occurring((*case.equations, *case.positive))
+    for at in ring.unknowns:
+        if at not in left and at not in dict(case.solved):
+            case = chosen(ring, case, at, lambda k: Ratio(ring.number(k), ring.number(1)))
+    return case
 
 
 def put_positive(ring: Orthant, polynomial: fmpz_mpoly, at: int, by: Ratio) -> fmpz_mpoly:
     """A polynomial with the sign of the value where one variable is replaced by a fraction."""
     found, degree = ring.put(polynomial, at, by.num, by.den)
     return found * by.den if degree % 2 and ring.sign(by.den) <= 0 else found
-
-
-def _kept(search: Search, polynomials: list[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...] | None:
-    positive, failing = inequalities(search.ring, polynomials)
-    if failing is not None:
-        search.closed.append(f"{failing} > 0")
-        return None
-    return positive
 
 
 def inequalities(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[tuple[fmpz_mpoly, ...], fmpz_mpoly | None]:

@@ -30,10 +30,13 @@ def is_explicit(evidence: Explicit, left: Model, right: Model) -> bool:
     domain = Domain(evidence.domain)
     ways = [way(left, right, domain), way(right, left, domain)]
     known = all(one and (one.covering or one.path()) for one in ways)
+    return known and {f[0] for f in evidence.formulas} == {True, False} and fit(evidence, left, right)
+
+
+def fit(evidence: Explicit, left: Model, right: Model) -> bool:
+    """Whether every formula gives the same transfer function, as put into both models anew."""
     sides = {True: (left, right), False: (right, left)}
-    return (
-        known and {f[0] for f in evidence.formulas} == {True, False} and all(_fits(f, *sides[f[0]]) for f in evidence.formulas)
-    )
+    return all(_fits(f, *sides[f[0]], Domain(evidence.domain)) for f in evidence.formulas)
 
 
 def is_without(evidence: NoEquivalent, left: Model, right: Model) -> bool:
@@ -68,8 +71,12 @@ def _names(one: Way) -> list[str]:
     return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
 
 
-def _fits(formula: Formula, given: Model, other: Model) -> bool:
-    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one; lead(q) is not zero."""
+def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
+    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and what must not be zero is not.
+
+    That is lead(q), all denominators and, over positive numbers, the values: none is zero or has a root in common with the
+    equation for all p.
+    """
     _, _, values, root = formula
     names = [*root[:1], *given.parameters]
     ring = dict(zip(names, _ring(names), strict=True))
@@ -82,7 +89,8 @@ def _fits(formula: Formula, given: Model, other: Model) -> bool:
     there = [value_of(c, point, one) for c in _every(other)]
     equation = value(tree(root[1]), ring, one).num if root else one - one
     rests = [b * here[-1] + Ratio(-a.num, a.den) * there[-1] for a, b in zip(here, there, strict=True)]
-    return not there[-1].num.is_zero() and all(_is_multiple(r.num, equation) for r in rests)
+    sides = [side for v in (*point, there[-1]) for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))]
+    return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(_is_multiple(r.num, equation) for r in rests)
 
 
 def value_of(terms: Terms, point: list[Ratio], one: fmpz_mpoly) -> Ratio:
@@ -103,6 +111,11 @@ def _ring(names: list[str]) -> tuple[fmpz_mpoly, ...]:
 def _is_multiple(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
     """Whether a polynomial vanishes where an irreducible one does (0: only zero does)."""
     return bool(polynomial.is_zero()) or (not of.is_zero() and not of.is_constant() and bool(of.gcd(polynomial) in (of, -of)))
+
+
+def _is_apart(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
+    """Whether a polynomial is not zero, nor at any root of another one, for generic values of all symbols but the first."""
+    return not polynomial.is_zero() and (of.is_zero() or not polynomial.gcd(of).degrees()[0])
 
 
 def _every(model: Model) -> tuple[Terms, ...]:

@@ -4,7 +4,7 @@ At a point x without zeros a term t = c x^e has x_j dt/dx_j = e_j t, so one pass
 
 A point at which the leading denominator coefficient vanishes, or numerator and denominator have a common root, is drawn again.
 This conditions the probability of an error on an event of probability above 1/2 (its complement is bounded by `sampling.safety`
-as well), so it can double it: one bit a point, which `safety_of` takes off.
+as well), so it can double it: one bit a point, which `local_identifiability` and `profiles` take off.
 """
 
 from collections.abc import Iterator, Sequence

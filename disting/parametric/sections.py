@@ -3,22 +3,26 @@
 In a case without equations an unknown x is eliminated where all inequalities are products of factors linear in it (Fourier and
 Motzkin). The signs of the factors of each product are tried in all ways; a x + b > 0 is x > -b/a or x < -b/a by the sign of a,
 tried in both ways unless it is seen. Then x exists exactly if some lower bound L (0 is one) is the largest, some upper bound U
-the smallest and L < U, and x = (L + U)/2 will do, or x = L + 1 if there is no upper bound. A solution of strict inequalities
-stays one if the unknowns move a little, so those at which bounds are equal or a factor a is zero may be left out, unless a
-contains the p alone: then it is listed as not zero. What is found is a list of sections q = q(p), each with polynomials
-`where`:
+the smallest and L < U, and each x = (L + w U)/(1 + w), w = 1, 2, .., will do, or x = L + w if there is no upper bound: the
+first w is taken at which no `nonzero` polynomial of the case and no a becomes 0, as a polynomial does at finitely many w only.
+A factor of two inequalities gives one bound, not two: factors are irreducible and primitive, so equal bounds are those of one
+factor, but for its sign, and with both signs no x is between them. (Taken twice, a bound would have to be larger than itself.)
+A solution of strict inequalities stays one if the unknowns move a little, so those at which bounds are equal or a factor a is
+zero may be left out, unless a contains the p alone: then it is listed as not zero. What is found is a list of sections q =
+q(p), each with polynomials `where`:
 
 * where all of them are positive (and no value q_j(p) or lead(q(p)) zero), q(p) is an equivalent of p;
 * a generic p with an equivalent in the case has a section with all its polynomials positive or zero.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 
 from flint import fmpz_mpoly
 
-from disting.parametric.cases import Case, Search, inequalities, put_positive, put_ratio
+from disting.parametric.cases import Case, Search, chosen, inequalities, numbered, put_positive, unknown_factors
 from disting.parametric.orthant import Orthant, TooMuch
 from disting.parametric.ratio import Ratio
 
@@ -51,6 +55,8 @@ def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
             todo += _eliminated(search, one, at)
         if len(found) + len(left) + len(todo) > SECTIONS:
             raise TooMuch(f"more than {SECTIONS} sections")
+    if not found and not left:
+        search.closed.append(" and ".join(f"{g} > 0" for g in case.positive))
     return found, left
 
 
@@ -74,16 +80,8 @@ def _sign(part: tuple[int, list[int]], signs: tuple[int, ...]) -> int:
 
 
 def _section(ring: Orthant, case: Case) -> Section:
-    """Unknowns that nothing depends on are 1."""
-    one, solved = Ratio(ring.number(1), ring.number(1)), dict(case.solved)
-    free = [i for i in ring.unknowns if i not in solved]
-    values = []
-    for i in ring.unknowns:
-        value = solved.get(i, one)
-        for x in free:
-            value = put_ratio(ring, value, x, one)
-        values.append(value)
-    return Section(case.positive, tuple(values))
+    solved = dict(numbered(ring, case).solved)
+    return Section(case.positive, tuple(solved[i] for i in ring.unknowns))
 
 
 def _eliminable(ring: Orthant, case: Case) -> int | None:
@@ -101,16 +99,18 @@ def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:
     ring = search.ring
     rest = [g for g in case.positive if not g.degrees()[at]]
     for linear, others in _signs(ring, [g for g in case.positive if g.degrees()[at]], at):
-        split = [_bound(ring, f, at) for f in linear]
+        split = [_bound(ring, f, at) for i, f in enumerate(linear) if f not in linear[:i]]
         unseen = [a for a, _, sign in split if not sign]
         search.generic += [a for a in unseen if not ring.occurring([a])]
         for signs in product((1, -1), repeat=len(unseen)):
-            chosen = iter(signs)
-            bounds = [(a, b, sign or next(chosen)) for a, b, sign in split]
+            guessed = iter(signs)
+            bounds = [(a, b, sign or next(guessed)) for a, b, sign in split]
             known = [s * a for s, a in zip(signs, unseen, strict=True)]
             lower = [(ring.number(1), ring.number(0)), *((a, b) for a, b, s in bounds if s > 0)]
             upper = [(-a, -b) for a, b, s in bounds if s < 0]
-            yield from _between(ring, case, at, [*rest, *others, *known], lower, upper)
+            nonzero = (*case.nonzero, *unknown_factors(ring, (a for a, _, _ in bounds)))
+            asked = Case((), (*rest, *others, *known), case.solved, nonzero)
+            yield from _between(ring, asked, at, lower, upper)
 
 
 def _signs(ring: Orthant, polynomials: list[fmpz_mpoly], at: int) -> Iterator[tuple[list[fmpz_mpoly], list[fmpz_mpoly]]]:
@@ -136,20 +136,17 @@ def _bound(ring: Orthant, linear: fmpz_mpoly, at: int) -> tuple[fmpz_mpoly, fmpz
     return factor, -rest, ring.sign(factor)
 
 
-def _between(
-    ring: Orthant, case: Case, at: int, known: list[fmpz_mpoly], lower: list[Bound], upper: list[Bound]
-) -> Iterator[Case]:
+def _between(ring: Orthant, case: Case, at: int, lower: list[Bound], upper: list[Bound]) -> Iterator[Case]:
     """One case for each choice of the largest lower and the smallest upper bound."""
     for i, low in enumerate(lower):
         above = [_difference(low, x) for j, x in enumerate(lower) if j != i]
         for k, high in enumerate(upper) if upper else [(0, None)]:
             below = [_difference(x, high) for j, x in enumerate(upper) if j != k] if high else []
             gap = [_difference(high, low)] if high else []
-            positive, failing = inequalities(ring, [*known, *above, *below, *gap])
+            positive, failing = inequalities(ring, [*case.positive, *above, *below, *gap])
             if failing is None:
-                value = _middle(ring, low, high)
-                solved = tuple((j, put_ratio(ring, x, at, value)) for j, x in case.solved)
-                yield Case((), positive, (*solved, (at, value)))
+                asked = replace(case, positive=positive)
+                yield chosen(ring, asked, at, partial(_inside, ring, low, high))
 
 
 def _difference(greater: Bound, smaller: Bound) -> fmpz_mpoly:
@@ -157,10 +154,12 @@ def _difference(greater: Bound, smaller: Bound) -> fmpz_mpoly:
     return greater[1] * smaller[0] - smaller[1] * greater[0]
 
 
-def _middle(ring: Orthant, low: Bound, high: Bound | None) -> Ratio:
-    one = Ratio(ring.number(1), ring.number(1))
-    least = Ratio(low[1], low[0])
-    return least + one if high is None else (least + Ratio(high[1], high[0])) / Ratio(ring.number(2), ring.number(1))
+def _inside(ring: Orthant, low: Bound, high: Bound | None, weight: int) -> Ratio:
+    """(L + w U)/(1 + w), or L + w."""
+    least, w = Ratio(low[1], low[0]), ring.number(weight)
+    if high is None:
+        return least + Ratio(w, ring.number(1))
+    return (least + Ratio(w * high[1], high[0])) / Ratio(w + 1, ring.number(1))
 
 
 def held(ring: Orthant, polynomial: fmpz_mpoly, section: Section) -> fmpz_mpoly:

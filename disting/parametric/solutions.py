@@ -2,8 +2,9 @@
 
 The equivalents of a model in itself (see `cases`, over the complex numbers) are written down as fractions of its parameters p,
 or by the roots of one irreducible polynomial of degree d over the field of fractions of the p, where they are d vectors. A
-parameter is globally identifiable if it is p_j in all of them. Two vectors of fractions that are written differently differ
-for generic p; so do those of roots of different irreducible polynomials for one unknown. Cases in which roots of different
+parameter is globally identifiable if it is p_j in all of them. Two vectors of different fractions of the p differ for
+generic p; so do those of roots of different irreducible polynomials for one unknown, and those of one polynomial whose values
+differ at its roots: cases that differ in no value modulo the polynomial are one. Cases in which roots of different
 unknowns are left may overlap, so that the number is not known.
 
 Identifiable combinations: the coefficients of the monic transfer function are determined by it; together they determine all
@@ -121,10 +122,22 @@ def _counted(ring: Orthant, cases: Sequence[Case], vectors: Sequence[_Vector]) -
         return None, False
     if any(len(ring.occurring([x.equation])) > 1 for x in vectors if x.equation is not None):
         return None, False
-    different = {(str(x.equation), str([(v.num, v.den) if v else None for v in x.values])): x for x in vectors}
-    plain = sum(x.equation is None for x in different.values())
-    roots = sum(int(x.equation.degrees()[x.at]) for x in different.values() if x.equation is not None)
-    return plain + roots, False
+    different = [x for i, x in enumerate(vectors) if not any(_same(x, y) for y in vectors[:i])]
+    return sum(1 if x.equation is None else int(x.equation.degrees()[x.at]) for x in different), False
+
+
+def _same(first: _Vector, second: _Vector) -> bool:
+    """Whether two cases have the same vectors: one equation, but for its sign, and values that are equal at all its roots.
+
+    The equation h is irreducible, so what vanishes at one of its roots is divisible by it and vanishes at all of them.
+    """
+    h, k = first.equation, second.equation
+    if h is None or k is None:
+        return h is None and k is None and first.values == second.values
+    if h not in (k, -k):
+        return False
+    pairs = [(v, w) for v, w in zip(first.values, second.values, strict=True) if v and w]
+    return all(((v.num * w.den - w.num * v.den) % h).is_zero() for v, w in pairs)
 
 
 def _is_unique(ring: Orthant, vectors: Sequence[_Vector], at: int, search: Search | None) -> bool:

@@ -38,9 +38,7 @@ class Way:
         """A root that gives an equivalent for every p, if one that is tried does."""
         ring = self.parted.search.ring
         if ring.domain is Domain.REAL:
-            return next((p for case in self.parted.others if (p := odd_path(ring, case, self.parted.lead))), None)
-        if ring.domain is not Domain.POSITIVE or not ring.sign(self.parted.lead):
-            return None
+            return next((p for case in self.parted.others if (p := odd_path(ring, case))), None)
         return next((p for case in self.parted.others if (p := path(ring, case))), None)
 
     def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
@@ -93,7 +91,9 @@ def _parted(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -
 def _covering(parted: Parted) -> tuple[Section, ...]:
     """Sections that cover all generic p, none if these do not."""
     ring = parted.search.ring
-    good = [s for s in (*parted.sections, *_by_choice(parted)) if not held(ring, parted.lead, s).is_zero()]
+    asked = [parted.lead, *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE)]
+    every = (*parted.sections, *_by_choice(parted))
+    good = [s for s in every if not any(held(ring, g, s).is_zero() for g in asked)]
     return next(((s,) for s in good if not s.where), tuple(good)) if cover(ring, good) else ()
 
 

@@ -8,8 +8,14 @@ from disting import Certainty, Query, Relation, View
 from disting.conditions.evidence import NoEquivalent, Renaming
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
+from disting.errors import ContradictionError
 from disting.parametric import Model, Witnesses, alternatives, compare, confirms, is_explicit, is_without
-from disting.parametric.admissible import points
+from disting.parametric.admissible import of_ways, points
+from disting.parametric.cases import Case, Search
+from disting.parametric.orthant import Orthant
+from disting.parametric.ratio import Ratio
+from disting.parametric.sections import sections
+from disting.parametric.ways import way
 
 IRREVERSIBLE = Model.from_state_space([["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible")
 REVERSIBLE = Model.from_state_space([["-k12-k01", "k21"], ["k12", "-k21"]], [1, 0], [0, 1], name="reversible")
@@ -137,3 +143,70 @@ def test_points_are_of_their_domain_and_determined():
         assert seen[0] == next(points(IRREVERSIBLE, domain, "seed")) and len({str(p) for p in seen}) > 40
         assert all(set(p) == set(IRREVERSIBLE.parameters) for p in seen)
         assert all(x > 0 for p in seen for x in p.values()) is (domain is Domain.POSITIVE)
+
+
+REAL_PAIRS = [
+    (Model.from_transfer_function([text], ["1", "e"]), Model.from_transfer_function(["a"], ["1", "b"]))
+    for text in ("c*(d-f)", "c*(d-1)")
+]
+REAL_PAIRS.append(
+    (
+        Model.from_transfer_function("12*a1+2+(6*a1+1)*s", "1+3*s+s**2"),
+        Model.from_transfer_function("-4*b1*b3+4*b1+(-2*b1*b3+2*b1)*s", "1+3*s+s**2"),
+    )
+)
+
+
+@pytest.mark.parametrize(("left", "right"), REAL_PAIRS)
+def test_real_factors_are_chosen_so_that_no_denominator_vanishes(left, right):
+    """c = a/(d - f): d = f = 1 would be no choice."""
+    for one, other in ((left, right), (right, left)):
+        verdict = over(View.REAL, one, other)
+        assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+        assert is_explicit(verdict.evidence, one, other)
+
+
+def test_what_contradicts_itself_is_no_finding():
+    """All a have the equivalent u = a; a search that found no case is a defect, not a proof that there is none."""
+    one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["u"], [1, 1])
+    shifted = Model.from_transfer_function(["u+1"], [1, 1])
+    for searched_, sometimes in ((other, False), (shifted, True)):
+        there, back = way(one, searched_, Domain.POSITIVE), way(searched_, one, Domain.POSITIVE)
+        expected = Outcome.SOMETIMES if sometimes else Outcome.HOLDS
+        assert of_ways(one, searched_, (there, back), Domain.POSITIVE, "s").outcome is expected
+        lost = replace(there, parted=replace(there.parted, sections=(), others=()), covering=())
+        with pytest.raises(ContradictionError, match="has none"):
+            of_ways(one, searched_, (lost, back), Domain.POSITIVE, "s")
+
+
+def test_formulas_of_another_model_are_no_evidence():
+    one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["u"], [1, 1])
+    there, back = way(one, other, Domain.POSITIVE), way(other, one, Domain.POSITIVE)
+    double = Ratio(2 * there.covering[0].values[0].num, there.covering[0].values[0].den)
+    wrong = replace(there, covering=(replace(there.covering[0], values=(double,)),))
+    with pytest.raises(ContradictionError, match="another transfer function"):
+        of_ways(one, other, (wrong, back), Domain.POSITIVE, "s")
+
+
+def test_points_with_a_zero_are_no_witnesses():
+    """k^2 > 0 has a real root r = k; at k = 0 nothing is said of the points around."""
+    square, linear = Model.from_transfer_function(["k**2"], [1, 1]), Model.from_transfer_function(["r"], [1, 1])
+    verdict = over(View.REAL, square, linear)
+    assert verdict.relation is Relation.SOMETIMES and confirms(verdict.evidence, square, linear)
+    assert not confirms(
+        replace(verdict.evidence, point_with=tuple((n, "0") for n, _ in verdict.evidence.point_with)), square, linear
+    )
+
+
+def test_no_equivalent_names_what_is_impossible():
+    """u > 0 and 2 - u > 0 and u - 3 > 0: no section, and the inequalities are named."""
+    one, other = (
+        Model.from_transfer_function(["a", "b"], [1, 1, 1]),
+        Model.from_transfer_function(["u - 3", "2 - u"], [1, 1, 1]),
+    )
+    verdict = over(View.POSITIVE, one, other)
+    assert verdict.relation is Relation.DISTINGUISHABLE
+    ring = Orthant(1, 1, Domain.POSITIVE)
+    u = ring.generators[1]
+    search = Search(ring, (1,))
+    assert sections(search, Case((), (2 - u, u - 3))) == ([], []) and len(search.closed) == 1

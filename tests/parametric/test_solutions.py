@@ -57,3 +57,9 @@ def test_a_product_is_determined_and_its_factors_are_not():
 def test_what_is_not_known_is_said():
     found = global_identifiability(TF("1", "(s + a)*(s + b)*(s + c)"))
     assert found.count in (None, 6) and not found.is_infinite and found.unique == ()
+
+
+def test_a_vector_presupposes_its_denominators():
+    """c = a/(d - 1)^2 at d = 1 is none: five values of d are left, (b - d^3)(d - 1)^2 = a^2."""
+    found = global_identifiability(TF(["c*(d-1)**2"], ["1", "c**2*(d-1)**2+d**3"]))
+    assert (found.count, found.unique, found.is_infinite) == (5, (), False)

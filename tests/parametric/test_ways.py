@@ -1,5 +1,6 @@
 """Equivalents over positive parameters by formulas, against plain SymPy, Gröbner bases and hand calculation."""
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, islice, permutations
 
@@ -7,13 +8,20 @@ import networkx as nx
 import pytest
 import sympy as sp
 
-from disting import Family, Query, Relation, View
+from disting import Certainty, Family, Query, Relation, View
 from disting import compare as compare_chains
+from disting.conditions.explicit import Explicit
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
 from disting.errors import InputError
-from disting.parametric import Model, alternatives, compare, is_explicit
+from disting.parametric import Model, alternatives, compare, confirms, is_explicit
 from disting.parametric.admissible import points
+from disting.parametric.between import path
+from disting.parametric.cases import Case, Search
+from disting.parametric.formulas import fit
+from disting.parametric.orthant import Orthant, value_at
+from disting.parametric.ratio import Ratio
+from disting.parametric.sections import held, sections
 from disting.parametric.ways import way
 
 EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
@@ -152,3 +160,98 @@ def test_three_compartments():
     print(len(models), "models", counts, looked, "points looked at")
     assert sum(counts.values()) == 543
     assert counts[Relation.UNDECIDED] <= 100
+
+
+SHARED_FACTORS = [
+    (tf(["e"], ["1", "f", "g"]), tf(["b/(a1*a2)"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
+    (tf(["e", "h"], ["1", "f", "g"]), tf(["b/(a1*a2)", "h"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
+    (tf(["e", "h"], ["1", "f", "g"]), tf(["b*a1*a2", "h"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
+    (tf(["e", "h"], ["1", "f", "g"]), tf(["b/(k1*k2)", "h"], ["1", "k1+u", "k2+u"]), Relation.INDISTINGUISHABLE),
+]
+
+
+@pytest.mark.parametrize(("left", "right", "relation"), SHARED_FACTORS)
+def test_a_factor_of_two_inequalities_is_one_bound(left, right, relation):
+    """Any e, f, g, h: c smaller than f and g, then a1 = f - c, a2 = g - c, and b is what e wants, whatever the names are."""
+    verdict = positive(left, right)
+    assert verdict.relation is relation and is_explicit(verdict.evidence, left, right)
+    assert positive(right, left).relation is relation
+
+
+def test_sections_of_two_products_with_a_common_factor():
+    """(x - p0)(x - p1) > 0 and (x - p0)(x - p2) > 0: x > p0 where p0 is the largest, x > p1 where p1 is, and so on."""
+    ring = Orthant(3, 1, Domain.POSITIVE)
+    p, x = ring.generators[:3], ring.generators[3]
+    case = Case((), ((x - p[0]) * (x - p[1]), (x - p[0]) * (x - p[2])))
+    found, left = sections(Search(ring, (3,)), case)
+    assert not left
+    for numbers in permutations((1, 2, 3)):
+        at = dict(enumerate(map(Fraction, numbers)))
+        here = [s for s in found if all(value_at(g, at) > 0 for g in s.where)]
+        values = [value_at(s.values[0].num, at) / value_at(s.values[0].den, at) for s in here]
+        assert any(v > max(numbers) for v in values)
+        assert all(v > 0 and all(value_at(g, at | {3: v}) > 0 for g in case.positive) for v in values)
+
+
+def test_a_root_at_which_a_denominator_vanishes_is_none():
+    """a = c (d^2 - 2)^2 and d^3 = b - g - a^2 < b - g: no equivalent where b <= g, least of all d^2 = 2 with c = a/0."""
+    left, right = tf(["a"], ["1", "b-g"]), tf(["c*(d**2-2)**2"], ["1", "c**2*(d**2-2)**2+d**3"])
+    for one, other in ((left, right), (right, left)):
+        verdict = positive(one, other)
+        assert (verdict.relation, verdict.certainty) == (Relation.SOMETIMES, Certainty.PROVEN)
+        assert verdict.evidence.without_left_given is (one is left) and confirms(verdict.evidence, one, other)
+
+
+def test_a_common_root_is_no_path():
+    """x between 0 and oo is a root of x^2 - 2 p, but where x^2 - 2 p must not be zero there is none."""
+    ring = Orthant(1, 2, Domain.POSITIVE)
+    p, x = ring.generators[:2]
+    equation = x**2 - 2 * p
+    case = Case((equation,), (), ((2, Ratio(p, x)),))
+    assert path(ring, case).values == (Ratio(x, ring.number(1)), Ratio(p, x))
+    assert path(ring, replace(case, nonzero=(equation,))) is None
+    assert path(ring, replace(case, equations=(equation * (x - p),), nonzero=(equation,))) is None
+    assert path(ring, replace(case, nonzero=(x - p,)))
+
+
+def test_formulas_that_divide_by_zero_are_refused():
+    """c = a/(x^4 - 4x^2 + 4) with x^2 = 2: the polynomials agree where the equation holds, but c does not exist."""
+    left, right = tf(["a"], ["1", "b"]), tf(["c*(d**2-2)**2"], ["1", "b"])
+    root = ("x", "x**2 - 2", "0", "infinity")
+    values = (("c", "a/(x**4 - 4*x**2 + 4)"), ("d", "x"), ("b", "b"))
+    names = dict(values)
+    formula = (True, (), tuple((n, names[n]) for n in right.parameters), root)
+    assert not fit(Explicit("positive", (formula,)), left, right)
+    there = (True, (), tuple((n, {"c": "a/4", "d": "2", "b": "b"}[n]) for n in right.parameters), ())
+    assert fit(Explicit("positive", (there,)), left, right)
+
+
+def test_a_linear_case_presupposes_its_denominator():
+    """c (d - f)^2 = a: c = a/(d - f)^2 has no value where d = f, and d, f are to be chosen so that it has one."""
+    for text in ("c*(d-f)**2", "c*(d-1)**2"):
+        left, right = tf([text], ["1", "e"]), tf(["a"], ["1", "b"])
+        for one, other in ((left, right), (right, left)):
+            verdict = positive(one, other)
+            assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+            assert is_explicit(verdict.evidence, one, other)
+
+
+def test_a_case_is_void_if_a_denominator_becomes_zero():
+    """c (d - 1)^2 = a, c^2 (d - 1)^2 + d^3 = b: a = 3, b = 1 has none, as a^2/(d - 1)^2 > 1 for d < 2 and d^3 > 1 for d > 1."""
+    left, right = tf(["c*(d-1)**2"], ["1", "c**2*(d-1)**2+d**3"]), tf(["a"], ["1", "b"])
+    verdict = positive(left, right)
+    assert verdict.relation is Relation.SOMETIMES and confirms(verdict.evidence, left, right)
+    back = way(right, left, Domain.POSITIVE)
+    assert back.lacking({"a": Fraction(3), "b": Fraction(1)})
+    assert not back.lacking({"a": Fraction(16, 25), "b": Fraction(809, 125)})
+
+
+def test_elimination_keeps_off_denominators():
+    """q0 between 0 and 2p: the middle p is a zero of q0 - p, so another point is taken; above p it is p + 1."""
+    ring = Orthant(1, 2, Domain.POSITIVE)
+    p, x = ring.generators[:2]
+    for positive_, zero in ((2 * p - x, x - p), (x - p, x - p - 1)):
+        found, left = sections(Search(ring, (1, 2)), Case((), (positive_,), ((2, Ratio(p, zero**2)),), (zero,)))
+        assert found and not left
+        for section in found:
+            assert not held(ring, zero, section).is_zero() and not section.values[1].den.is_zero()
