@@ -6,6 +6,7 @@ from enum import StrEnum
 from fractions import Fraction
 
 LEAST_SAFETY = 100  # bits: what is wrong with a larger probability than 2**-100, or could be, is not said
+USELESS = -1  # bits of a bound that says nothing; 0 bits are those of a statement that needs no bound
 
 
 class Certainty(StrEnum):
@@ -48,10 +49,13 @@ def shortfall(certainty: Certainty | None, safety: int) -> str:
 def joint_safety(safeties: Iterable[int]) -> int:
     """Largest b with sum 2^-s <= 2^-b: the probability that any of these statements is wrong is at most 2**-b.
 
-    No independence is needed: it is the sum that bounds a union. 0 for no statement at all: nothing can be wrong.
+    No independence is needed: it is the sum that bounds a union. 0 for no statement at all, and only then: nothing can be
+    wrong. USELESS where the sum is more than 1/2, so that no bound is left.
 
-    >>> joint_safety([120] * 1000), joint_safety([100, 140])
-    (110, 99)
+    >>> joint_safety([120] * 1000), joint_safety([100, 140]), joint_safety([]), joint_safety([1, 100])
+    (110, 99, 0, -1)
     """
-    total = sum((Fraction(count, 1 << s) for s, count in Counter(safeties).items()), Fraction(0))
-    return int(1 / total).bit_length() - 1 if total else 0
+    total = sum((Fraction(1, 2) ** s * count for s, count in Counter(safeties).items()), Fraction(0))
+    if not total:
+        return 0
+    return int(1 / total).bit_length() - 1 if 2 * total <= 1 else USELESS

@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from itertools import combinations
 from pathlib import Path
 
-from disting.conditions.exact import LIMITS, rational_part
+from disting.certainty import LEAST_SAFETY
+from disting.conditions.exact import rational_part
 from disting.engine import Engine
 from disting.ideals.by_rows import row_pairs
 from disting.ideals.row_answers import ROWS, line_of, read_answers
@@ -50,6 +51,6 @@ def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
 def decided(pair: frozenset[DampedRow]) -> Branched | None:
     """That the rows of a pair differ, searched in the direction with fewer branches first; None if it is not found."""
     for given, searched in sorted([tuple(sorted(pair)), tuple(sorted(pair))[::-1]], key=lambda rows: len(branches(*rows))):
-        if safety_of_branches(given, searched) >= LIMITS.safety and (found := refute(given, searched, LABEL)):
+        if safety_of_branches(given, searched) >= LEAST_SAFETY and (found := refute(given, searched, LABEL)):
             return found
     return None

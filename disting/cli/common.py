@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
+from disting.certainty import USELESS
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.domain import Domain
@@ -87,5 +88,9 @@ def joint_in_words(safety: int) -> str:
 
     >>> joint_in_words(121)
     'all of it together is wrong with a probability of at most 2^-121'
+    >>> joint_in_words(USELESS)
+    'no error bound is left for all of it together'
     """
+    if safety == USELESS:
+        return "no error bound is left for all of it together"
     return f"all of it together is wrong with a probability of at most 2^-{safety}" if safety else "nothing is left to chance"

@@ -22,12 +22,17 @@ Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero
 zeros nor poles, and a rational function without any is a constant: Td = 0. So models with and without dead time are
 distinguishable for every Td other than 0, whatever the rest; and two models with dead times have equal transfer functions only
 where both the dead times and the rational parts are equal.
+
+What equal ranks are needed for. One direction is looked at, say V1 against V2. Where V1 does not lie inside V2, the closures
+differ, whatever the ranks. Where it does, V1 = V2 holds only because both have one dimension: an irreducible closed set
+contains none but itself of its own dimension. Ranks seen at points are lower bounds, so two that are seen equal may differ. So
+a bounded HOLDS is as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full parts need no ranks.
 """
 
 from dataclasses import replace
 
 from disting import ideals
-from disting.certainty import Certainty
+from disting.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.conditions.evidence import DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised
@@ -35,6 +40,7 @@ from disting.ideals.by_rows import differ_by_row
 from disting.ideals.full_parts import same_by_full_parts
 from disting.ideals.rows import DampedRow
 from disting.ideals.zeros import safety_of_branches
+from disting.invariants.profile import Profile
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
@@ -43,7 +49,8 @@ from disting.synthesis.decide import Direction, Exact, Grounds, Membership, deci
 from disting.synthesis.duality import are_dual
 from disting.synthesis.foster import are_foster, are_same_by_parts
 
-LIMITS = Limits(seconds=3600.0, entries=4_000_000, safety=100)  # of one ideal; work ends long before the time: runs repeat
+SAFETY = LEAST_SAFETY + 1  # wanted of a fibre: with the ranks that it rests on, the bound may lose one bit
+LIMITS = Limits(seconds=3600.0, entries=4_000_000, safety=SAFETY)  # of one ideal; work ends long before: runs repeat
 EXACT = 10  # number of the exact decision, after the nine conditions
 
 
@@ -88,7 +95,7 @@ def by_full_parts(a: Chain, b: Chain) -> Finding | None:
 def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     """What the shares of the numerator's roots refute; a dead time that both have is a factor of its own."""
     found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
-    if found is None or found[1] < LIMITS.safety:
+    if found is None or found[1] < LEAST_SAFETY:
         return None
     return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, found[1], found[0])
 
@@ -100,7 +107,7 @@ def by_row(a: Chain, b: Chain) -> Finding | None:
         return None
     given, searched = (DampedRow(evidence.wall, evidence.masses, ports) for ports in (evidence.given, evidence.searched))
     safety = safety_of_branches(given, searched)
-    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety, evidence) if safety >= LIMITS.safety else None
+    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety, evidence) if safety >= LEAST_SAFETY else None
 
 
 def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:
@@ -117,6 +124,14 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
             return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, evidence)
         reasons.append(found.reason)
     return Finding(EXACT, Outcome.ABANDONED, note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})")
+
+
+def resting_on_ranks(finding: Finding, left: Profile, right: Profile) -> Finding:
+    """The finding on two models whose ranks are seen equal: that it HOLDS is wrong also where one that is not proven is."""
+    if finding.outcome is not Outcome.HOLDS or finding.certainty is not Certainty.BOUNDED:
+        return finding
+    ranks = [p.safety for p in (left, right) if not p.rank_proven]
+    return replace(finding, safety=joint_safety([finding.safety, *ranks]))
 
 
 def rational_part(chain: Chain) -> Structure:

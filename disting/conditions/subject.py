@@ -8,7 +8,7 @@ from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
 from disting.conditions.admissible import POSITIVELY, Asked, positive_ways, real_finding
 from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import EXACT, exact_finding, mirrored
+from disting.conditions.exact import EXACT, exact_finding, mirrored, resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
 from disting.domain import Domain
 from disting.identifiability import IDENTIFIABILITY, Identifiability
@@ -48,7 +48,8 @@ class Subject:
         """The exact decision on the canonical forms of both, for equal ranks; the pair's order does not matter."""
         if self.rank != other.rank:
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
-        return self._asked(EXACTLY, other)
+        profiles = (s.profile(Representation.TF, 0) for s in (self, other))
+        return resting_on_ranks(self._asked(EXACTLY, other), *profiles)
 
     def admissible(self, other: "Subject", domain: Domain) -> Finding:
         """Whether two models that are indistinguishable over complex parameters are so over this domain."""

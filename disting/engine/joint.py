@@ -3,7 +3,8 @@
 The error bound of a pair is that of the pair alone. Pairs share the points and primes of their models, so a bound of all of
 them adds up what can go wrong, independent or not (union bound): a profile errs for all pairs of its model at once, so it
 counts once for each representation in which it decides; a bounded exact decision, inclusion or finding on positive equivalents
-counts by itself.
+counts by itself. Where inclusion is told, it rests on the order of the ranks: of unequal ranks the larger model does not lie in
+the smaller one, and of equal ranks distinguishable models lie neither in the other. So every rank that is not proven counts.
 """
 
 from collections.abc import Iterator
@@ -13,10 +14,14 @@ import numpy as np
 from disting.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.engine.classes import Classes
 from disting.engine.decisions import Decisions
+from disting.invariants.sample import Representation
 
 
 def family_safety(decided: Decisions) -> int:
-    """Largest b such that all statements on all pairs hold, but for a probability of 2**-b at most; 0: all is proven."""
+    """Largest b such that all statements on all pairs hold, but for a probability of 2**-b at most; 0: all is proven.
+
+    `certainty.USELESS` where no bound is left.
+    """
     return joint_safety(_safeties(decided))
 
 
@@ -39,15 +44,23 @@ def classes_safety(found: Classes) -> int:
 
 
 def _safeties(decided: Decisions) -> Iterator[int]:
-    """Yield the bits of everything that rests on chance."""
+    """Yield the bits of everything that rests on chance. Those of an exact decision count the ranks it needs."""
     profiles = set[tuple[str, int]]()
     for i, j, _, where, certainty, safety in decided.grades():
         if certainty == Certainty.BOUNDED and (i, j) in decided.steps:
             yield safety
         elif certainty == Certainty.BOUNDED:
             profiles |= {(where, i), (where, j)}
+    if decided.query.tells_inclusion:
+        profiles |= set(_uncertain_ranks(decided))
     yield from (decided.profile(where, i).safety for where, i in profiles)
     yield from (safety for safety in (f.safety for f in decided.equal.values()) if safety)
     for both in decided.inclusions.values():
         yield from (f.safety for f in dict.fromkeys((both.image, both.closure)) if f.safety)
     yield from (share.safety for share in decided.shares.values() if share.safety)
+
+
+def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[str, int]]:
+    """Yield the models whose ranks are not proven, with the representation that tells them."""
+    where = Representation.TF.value
+    yield from ((where, i) for i in range(len(decided.subjects)) if not decided.profile(where, i).rank_proven)

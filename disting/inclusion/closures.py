@@ -29,7 +29,7 @@ the larger chain's parts can be, their sum is a limit of its models. So `of_clos
 from dataclasses import dataclass, replace
 
 from disting.algebra.sampling import about, prime, residues
-from disting.certainty import LEAST_SAFETY
+from disting.certainty import LEAST_SAFETY, joint_safety
 from disting.ideals import CoefficientMap, normalised
 from disting.ideals.fibre_ideal import evaluated, generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
@@ -82,8 +82,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsIn
     if any(one is None for one in against):
         return None
     outside = Outside(True, tuple(_step(*one) for one in against if one is not None))
-    safety = 0 if outside.is_proven else min(_safety(p.row) for p, why in filter(None, against) if why[0] is Why.EQUATION)
-    return outside, safety
+    return outside, joint_safety(_safety(p.row) for p, why in filter(None, against) if why[0] is Why.EQUATION)
 
 
 def confirms_parts(evidence: Outside | PartsInside, small: Chain, large: Chain) -> bool:

@@ -60,11 +60,21 @@ def room(small: Structure, large: Structure, seed: str = "meeting") -> Room | No
     return Room(least_rank(large, seed), sum(map(len, given)), factors, _same_mass(small, large))
 
 
-@lru_cache(maxsize=REMEMBERED)
 def powers(structure: Structure) -> Powers:
-    """The powers of s in the transfer function.
+    """The powers of s in the transfer function."""
+    return _powers(structure)[0]
 
-    Its coefficients are sums of products of parameters with positive signs (matrix-tree theorem), so exactly those vanish
+
+def common_power(structure: Structure) -> int:
+    """The power of s that numerator (times that of the sensor) and denominator have in common before it is cancelled."""
+    return _powers(structure)[1]
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _powers(structure: Structure) -> tuple[Powers, int]:
+    """The powers of s and the common one.
+
+    The coefficients are sums of products of parameters with positive signs (matrix-tree theorem), so exactly those vanish
     identically that vanish for unit parameters.
     """
     modulus = prime("powers")
@@ -73,7 +83,7 @@ def powers(structure: Structure) -> Powers:
     num, den = ({i for i, c in enumerate(p.coeffs()) if int(c)} for p in (found.num, found.den))
     num = {i + structure.sensor_order for i in num}
     common = min(num | den)
-    return frozenset(i - common for i in num), frozenset(i - common for i in den)
+    return (frozenset(i - common for i in num), frozenset(i - common for i in den)), common
 
 
 def degrees(structure: Structure) -> tuple[int, int]:

@@ -9,15 +9,15 @@ that it does is bounded by `algebra.sampling.safety`.
 """
 
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
 from math import ceil, comb, log2
-from typing import Any
 
 from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import Size, prime, residues, safety
-from disting.inclusion.meeting import powers
+from disting.inclusion.meeting import common_power, powers
 from disting.inclusion.rows import Row
 from disting.invariants.transfer import receptance, values_at
 
@@ -97,17 +97,16 @@ def _models(row: Row, count: int, label: str) -> list[tuple[int, ...]]:
 
 def _model(row: Row, label: str, modulus: int) -> tuple[int, ...]:
     """The coefficients of a random model, those of N first."""
-    point = residues(f"{label}:{row}", len(row.structure.parameters), modulus)
+    return model_at(row, residues(f"{label}:{row}", len(row.structure.parameters), modulus), modulus)
+
+
+def model_at(row: Row, point: Sequence[int], modulus: int) -> tuple[int, ...]:
+    """The coefficients of N, then D, at a point modulo a prime: polynomials in the parameters, also where the lowest vanish."""
     values = values_at(row.structure, point, lambda number: constant(number, modulus))
     found = receptance(row.structure, values, variable(modulus), constant(1, modulus))
-    shift = _common(found.num, found.den)
+    shift = common_power(row.structure)
     num, den = powers(row.structure)
     return (*(int(found.num[i + shift]) for i in sorted(num)), *(int(found.den[i + shift]) for i in sorted(den)))
-
-
-def _common(num: Any, den: Any) -> int:
-    """The common power of s."""
-    return next(i for i in range(num.length()) if int(num[i]) or int(den[i]))
 
 
 def _product(monomial: Monomial, coefficients: tuple[int, ...], modulus: int) -> int:

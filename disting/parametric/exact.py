@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 from disting.certainty import Certainty
-from disting.conditions.exact import EXACT
+from disting.conditions.exact import EXACT, SAFETY
 from disting.conditions.finding import Finding, Outcome
 from disting.ideals import CoefficientMap, Decision, Limits, Membership, decide
 from disting.parametric.model import Model
 
-LIMITS = Limits()
+LIMITS = Limits(safety=SAFETY)
 
 
 def exact_finding(left: Model, right: Model, seed: str, limits: Limits = LIMITS) -> Finding:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.evidence import Constants, Renaming
-from disting.conditions.exact import EXACT
+from disting.conditions.exact import EXACT, resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.sufficient import INCOMPLETE, condition_7
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE
@@ -108,7 +108,7 @@ def _exact(pair: Pair) -> Finding:
         return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks or degrees differ (conditions 2 and 4)")
     if one.rank == 0:
         return _constants(pair)
-    return exact_finding(pair.left, pair.right, pair.settings.seed)
+    return resting_on_ranks(exact_finding(pair.left, pair.right, pair.settings.seed), one, other)
 
 
 def _constants(pair: Pair) -> Finding:

@@ -44,7 +44,8 @@ def error_bound(certainty: str, safety: int) -> str:
     """Text of the bound that goes with a certainty."""
     if not certainty:
         return ""
-    return f"2^-{safety}" if certainty == Certainty.BOUNDED else "0"
+    bound = f"2^-{safety}" if safety > 0 else "1"
+    return bound if certainty == Certainty.BOUNDED else "0"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from disting import Chain, Family
 from disting.algebra.sampling import prime, residues
 from disting.inclusion.across_sizes import included
 from disting.inclusion.pole_sharing import TRIALS, excludes, excluding_points
-from disting.inclusion.row_equations import equation_safety, row_equation
+from disting.inclusion.row_equations import equation_safety, model_at, row_equation
 from disting.inclusion.rows import Row
 from disting.model.symmetry import canonical
 
@@ -116,3 +116,16 @@ def test_equations_hold_in_other_models_and_not_elsewhere():
 def test_rows_with_any_coefficients_have_no_equation():
     assert row_equation(Row(1, True, 1, 1, True), "none") is None
     assert row_equation(Row(2, True, 1, 2, True), "none") is None
+
+
+def test_coefficients_are_polynomials_also_where_the_lowest_vanish():
+    """Springs and dampers that are 0 modulo 5 do not shift the coefficients of such a model."""
+    row, modulus, s = Row(2, True, 1, 1, True), 5, sp.Symbol("s")
+    for masses in product((1, 3), repeat=2):
+        for k0, k1, d0, d1 in product((0, 5), (0, 2, 5), (0, 3), (0, 4)):
+            (m1, m2), names = masses, row.structure.parameters
+            values = {"m1": m1, "m2": m2, "k01": k0, "k12": k1, "d01": d0, "d12": d1}
+            outer, inner = sp.Poly([m2, d1, k1], s), sp.Poly([m1, d0 + d1, k0 + k1], s)
+            den = outer * inner - sp.Poly([d1, k1], s) ** 2
+            plain = [p.coeff_monomial(s**i) % modulus for p, top in ((outer, 2), (den, 4)) for i in range(top + 1)]
+            assert model_at(row, [values[name] for name in names], modulus) == tuple(plain)
