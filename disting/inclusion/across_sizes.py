@@ -4,7 +4,7 @@ The smaller model has fewer poles, but it may lie in the closure of the larger o
 pair first is kept:
 
 1. Degrees: a limit has no more zeros and poles than the models that it is a limit of. Refuted.
-2. `limits`: elements that vanish or grow without bound, row by row. Proven.
+2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is computed. Proven.
 3. `meeting`: dimensions that add up, for the whole or for a row after such limits. Proven.
 4. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted, with the rank's error bound.
 5. `pole_sharing`: models of the smaller kind that are no limits. Refuted; this costs more.
@@ -26,7 +26,7 @@ from disting.conditions.subject import Subject
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.limit_fibre import contained
-from disting.inclusion.limits import reached
+from disting.inclusion.limits import follows, reached
 from disting.inclusion.meeting import degrees, room
 from disting.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.inclusion.profiles import ordered
@@ -145,12 +145,12 @@ def degrees_of(chain: Chain) -> tuple[int, int]:
 
 
 def _part(given: str, row: Row, wanted: str, target: Row, counting: bool) -> PartLimit | None:
-    """A way from one row to the other; limits of elements alone first."""
+    """A way from one row to the other, each of its limits an identity; limits of elements alone first."""
     ways = reached(row)
-    if target in ways:
+    if target in ways and target in follows(row, ways[target]):
         return PartLimit(given, wanted, ways[target])
     for below, steps in ways.items() if counting else ():
         found = room(target.structure, below.structure)
-        if found is not None and found.suffices:
+        if found is not None and found.suffices and below in follows(row, steps):
             return PartLimit(given, wanted, steps, tuple(map(int, astuple(found))))
     return None

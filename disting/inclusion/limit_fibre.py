@@ -2,6 +2,10 @@
 
 What results is a model of one or two rows, not always a chain: both rows may be free. Whether generic models of the smaller
 chain are such models is decided by the ideal of one fibre (`disting.ideals.decide`), with its error bound.
+
+A solution for a given model of what results shows only that this lies in the smaller chain's closure. Both are equal if their
+ranks are. Ranks seen at points are lower bounds: so equality is proven where the smaller chain's rank cannot be more than is
+seen, being the number of its parameters or of its coefficients; else such a solution says nothing here.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,7 +15,7 @@ from math import ceil, log2
 
 from disting.ideals import Decision, Limits, Membership, Solved, coefficient_map, confirms, decide
 from disting.inclusion.limits import Step, follows, reached
-from disting.inclusion.meeting import least_rank, powers
+from disting.inclusion.meeting import least_rank, most_rank, powers
 from disting.inclusion.rows import Row, rows_of
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
@@ -39,13 +43,16 @@ def contained(small: Chain, large: Chain, seed: str) -> Contained | None:
     for steps, rows in islice(_results(target, large), MODELS):
         found = _decided(target, joined(rows), seed)
         safety = found.safety - ceil(log2(MODELS))  # any of the models tried may mislead
-        if found.membership is Membership.MEMBER and isinstance(found.evidence, Solved) and safety >= LEAST:
-            return Contained(steps, found.evidence, safety)
+        solved = found.evidence
+        if found.membership is not Membership.MEMBER or not isinstance(solved, Solved) or safety < LEAST:
+            continue
+        if tells(solved, target, joined(rows), seed) and _follow(steps, rows, rows_of(large)):
+            return Contained(steps, solved, safety)
     return None
 
 
 def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solved) -> bool:
-    """Whether the limits hold and the solutions are solutions, for a given model of the smaller chain or for equal ranks."""
+    """Whether the limits hold and the solutions are solutions, for models of the smaller chain or for ranks proven equal."""
     target, given = position(small), rows_of(large)
     names = {name for name, _ in steps}
     if not names or len(names) < len(steps) or not names <= given.keys():
@@ -92,5 +99,15 @@ def _decided(target: Structure, result: Structure, seed: str) -> Decision:
 
 
 def _holds(target: Structure, result: Structure, solved: Solved) -> bool:
-    told = solved.left_given or least_rank(target, "verify") == least_rank(result, "verify")
-    return told and not solved.is_normalised and confirms(solved, coefficient_map(target), coefficient_map(result))
+    told = tells(solved, target, result, "verify") and not solved.is_normalised
+    return told and confirms(solved, coefficient_map(target), coefficient_map(result))
+
+
+def tells(solved: Solved, target: Structure, result: Structure, seed: str) -> bool:
+    """Whether the solution shows that generic models of the target are among those that result, or limits of them."""
+    return solved.left_given or most_rank(target) <= least_rank(result, seed)
+
+
+def _follow(steps: RowSteps, rows: Sequence[Row], given: dict[str, Row]) -> bool:
+    """Whether each of the limits is an identity."""
+    return all(row in follows(given[name], path) for row, (name, path) in zip(rows, steps, strict=True))

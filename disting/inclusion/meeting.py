@@ -103,6 +103,11 @@ def least_rank(structure: Structure, seed: str = "meeting") -> int:
     return max(_rank_at(structure, f"{seed}:{k}") for k in range(POINTS))
 
 
+def most_rank(structure: Structure) -> int:
+    """An upper bound of the rank: the number of parameters, or of coefficients up to a common factor."""
+    return min(len(structure.parameters), sum(map(len, powers(structure))) - 1)
+
+
 def _rank_at(structure: Structure, label: str) -> int:
     return int(seen_at(drawn(structure, label), Representation.TF, 0).jacobian.rank())
 

@@ -8,10 +8,14 @@ import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
 from disting.conditions.evidence import Counts
+from disting.ideals import Solved
 from disting.inclusion import Sense, confirms, inclusions
 from disting.inclusion.across_sizes import by_sizes, exceeds, included, twins
 from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
 from disting.inclusion.finding import inclusion_from_json, inclusion_to_json
+from disting.inclusion.limit_fibre import tells
+from disting.inclusion.limits import is_limit
+from disting.inclusion.meeting import least_rank, most_rank
 from disting.model.symmetry import canonical
 
 ENGINE = Engine()
@@ -231,3 +235,21 @@ def test_compare_says_the_same_as_a_matrix():
     assert verdict.inclusions.closure == limits(subject(2, 1, True), subject(3, 4, True))
     refused = compare(Family(3)[2], Family(4)[10], engine=ENGINE)
     assert refused.closure is Inclusion.NEITHER and isinstance(refused.inclusions.closure.evidence, PoleSharing)
+
+
+def test_each_limit_is_shown_as_an_identity_when_it_is_found():
+    small, large = (s.canonical.chain for s in (subject(2, 2), subject(3, 9)))
+    is_limit.cache_clear()
+    evidence = included(small, large, False)
+    assert isinstance(evidence, Limit) and any(part.steps for part in evidence.parts)
+    assert is_limit.cache_info().currsize >= sum(len(part.steps) for part in evidence.parts)
+
+
+@pytest.mark.parametrize(("chain", "is_proven"), [(Chain(3, damped=True), True), (Chain(5, 4, 1, 5, 2, 5), False)])
+def test_a_solution_in_the_larger_chain_alone_needs_a_rank_without_chance(chain, is_proven):
+    """In the second eight of nine parameters are determined, by nine coefficients: points alone say that it is not more."""
+    structure = chain.structure
+    assert (most_rank(structure) == least_rank(structure)) is is_proven
+    for left_given in (True, False):
+        solved = Solved(left_given, ("x",), ((1,),))
+        assert tells(solved, structure, structure, "seed") is (left_given or is_proven)
