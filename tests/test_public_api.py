@@ -45,6 +45,7 @@ def test_public_names():
         "inclusion",
         "invariants",
         "model",
+        "packaged",
         "parametric",
         "positivity",
         "proof",

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import CatalogError
-from disting.shipped import shipped_folder as shipped_folder
+from disting.packaged import shipped_folder as shipped_folder
 
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)

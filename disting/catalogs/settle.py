@@ -15,7 +15,7 @@ from disting.ideals.row_answers import ROWS, line_of, read_answers
 from disting.ideals.rows import DampedRow
 from disting.ideals.zeros import Branched, branches, refute, safety_of_branches
 from disting.model.family import Family
-from disting.verdict import Query, Relation
+from disting.verdict import Query, Relation, View
 
 LABEL = "rows:disting"
 
@@ -38,7 +38,7 @@ def settle(n_masses: int, folder: Path, engine: Engine, told: Callable[[str], No
 def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
     """The rows that differ between damped chains which no condition and no known answer decides, each pair once."""
     subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(Family(n_masses, True), 1)]
-    found = engine.decisions(subjects, Query(inclusion=False))
+    found = engine.decisions(subjects, Query(View.EXACT, inclusion=False))
     told = set[frozenset[DampedRow]]()
     for i, j in combinations(range(len(subjects)), 2):
         if found.relation(i, j) is Relation.UNDECIDED:

@@ -15,7 +15,7 @@ from pathlib import Path
 from disting.errors import CatalogError
 from disting.ideals.rows import DampedRow
 from disting.ideals.zeros import Branched, confirms_branches
-from disting.shipped import shipped_folder
+from disting.packaged import shipped_folder
 
 ROWS = "rows.jsonl"
 Answers = dict[frozenset[DampedRow], Branched]

@@ -7,7 +7,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from disting import Certainty, Chain, Engine, Family, Finding, InputError, Query, Relation, Store, catalog, compare
+from disting import Certainty, Chain, Engine, Family, Finding, InputError, Query, Relation, Store, View, catalog, compare
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.dampers import DamperSets, dampers
 from disting.conditions import Outcome
@@ -36,7 +36,7 @@ def test_every_pair_of_three_masses_is_decided(three):
 
 def test_as_the_decision_pair_by_pair_says(three):
     subjects = [ENGINE.subject(str(i), chain) for i, chain in enumerate(three.found.chains)]
-    decided = ENGINE.decisions(subjects, Query(inclusion=False))
+    decided = ENGINE.decisions(subjects, Query(View.EXACT, inclusion=False))
     rules = {}
     for i, j, relation, rule in three.found.pairs():
         assert relation is decided.relation(i, j)
@@ -96,7 +96,7 @@ def test_four_masses_at_random_as_compare_says(four):
         i, j = random.sample(range(len(four)), 2)
         relation, rule = four.found.look_up(i, j)
         if rule != "exact":
-            assert compare(four.found.chains[i], four.found.chains[j], query=Query(inclusion=False)).relation is relation
+            assert compare(four.found.chains[i], four.found.chains[j], query=Query(View.EXACT, inclusion=False)).relation is relation
 
 
 def test_names_and_places(four):

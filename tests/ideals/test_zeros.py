@@ -26,7 +26,7 @@ from disting.ideals.zeros import (
     zeros_are_free,
 )
 from disting.model.chain import Chain
-from disting.shipped import shipped_folder
+from disting.packaged import shipped_folder
 
 P = prime("test of zeros")
 LONG = prime("test of zeros", BITS)
