@@ -35,11 +35,13 @@ class Way:
         return not self.parted.sections and not self.parted.others
 
     def path(self) -> Path | None:
-        """A root that gives an equivalent for every p, if one that is tried does."""
+        """A root that gives an equivalent for every generic p, if one that is tried does before a polynomial is too large."""
         ring = self.parted.search.ring
-        if ring.domain is Domain.REAL:
-            return next((p for case in self.parted.others if (p := odd_path(ring, case))), None)
-        return next((p for case in self.parted.others if (p := path(ring, case))), None)
+        tried = odd_path if ring.domain is Domain.REAL else path
+        try:
+            return next((p for case in self.parted.others if (p := tried(ring, case))), None)
+        except TooMuch:
+            return None
 
     def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""
@@ -89,12 +91,19 @@ def _parted(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -
 
 
 def _covering(parted: Parted) -> tuple[Section, ...]:
-    """Sections that cover all generic p, none if these do not."""
+    """Sections that cover all generic p, none if these do not or a polynomial is too large to tell.
+
+    At a section lead(q) and, over positive numbers, the values are not zero for generic p (see `nonzero` in `cases`); it is
+    looked at once more.
+    """
     ring = parted.search.ring
     asked = [parted.lead, *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE)]
-    every = (*parted.sections, *_by_choice(parted))
-    good = [s for s in every if not any(held(ring, g, s).is_zero() for g in asked)]
-    return next(((s,) for s in good if not s.where), tuple(good)) if cover(ring, good) else ()
+    try:
+        every = (*parted.sections, *_by_choice(parted))
+        good = [s for s in every if not any(held(ring, g, s).is_zero() for g in asked)]
+        return next(((s,) for s in good if not s.where), tuple(good)) if cover(ring, good) else ()
+    except TooMuch:
+        return ()
 
 
 def _by_choice(parted: Parted) -> Iterator[Section]:

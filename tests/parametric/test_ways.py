@@ -21,8 +21,9 @@ from disting.parametric.cases import Case, Search
 from disting.parametric.formulas import fit
 from disting.parametric.orthant import Orthant, value_at
 from disting.parametric.ratio import Ratio
+from disting.parametric.robust import Parted
 from disting.parametric.sections import held, sections
-from disting.parametric.ways import way
+from disting.parametric.ways import Way, way
 
 EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
 
@@ -255,3 +256,13 @@ def test_elimination_keeps_off_denominators():
         assert found and not left
         for section in found:
             assert not held(ring, zero, section).is_zero() and not section.values[1].den.is_zero()
+
+
+def test_a_path_too_large_to_be_looked_at_is_none():
+    model = tf(["a"], ["1", "b"])
+    ring = Orthant(1, 2, Domain.POSITIVE)
+    p, x = ring.generators[:2]
+    cases = (Case((x**2 - x - p,)),)
+    for degree, found in ((0, False), (40, True)):
+        search = Search(replace(ring, degree=degree), (1, 2))
+        assert bool(Way(model, model, Parted(search, (), cases, ring.number(1)), ()).path()) is found
