@@ -71,13 +71,17 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
     if where == "-":
         sys.stdout.writelines(lines)
         return
-    partial = Path(f"{where}.partial")  # renamed at the end: a full disk or a kill leaves an older file as it was
+    target = Path(where).resolve()  # a link stays a link
+    is_file = target.is_file() or not target.exists()
+    partial = target.with_name(f"{target.name}.partial") if is_file else target  # devices and pipes are written to as they are
     try:
         with partial.open("w", encoding="utf-8") as file:
             file.writelines(lines)
-        partial.replace(where)
+        if is_file:
+            partial.replace(target)  # at the end: a full disk or a kill leaves an older file as it was
     except OSError as reason:
-        partial.unlink(missing_ok=True)
+        if is_file:
+            partial.unlink(missing_ok=True)
         raise InputError(
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
         ) from None

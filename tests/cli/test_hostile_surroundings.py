@@ -68,3 +68,15 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path):
     done = disting("verdicts", 3, "--csv", there)
     assert done.returncode == 2 and "a.csv cannot be written (No space left on device)" in done.stderr
     assert there.read_text() == "precious" and not os.path.lexists(partial)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="named pipes are of POSIX")
+def test_pipes_and_links_stay_what_they_are(tmp_path):
+    pipe, link, there = tmp_path / "pipe", tmp_path / "link.csv", tmp_path / "there.csv"
+    os.mkfifo(pipe)
+    link.symlink_to(there)
+    reader = subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True)
+    assert disting("verdicts", 2, "--csv", pipe).returncode == 0
+    read, _ = reader.communicate(timeout=60)
+    assert disting("verdicts", 2, "--csv", link).returncode == 0
+    assert pipe.is_fifo() and link.is_symlink() and there.read_text() == read != ""
