@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from disting import Chain, Query, Relation, Verdict
+from disting import Chain, Query, Relation, Verdict, View
 from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import EXACT
 from disting.verdict import RULE_NAMES, audit, decide, steps
 from tests.laws.pairs import ENGINE, PAPER, WITNESS, family, quick, similar_pairs, subject
 
-ONLY = Query(inclusion=False)
+ONLY = Query(View.EXACT, inclusion=False)
 FAMILIES = [(3, True, 6), (4, False, 9)]  # masses, damped, pairs that conditions 1 to 9 leave open (facts of the paper)
 RUBBED = [Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(2,))]
 
@@ -47,7 +47,7 @@ def test_what_is_open_is_settled_alike_from_both_sides(number):
 @pytest.mark.parametrize("number", PAIRS)
 def test_its_evidence_checks_again_and_survives_json(number):
     left, right = open_pairs()[number]
-    found = decide(left, right, Query())
+    found = decide(left, right, Query(View.EXACT))
     assert WITNESS.confirms(found.evidence, found.representation, left.chain, right.chain)
     assert Verdict.from_dict(json.loads(json.dumps(found.to_dict()))) == found
 
