@@ -29,8 +29,12 @@ def decided(n_masses, damped=False, view=View.COMBINED, markov=0, sensor=Sensor.
     return ENGINE.decisions(subjects, Query(view, markov=markov))
 
 
+COMPLEX = Query(View.EXACT)
+
+
 @cache
-def verdict(left, right, query=None):
+def verdict(left, right, query=COMPLEX):
+    """Over complex parameters, as in the paper."""
     return compare(left, right, query=query, engine=ENGINE)
 
 

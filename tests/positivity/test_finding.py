@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 import numpy as np
 import pytest
 
-from disting import Certainty, Chain, Family, InputError, Relation, Sensor, catalog
+from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
 from disting.model.symmetry import canonical
 from disting.positivity import Empirical, PositiveFinding, Share, confirms, positive_finding
 from disting.positivity.evidence import Excluded, Interlacing, NoEquivalent, Points, SameByTheorem
@@ -36,7 +36,7 @@ def chains(n, damped):
 def indistinguishable(n, damped):
     """Ordered pairs of canonical forms, each unordered pair of forms once."""
     whole, seen = catalog(n, damped=damped), set()
-    for i, j, v in whole.pairs():
+    for i, j, v in whole.pairs(View.EXACT):
         pair = tuple(canonical(whole.family[k]).chain for k in (i, j))
         if v.relation is Relation.INDISTINGUISHABLE and pair not in seen:
             seen.add(pair)
@@ -233,7 +233,8 @@ def test_findings_cannot_contradict_themselves():
     with pytest.raises(ValueError, match="not unknown"):
         PositiveFinding(Share.ALWAYS)
     with pytest.raises(ValueError, match="bound"):
-        PositiveFinding(Share.NEVER, Certainty.BOUNDED, 0, Excluded("decay"))
+        PositiveFinding(Share.NEVER, Certainty.PROVEN, 120, Excluded("decay"))
+    assert PositiveFinding(Share.NEVER, Certainty.BOUNDED, 0, Excluded("decay")).share is Share.UNKNOWN
     with pytest.raises(ValueError, match="tries"):
         Empirical(8, 10, 3)
     with pytest.raises(TypeError):
