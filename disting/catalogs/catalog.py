@@ -39,7 +39,7 @@ class ModelRow:
 class Catalog:
     """All verdicts of one family; `records` is its file's content (see `files`).
 
-    >>> catalog(3, damped=True).verdict(2, 5).decided_by
+    >>> catalog(3, damped=True).verdict(2, 5, View.EXACT).decided_by
     '6'
     """
 

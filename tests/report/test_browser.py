@@ -307,7 +307,11 @@ def test_no_field_of_millions_is_lost(visit, site: Path) -> None:  # type: ignor
     apart, same = kinds.index("distinguishable"), kinds.index("indistinguishable")
     before, after = (high - 1) * (high - 2) // 2 + low - 1, models * (models - 1) // 2
     runs = [apart, -(before - 1), same, apart, -(after - before - 2)]
-    data |= {"models": models, "groups": [[low, high]], "views": dict.fromkeys(data["views"], runs)}
+    data |= {
+        "models": models,
+        "groups": {domain: [[low, high]] for domain in data["groups"]},
+        "views": dict.fromkeys(data["views"], runs),
+    }
     (site / "chains-9-damped.html").write_text(text.replace(found[0], json.dumps(data)), encoding="utf-8")
     tab = visit("chains-9-damped.html")
     seen = """() => {

@@ -273,8 +273,10 @@ def test_the_keyboard_moves_opens_and_closes(visit) -> None:  # type: ignore[no-
 
 def test_a_structures_panel_lists_what_is_not_told_apart(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A3")
-    assert "fall into 2 groups that are told apart" in tab.inner_text("#detail .why")
-    assert tab.inner_text('#detail [data-slot="members"]') == "Not told apart: 1 = 2 = 3 = 1+2 = 1+3 = 2+3 = 1+2+3."
+    assert "fall into 2 groups that are distinguishable" in tab.inner_text("#detail .why")
+    assert tab.inner_text('#detail [data-slot="members"]') == (
+        "Not told apart over complex parameters: 1 = 2 = 3 = 1+2 = 1+3 = 2+3 = 1+2+3."
+    )
     assert small.found.relation(small.place((3, ())), small.place((3, (1,)))).value == "distinguishable"
     assert tab.text_content("#detail code") == "disting dampers 3:3 --sets all --damped"
 
