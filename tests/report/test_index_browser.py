@@ -162,7 +162,7 @@ def test_undecided_pairs_are_said(visit, site: Path) -> None:  # type: ignore[no
     (site / "opened.html").write_text(index([opened]), encoding="utf-8")
     tab = visit("opened.html")
     for _, found in _described(tab, [shipped.family[3]]):
-        assert found["said"] == "No other model is known that cannot be told apart from it."
+        assert found["said"] == "No other model is known that can never be told apart from it."
     assert tab.inner_text('[data-slot="open"]') == "With 1 model this is undecided."
 
 
