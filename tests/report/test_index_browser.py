@@ -163,7 +163,7 @@ def test_undecided_pairs_are_said(visit, site: Path) -> None:  # type: ignore[no
     tab = visit("opened.html")
     for _, found in _described(tab, [shipped.family[3]]):
         assert found["said"] == "No other model is known that can never be told apart from it."
-    assert tab.inner_text('[data-slot="open"]') == "With 1 model this is undecided."
+    assert tab.inner_text('[data-slot="open"]') == "With 1 model this is undecided over positive parameters."
 
 
 def test_a_size_with_one_kind_offers_that_kind(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
