@@ -66,10 +66,12 @@ def a_name_too_long(tmp_path: Path) -> Path:
     return tmp_path / ("x" * 300)
 
 
-@pytest.mark.parametrize(
-    "place",
-    PLACES,
-)
+PLACES = [
+    below_a_file, in_proc, a_pipe, a_device, a_folder_in_use, a_name_too_long, a_text, an_empty_folder, another_database,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("place", PLACES)
 def test_a_cache_that_cannot_be_made_is_done_without(place: Callable[[Path], Path], tmp_path: Path) -> None:
     path = place(tmp_path)
     before = contents(tmp_path)
