@@ -23,7 +23,7 @@ from functools import lru_cache
 from disting.algebra.quotient import constant, variable
 from disting.algebra.sampling import prime
 from disting.invariants.sample import Representation, drawn, seen_at
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.structure import Structure
 
 POINTS = 2  # at which a rank is looked at; what is seen at one is a lower bound
@@ -79,8 +79,8 @@ def _powers(structure: Structure) -> tuple[Powers, int]:
     """
     modulus = prime("powers")
     one, s = constant(1, modulus), variable(modulus)
-    found = receptance(structure, dict.fromkeys(structure.parameters, one), s, one)
-    num, den = ({i for i, c in enumerate(p.coeffs()) if int(c)} for p in (found.num, found.den))
+    found = plain_receptance(structure, dict.fromkeys(structure.parameters, one), s, one)
+    num, den = ({i for i, c in enumerate(p.coeffs()) if int(c)} for p in found)
     num = {i + structure.sensor_order for i in num}
     common = min(num | den)
     return (frozenset(i - common for i in num), frozenset(i - common for i in den)), common

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from flint import fmpz_mpoly
 
 from disting.algebra.symbols import coefficients, renamed, symbols
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 
@@ -33,8 +33,8 @@ def expanded(structure: Structure) -> Expanded:
     """
     ring = symbols(["s", *structure.parameters])
     s, one = ring["s"], ring["s"] ** 0
-    r = receptance(structure, ring, s, one)
-    num, den = r.num * s**structure.sensor_order, r.den
+    num, den = plain_receptance(structure, ring, s, one)
+    num = num * s**structure.sensor_order
     power = min(_valuation(num), _valuation(den))
     return Expanded(num // s**power, den // s**power)
 

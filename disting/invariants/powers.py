@@ -12,7 +12,7 @@ from flint import fmpz_poly
 
 from disting.algebra.symbols import coefficients
 from disting.invariants.expanded import expanded
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.structure import Structure
 
 REMEMBERED = 4096
@@ -56,8 +56,8 @@ def is_sign_free(structure: Structure) -> bool:
 def _at_ones(structure: Structure) -> tuple[list[bool], list[bool]]:
     """Which coefficients are not zero at all parameters = 1, over the integers."""
     ones = {name: fmpz_poly([1]) for name in structure.parameters}
-    r = receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
-    return [False] * structure.sensor_order + [bool(c) for c in r.num.coeffs()], [bool(c) for c in r.den.coeffs()]
+    num, den = plain_receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
+    return [False] * structure.sensor_order + [bool(c) for c in num.coeffs()], [bool(c) for c in den.coeffs()]
 
 
 def _written_out(structure: Structure) -> tuple[list[bool], list[bool]]:
