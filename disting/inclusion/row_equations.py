@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
 from math import ceil, comb, log2
+from typing import Any
 
 import numpy as np
-from flint import nmod_mat
 from numpy.typing import NDArray
 
 from disting.algebra.quotient import constant, matrix, variable
@@ -104,9 +104,9 @@ def _kernel_vector(block: Block, models: list[tuple[int, ...]], modulus: int) ->
     return tuple(int(basis[i, 0]) for i in range(len(block))) if nullity else None
 
 
-def _nullspace(rows: list[list[int]], modulus: int) -> tuple[nmod_mat, int]:
+def _nullspace(rows: list[list[int]], modulus: int) -> tuple[Any, int]:
     """Columns that span the kernel of a matrix modulo a prime, and how many they are."""
-    found: tuple[nmod_mat, int] = matrix(rows, len(rows[0]), modulus).nullspace()
+    found: tuple[Any, int] = matrix(rows, len(rows[0]), modulus).nullspace()
     return found
 
 
