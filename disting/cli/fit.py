@@ -10,7 +10,7 @@ from typing import Any
 
 from disting.cli.common import emitted
 from disting.cli.work import engine_for
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
@@ -103,7 +103,7 @@ def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, .
     known = {name for chain in found for name in chain.parameters}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
     if unknown:
-        raise InputError(f"no candidate has a parameter {', '.join(unknown)}; there are {', '.join(sorted(known))}")
+        raise InputError(f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}")
     return found
 
 

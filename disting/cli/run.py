@@ -8,7 +8,7 @@ from contextlib import redirect_stdout
 
 from disting.cli.parser import parser
 from disting.cli.plain import say_what_can_be_said
-from disting.errors import DistingError
+from disting.errors import DistingError, brief, listed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -32,7 +32,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         print(f"disting: {reason}", file=sys.stderr)
         return 2
     except OSError as reason:
-        print(f"disting: {reason.strerror or reason}: {reason.filename or ''}".rstrip(": "), file=sys.stderr)
+        print(
+            brief(f"disting: {reason.strerror or reason}: {listed([str(reason.filename or '')])}".rstrip(": ")), file=sys.stderr
+        )
         return 2
     except MemoryError as reason:
         print(f"disting: there is not enough memory ({reason or 'no more can be had'}); ask for less", file=sys.stderr)
@@ -53,4 +55,4 @@ def _drop_what_cannot_be_written() -> None:
 
 
 def _warned(message: Warning | str, *_: object, **__: object) -> None:
-    print(f"disting: warning: {message}", file=sys.stderr)
+    print(brief(f"disting: warning: {message}"), file=sys.stderr)
