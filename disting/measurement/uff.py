@@ -75,7 +75,7 @@ def _records(path: Path) -> Sequence[Record]:
 
 
 def _check_columns(text: str) -> None:
-    """Raise ValueError for a line of numbers that does not consist of whole columns: those behind its damage would be shifted."""
+    """Raise ValueError for a line of numbers that is not of whole columns: those behind its damage would be shifted."""
     for block in re.split(r"(?m)^ {4}-1[ \r]*\n?", text):
         lines = block.splitlines()
         if not lines or lines[0].strip() != "58":

@@ -150,7 +150,7 @@ def drop(draw, words):
 
 
 def double(draw, words):
-    return words + [draw.choice(words)] if words else words
+    return [*words, draw.choice(words)] if words else words
 
 
 def swap(draw, words):

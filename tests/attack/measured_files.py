@@ -1,7 +1,7 @@
 """Files with known numbers, small damage, and what the damaged file says by an independent reading.
 
-A reading gives pairs (frequency, response) or None where the damaged file says no numbers; it knows one form of file only and is
-strict, while the readers under attack know many and guess.
+A reading gives pairs (frequency, response) or None where the damaged file says no numbers; it knows one form of file only and
+is strict, while the readers under attack know many and guess.
 """
 
 import io
