@@ -61,10 +61,10 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
     paths = [folder / f"{c.name}.jsonl" for c in catalogs]
     for c, path in zip(catalogs, paths, strict=True):
         partial = path.with_suffix(".partial")  # a killed run leaves no half-written catalogue under its name
-        partial.write_text(lines(list(c.records)), encoding="utf-8")
+        partial.write_text(lines(list(c.records)), encoding="utf-8", newline="\n")
         partial.replace(path)
     provenance = folder / PROVENANCE
-    provenance.write_text(json.dumps(provenance_of(folder), indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    provenance.write_text(json.dumps(provenance_of(folder), indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
     return [*paths, provenance]
 
 

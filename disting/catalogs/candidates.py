@@ -134,7 +134,7 @@ def write(found: Matrix, folder: Path) -> Path:
     """Write the file; a killed run leaves no half-written one under its name."""
     folder.mkdir(parents=True, exist_ok=True)
     partial = folder / (FILE + ".partial")
-    partial.write_text(found.text(), encoding="utf-8")
+    partial.write_text(found.text(), encoding="utf-8", newline="\n")
     return partial.replace(folder / FILE)
 
 

@@ -88,7 +88,7 @@ def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: boo
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name_of(found.family.n_masses, found.family.damped)}.jsonl"
     partial = path.with_suffix(".partial")
-    partial.write_text(text_of(found, settings, patient=patient), encoding="utf-8")
+    partial.write_text(text_of(found, settings, patient=patient), encoding="utf-8", newline="\n")
     return partial.replace(path)
 
 

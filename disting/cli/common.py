@@ -75,7 +75,7 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
     is_file = target.is_file() or not target.exists()
     partial = target.with_name(f"{target.name}.partial") if is_file else target  # devices and pipes are written to as they are
     try:
-        with partial.open("w", encoding="utf-8") as file:
+        with partial.open("w", encoding="utf-8", newline="\n") as file:
             file.writelines(lines)
         if is_file:
             partial.replace(target)  # at the end: a full disk or a kill leaves an older file as it was

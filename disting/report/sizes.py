@@ -57,7 +57,7 @@ def write_sizes(decided: Decisions, out: Path) -> Path:
     """Write the page of models of several sizes, decided with inclusions, into a folder; returns its path."""
     out.mkdir(parents=True, exist_ok=True)
     path = out / f"{name_of(decided.subjects[0].chain.damped)}.html"
-    path.write_text(sizes_page(decided), encoding="utf-8")
+    path.write_text(sizes_page(decided), encoding="utf-8", newline="\n")
     return path
 
 
