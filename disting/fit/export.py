@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from io import BytesIO
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from disting.fit.plant import Plant, Real
 from disting.fit.select import Candidate, Selection
 from disting.model.chain import Chain, Sensor
 from disting.simulation import matrices, port_vectors
+from disting.written import write_whole
 
 if TYPE_CHECKING:
     import control
@@ -98,7 +100,9 @@ def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1)
     from scipy.io import savemat
 
     ss = state_space(chain, values, sign)
-    savemat(path, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
+    content = BytesIO()
+    savemat(content, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
+    write_whole(path, content.getvalue())
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:

@@ -50,10 +50,15 @@ def table(text: str, origin: str) -> Table:
 
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
-    def readable(dialect: tuple[str, str]) -> int:
-        """How many of the last lines are numbers only, more than one, when read so."""
-        parts = [_fields(line, dialect[0]) for line in lines[-SAMPLE:]]
-        return sum(len(p) > 1 and _count(p, dialect[1]) == len(p) for p in parts)
+    def readable(dialect: tuple[str, str]) -> float:
+        """How many of the last lines are numbers only, more than one, when read so; between blanks a tab counts against it.
+
+        A line of a file with tabs that lacks a cell must not make it one with blanks, where two tabs are as good as one.
+        """
+        delimiter, decimal = dialect
+        sample = [(line, _fields(line, delimiter)) for line in lines[-SAMPLE:]]
+        good = [line for line, parts in sample if len(parts) > 1 and _count(parts, decimal) == len(parts)]
+        return sum(0.5 if delimiter == " " and "\t" in line else 1.0 for line in good)
 
     best = max(DIALECTS, key=readable, default=DIALECTS[0])
     if not lines or not readable(best):

@@ -6,6 +6,7 @@ from pathlib import Path
 from disting.errors import InputError
 from disting.measurement.response import FrequencyResponse, Signal
 from disting.measurement.tabular import MARK
+from disting.written import write_whole
 
 
 def csv_text(response: FrequencyResponse) -> str:
@@ -16,7 +17,7 @@ def csv_text(response: FrequencyResponse) -> str:
 def write_csv(response: FrequencyResponse, path: str | Path) -> None:
     """Write `csv_text` to a file; `read` gives an equal response. Raises InputError where the file cannot be written."""
     try:
-        Path(path).write_text(csv_text(response), encoding="utf-8", newline="\n")
+        write_whole(Path(path), [csv_text(response)])
     except OSError as error:
         raise InputError(f"{path} cannot be written: {error.strerror}") from None
 

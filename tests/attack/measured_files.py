@@ -138,9 +138,10 @@ class Hdf5(Matlab):
         """By the places where the numbers stand; what is changed elsewhere must change no number."""
         good = self.content()
         blocks = [FREQUENCY.tobytes(), RESPONSE.tobytes()]
-        if len(content) != len(good):
+        pieces = [content[good.index(block) :][: len(block)] for block in blocks]
+        if [*map(len, pieces)] != [*map(len, blocks)]:
             return None
-        f, g = (np.frombuffer(content[good.index(b) :][: len(b)], t) for b, t in zip(blocks, ("f8", "c16"), strict=True))
+        f, g = np.frombuffer(pieces[0]), np.frombuffer(pieces[1], complex)
         return list(zip(2 * math.pi * f, g, strict=True))
 
 
@@ -208,8 +209,8 @@ def version_4(content):
             raise ValueError("another kind")
         name, at, size = content[at + 20 : at + 20 + length].rstrip(b"\0"), at + 20 + length, rows * columns
         type_ = np.dtype(TYPES_OF_4[kind])
-        parts = np.frombuffer(content[at : at + type_.itemsize * size * (1 + (imaginary != 0))], type_)
-        found[name] = parts[:size] + 1j * parts[size:] if imaginary else parts
+        parts = np.frombuffer(content[at : at + type_.itemsize * size * (1 + (imaginary == 1))], type_)
+        found[name] = parts[:size] + 1j * parts[size:] if imaginary == 1 else parts
         at += type_.itemsize * len(parts)
     return found
 

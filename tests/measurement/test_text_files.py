@@ -293,6 +293,7 @@ def test_a_cell_of_many_digits_is_refused_at_once():
         (["0.5,7", *lines(ROWS)], "line 1: 2 columns where the others have 3"),
         (["f;Re;Im", *lines(ROWS, ";"), "13;1,234;5.5"], "line 14, column 2 .Re.: '1,234' is no number"),
         (["f;Re;Im", *lines(ROWS, ";", ","), "13;1.234;5,5"], "line 14, column 2 .Re.: '1.234' is no number"),
+        (["f\tRe\tIm", *lines(ROWS, "\t"), "13\t\t4\t5"], "line 14: 4 columns where the others have 3"),
         (["f,Re,Im", *lines(ROWS), "13,\u0663,5"], "line 14, column 2 .Re.: '\u0663' is no number"),
     ],
 )
