@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     import control
 
 
+MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)  # where SciPy writes the time of day
+
+
 @dataclass(frozen=True, eq=False)
 class StateSpace:
     """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force; `delay` of the input [s]."""
@@ -96,13 +99,13 @@ def _control() -> Any:
 
 
 def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1) -> None:
-    """A, B, C, D and delay as a MATLAB v5 file."""
+    """A, B, C, D and delay as a MATLAB v5 file; the same model gives the same bytes."""
     from scipy.io import savemat
 
     ss = state_space(chain, values, sign)
     content = BytesIO()
     savemat(content, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
-    write_whole(path, content.getvalue())
+    write_whole(path, MAT_HEAD + content.getvalue()[len(MAT_HEAD) :])
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:

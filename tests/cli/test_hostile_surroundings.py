@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from tests.cli.process import COMMAND, disting
+from tests.cli.process import COMMAND, disting, marked
 
 
 @pytest.mark.parametrize(
@@ -46,19 +46,6 @@ def test_workers_end_with_their_parent(tmp_path, by):
         time.sleep(0.1)
         patience -= 1
     assert not marked(tmp_path)
-
-
-def marked(folder):
-    """Processes that inherited the mark in their environment."""
-    found = set()
-    for name in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            with open(f"/proc/{name}/environ", "rb") as file:
-                if f"MARK={folder}\0".encode() in file.read():
-                    found.add(int(name))
-        except OSError:  # it ended, or is another user's
-            continue
-    return found
 
 
 @pytest.mark.skipif(os.name != "posix", reason="the limit is of POSIX")

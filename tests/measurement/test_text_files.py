@@ -307,3 +307,13 @@ def test_headers_by_the_thousand_are_not_all_listed():
     with pytest.raises(InputError, match="no column is a frequency") as refused_:
         frequency_response(table(",".join(["x"] * 5000) + "\n" + (",".join(["1"] * 5000) + "\n") * 9, "wide.csv"))
     assert len(str(refused_.value)) < 1000
+
+
+def test_no_label_becomes_a_formula_of_a_spreadsheet(tmp_path):
+    r"""Comments are split into cells too; a label that holds \\u003d itself comes back as it was."""
+    labels = Signal("x,=cmd()", "a; @b"), Signal("\\u003d1", "\\u005c")
+    response = FrequencyResponse(FREQUENCY, G, input=labels[0], output=labels[1], origin="x,-2+3")
+    write_csv(response, tmp_path / "a.csv")
+    text = (tmp_path / "a.csv").read_text(encoding="utf-8")
+    assert not any(sign in text for sign in (",=", "; @", ",-2+"))
+    assert read(tmp_path / "a.csv") == response

@@ -73,14 +73,14 @@ def fit_figures(
     return [figure for figure in drawn if figure is not None]
 
 
-def _files(selection: Selection, page: str, figures: Sequence[Drawn]) -> Iterator[tuple[str, bytes]]:
-    yield "fit.html", page.encode()
+def _files(selection: Selection, page: str, figures: Sequence[Drawn]) -> Iterator[tuple[str, bytes | list[str]]]:
+    yield "fit.html", [page]
     for figure in figures:
         yield f"{figure.name}.svg", figure.svg
         yield f"{figure.name}.png", figure.png
         yield f"{figure.name}.pdf", figure.pdf
-    yield "fit.json", (json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
-    yield "candidates.csv", candidates_csv(selection).encode()
+    yield "fit.json", [json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False), "\n"]
+    yield "candidates.csv", [candidates_csv(selection)]
 
 
 def candidates_csv(selection: Selection) -> str:
