@@ -80,7 +80,13 @@ def compare(draw):
 
 
 def verdicts(draw):
-    options = ("--damped", "--prove", ("--sensor", one_of(*SENSORS)), ("--domain", one_of(*DOMAINS)), ("--markov", number))
+    options = (
+        "--damped",
+        "--prove",
+        ("--sensor", one_of(*SENSORS)),
+        ("--domain", one_of(*DOMAINS)),
+        ("--markov", one_of("1", "12", "0", "x")),
+    )
     more = (("--representation", one_of("tf", "markov", "all")), ("--csv", one_of(*FILES)), ("--json", one_of(*FILES)))
     return ["verdicts", draw.choice((size(draw), "1-2", "2-3", "3-1")), *flags(draw, *options, *more)]
 

@@ -78,6 +78,7 @@ def test_in_this_process(place, counts):
     for _ in range(times(10_000)):
         words = command_lines.line(draw)
         counts["tried"] += 1
+        (place / "line").write_text(repr(words))  # what hangs ends this process: here it stands
         try:
             status, out, error = carried_out(words)
             reason = wrong_with(status, out, error)
