@@ -10,7 +10,7 @@ from typing import Any
 from disting.cli.common import emitted
 from disting.cli.plain import complain
 from disting.cli.work import engine_for
-from disting.errors import InputError, listed
+from disting.errors import InputError, listed, printable
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
