@@ -11,9 +11,10 @@ from disting.catalogs.files import shipped_folder
 from disting.cli import catalogs, compare, dampers, equivalents, fit_arguments, models, report, simulate, upkeep, verdicts
 from disting.cli.common import VIEWS
 from disting.cli.paths import written_file, written_folder
+from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
-from disting.errors import LONGEST_ECHO, brief, shown
+from disting.errors import LONGEST_ECHO, shown
 from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 
@@ -229,12 +230,13 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        self.exit(2, f"disting: {_short(message)}; see '{self.prog} --help'\n")
+        complain(f"{_short(message)}; see '{self.prog} --help'")
+        self.exit(2)
 
 
 def _short(message: str) -> str:
     """argparse echoes what it does not know as it is."""
-    return brief(" ".join(word if len(word) <= 2 * LONGEST_ECHO else f"{word[:LONGEST_ECHO]}…" for word in message.split(" ")))
+    return " ".join(word if len(word) <= 2 * LONGEST_ECHO else f"{word[:LONGEST_ECHO]}…" for word in message.split(" "))
 
 
 def _command(groups: Groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:

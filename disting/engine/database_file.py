@@ -101,7 +101,7 @@ def replace(path: str, suspect: Identity, wait: float) -> str:
     os.makedirs(os.path.dirname(path), exist_ok=True)
     if suspect != MISSING and not _was_ours(path):
         raise OSError("it is no cache of disting and is left as it is; name another file with DISTING_CACHE")
-    with FileLock(path + LOCK, timeout=wait, poll_interval=PAUSE_SECONDS):
+    with FileLock(path + LOCK).acquire(wait, PAUSE_SECONDS):
         if identity(path) != suspect:
             return ""
         name = "" if suspect == MISSING else _set_aside(path)
