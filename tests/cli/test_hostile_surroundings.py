@@ -33,14 +33,20 @@ def test_output_that_the_terminal_cannot_encode_is_no_error(encoding, command):
 def test_workers_end_with_their_parent(tmp_path, by):
     command = [*COMMAND, "verdicts", "5", "--damped", "--jobs", "2"]
     environment = os.environ | {"DISTING_CACHE": "off", "MARK": str(tmp_path)}
-    parent = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    parent = subprocess.Popen(
+        command,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),  # under nohup it is inherited as ignored
+    )
     while (
         len(workers := marked(tmp_path) - {parent.pid}) < 3 and parent.poll() is None
     ):  # two workers, and what counts semaphores
         time.sleep(0.05)
     assert len(workers) >= 3
     parent.send_signal(by)
-    parent.wait(timeout=60)
+    assert parent.wait(timeout=60) == -by
     patience = 600  # tenths of a second; idle, they end within one
     while marked(tmp_path) and patience:
         time.sleep(0.1)
