@@ -19,6 +19,7 @@ from disting.inclusion import inclusions_to_dict
 from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
+from disting.written import write_whole
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
 PARTS |= {View.REAL.value: View.REAL}  # what holds over positive parameters follows from the shares of both sides
@@ -60,12 +61,8 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"{c.name}.jsonl" for c in catalogs]
     for c, path in zip(catalogs, paths, strict=True):
-        partial = path.with_suffix(".partial")  # a killed run leaves no half-written catalogue under its name
-        partial.write_text(lines(list(c.records)), encoding="utf-8")
-        partial.replace(path)
-    provenance = folder / PROVENANCE
-    provenance.write_text(json.dumps(provenance_of(folder), indent=1, sort_keys=True) + "\n", encoding="utf-8")
-    return [*paths, provenance]
+        write_whole(path, [lines(list(c.records))])
+    return [*paths, write_whole(folder / PROVENANCE, [json.dumps(provenance_of(folder), indent=1, sort_keys=True), "\n"])]
 
 
 def provenance_of(folder: Path) -> Record:

@@ -20,6 +20,7 @@ from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
 from disting.verdict import RULE_NAMES, Query, Relation, View
+from disting.written import write_whole
 
 SCHEMA = 1
 FILE = "candidates.jsonl"
@@ -131,11 +132,9 @@ def shipped() -> Matrix:
 
 
 def write(found: Matrix, folder: Path) -> Path:
-    """Write the file; a killed run leaves no half-written one under its name."""
+    """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    partial = folder / (FILE + ".partial")
-    partial.write_text(found.text(), encoding="utf-8")
-    return partial.replace(folder / FILE)
+    return write_whole(folder / FILE, [found.text()])
 
 
 def _model(number: int, chain: Chain, rank: int) -> Record:

@@ -21,6 +21,7 @@ from disting.engine.classes import Classes
 from disting.errors import CatalogError
 from disting.model.family import Family
 from disting.settings import Settings
+from disting.written import write_whole
 
 SCHEMA = 1
 SHIPPED_SIZES = (3, 4, 5)
@@ -84,12 +85,10 @@ def was_patient(folder: Path, n_masses: int, damped: bool) -> bool:
 
 
 def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: bool = False) -> Path:
-    """Write the file; a killed run leaves no half-written one under its name."""
+    """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{name_of(found.family.n_masses, found.family.damped)}.jsonl"
-    partial = path.with_suffix(".partial")
-    partial.write_text(text_of(found, settings, patient=patient), encoding="utf-8")
-    return partial.replace(path)
+    name = name_of(found.family.n_masses, found.family.damped)
+    return write_whole(folder / f"{name}.jsonl", [text_of(found, settings, patient=patient)])
 
 
 def _family(family: Family, header: Record, models: Sequence[Record]) -> DamperFamily:

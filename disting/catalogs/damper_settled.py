@@ -30,7 +30,7 @@ def read_settled(folder: Path) -> Settled:
 def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
     """Add a finding to the file, at once."""
     record = {"left": str(first), "right": str(second), "finding": json.loads(finding_to_json(finding))}
-    with (folder / FILE).open("a", encoding="utf-8") as file:
+    with (folder / FILE).open("a", encoding="utf-8", newline="\n") as file:
         file.write(json.dumps(record, separators=(",", ":")) + "\n")
 
 

@@ -13,6 +13,7 @@ from disting.domain import Domain
 from disting.errors import InputError
 from disting.model.family import MOST_MASSES
 from disting.verdict import RULE_NAMES, Query, Relation, View
+from disting.written import write_whole
 
 RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with such parameters"}
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
@@ -71,17 +72,9 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
     if where == "-":
         sys.stdout.writelines(lines)
         return
-    target = Path(where).resolve()  # a link stays a link
-    is_file = target.is_file() or not target.exists()
-    partial = target.with_name(f"{target.name}.partial") if is_file else target  # devices and pipes are written to as they are
     try:
-        with partial.open("w", encoding="utf-8") as file:
-            file.writelines(lines)
-        if is_file:
-            partial.replace(target)  # at the end: a full disk or a kill leaves an older file as it was
+        write_whole(Path(where), lines)
     except OSError as reason:
-        if is_file:
-            partial.unlink(missing_ok=True)
         raise InputError(
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
         ) from None

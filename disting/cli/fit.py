@@ -2,13 +2,13 @@
 
 import argparse
 import json
-import sys
 from collections.abc import Iterator
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
+from disting.cli.plain import complain, readable
 from disting.cli.work import engine_for
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports, whole_family
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
         text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
         emitted(options.json, text)
     if options.json != "-":
-        print("\n".join(_told(found, train)))
+        print(readable("\n".join(_told(found, train))))
     if options.out:
         _write(found, options.out, train, test, profiles=options.profiles)
         if options.json != "-":
@@ -90,7 +90,7 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
     for response in (train, test):
         if response is not None:
             for note in (*response.notes, *response.suspicions):
-                print(f"disting: {response.origin or 'data'}: {note}", file=sys.stderr)
+                complain(f"{response.origin or 'data'}: {note}")
     return train, test
 
 

@@ -11,6 +11,7 @@ from disting.catalogs.files import shipped_folder
 from disting.cli import catalogs, compare, dampers, equivalents, fit_arguments, models, report, simulate, upkeep, verdicts
 from disting.cli.common import VIEWS
 from disting.cli.paths import written_file, written_folder
+from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
 from disting.model.chain import Sensor
@@ -228,7 +229,8 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        self.exit(2, f"disting: {message}; see '{self.prog} --help'\n")
+        complain(f"{message}; see '{self.prog} --help'")
+        self.exit(2)
 
 
 def _command(groups: Groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:

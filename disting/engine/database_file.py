@@ -98,7 +98,7 @@ def _set_aside(path: str) -> str:
 def replace(path: str, suspect: Identity, wait: float) -> str:
     """Put an empty database in place of `suspect`; "" if there was nothing to set aside."""
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    with FileLock(path + ".lock", timeout=wait, poll_interval=PAUSE_SECONDS):
+    with FileLock(path + ".lock").acquire(wait, PAUSE_SECONDS):
         if identity(path) != suspect:
             return ""
         name = "" if suspect == MISSING else _set_aside(path)

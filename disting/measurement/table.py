@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.measurement.arrays import Real
 
 
@@ -40,5 +40,5 @@ class Table:
         return f"column {at + 1} ({self.headers[at]})" if self.headers[at] else f"column {at + 1}"
 
     def listed(self) -> str:
-        """All headers, for messages."""
-        return ", ".join(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
+        """The headers, for messages."""
+        return listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))

@@ -19,6 +19,7 @@ SENSOR_WORDS = {
     Sensor.VELOCITY: re.compile(r"\b(velocity|speed|mobility|geschwindigkeit|drehzahl)\b"),
     Sensor.ACCELERATION: re.compile(r"\b(acceleration|accelerance|inertance|beschleunigung)\b|/s(\^|\*\*)?2|/s²"),
 }
+ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backslash itself
 MARK = "frequency response, written by disting"
 TO_OMEGA = {Meaning.HERTZ: 2 * np.pi, Meaning.KILOHERTZ: 2e3 * np.pi, Meaning.RADIAN_PER_SECOND: 1.0}
 
@@ -72,7 +73,8 @@ def frequency_response(
 def _written(comments: Sequence[str]) -> dict[str, str]:
     """What `writing.csv_text` wrote into comment lines; empty for a file of another origin."""
     pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]
-    return {pair[0]: pair[1] for pair in pairs} if MARK in comments else {}
+    plain = {name: ESCAPED.sub(lambda code: chr(int(code[1], 16)), text) for name, text in pairs}
+    return plain if MARK in comments else {}
 
 
 def _signal(ours: Mapping[str, str], role: str, header: str) -> Signal:

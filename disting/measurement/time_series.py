@@ -76,12 +76,13 @@ class TimeSeries:
         of Welch's method (module `welch`), which is used exactly where `segment` is given. `band` = (low, high) [Hz].
         Raises InputError where no period is found, periods are missing, or `period` and `segment` are both given.
         """
-        if segment is None:
-            found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band)
-        elif period is None and lines is None:
-            found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band)
-        else:
+        if segment is not None and (period is not None or lines is not None):
             raise InputError("period and lines belong to a periodic excitation, segment to any other: give one of them")
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite then is refused below
+            if segment is None:
+                found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band)
+            else:
+                found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band)
         response = FrequencyResponse(
             found.omega,
             found.G,

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.measurement.arrays import Real
 from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
 from disting.measurement.table_series import rate_of
@@ -168,4 +168,4 @@ def _scalar(arrays: Arrays, name: str, origin: str) -> float:
 
 
 def _listed(arrays: Arrays) -> str:
-    return ", ".join(sorted(arrays)) or "none"
+    return listed(sorted(arrays))
