@@ -56,7 +56,7 @@ def _option(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(f"an option is written like sampling_rate=2500, not {text!r}")
     if ".." in value:
         return name, _range(value)
-    parts = tuple(_number(part) for part in value.split(","))
+    parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))  # not at the comma of frf[2,1]
     return name, parts if len(parts) > 1 else parts[0]
 
 

@@ -6,14 +6,15 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import InputError
-from disting.measurement.matlab import variables
+from disting.measurement.matlab import responses, variables
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.stored import chosen_response, from_stored
 from disting.measurement.table_series import time_series
 from disting.measurement.tabular import frequency_response
 from disting.measurement.text_table import decoded, table
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.uff import read_uff
-from disting.measurement.variables import from_variables, series_from_variables
+from disting.measurement.variables import from_variables, holds_response, indexed, series_from_variables
 
 UNIVERSAL = (".uff", ".unv", ".unf", ".bunv")
 
@@ -23,7 +24,8 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
 
     - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit` (`tabular.frequency_response`);
     - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`, `sensor`, `sign`
-      (`variables.from_variables`);
+      (`variables.from_variables`); `response` may name an object frd or idfrd (`stored.from_stored`), in a struct as `frf.Pv`,
+      with the number of output and input as `frf.Pv[2,1]`;
     - universal file `.uff`, `.unv`: `record`, `sensor`, `sign` (`uff.read_uff`).
 
     With `input` and `output` the file is read as a time series (`read_time_series`), whose options and those of
@@ -34,8 +36,7 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
         return _through_time(path, options)
     file = _existing(path)
     if _is_matlab(file):
-        _check(from_variables, options, file)
-        return from_variables(variables(file), file.name, **options)
+        return _from_matlab(file, options)
     if file.suffix.lower() in UNIVERSAL:
         _check(read_uff, options, file)
         return read_uff(file, **options)
@@ -57,6 +58,19 @@ def read_time_series(path: str | Path, input: str | int, output: str | int, **op
         raise InputError(f"{file.name}: time series are read from text and MATLAB files")
     _check(time_series, options, file)
     return time_series(table(decoded(file.read_bytes(), file.name), file.name), input, output, **options)
+
+
+def _from_matlab(file: Path, options: dict[str, Any]) -> FrequencyResponse:
+    """A response object where one is asked for, or where no variables make up a response; else variables."""
+    asked, index = indexed(options.get("response"))
+    arrays, stored = variables(file), responses(file)
+    if asked in stored or (stored and (asked not in arrays if asked else not holds_response(arrays))):
+        name = chosen_response(stored, asked, file.name)
+        rest = {key: value for key, value in options.items() if key != "response"} | ({"index": index} if index else {})
+        _check(from_stored, rest, file)
+        return from_stored(stored[name], name, file.name, **rest)
+    _check(from_variables, options, file)
+    return from_variables(arrays, file.name, **options)
 
 
 def _through_time(path: str | Path, options: dict[str, Any]) -> FrequencyResponse:

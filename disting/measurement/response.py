@@ -11,6 +11,7 @@ from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real, applied, complex_, frozen, optional, real, same
 from disting.model.chain import Sensor
 
+ASSUMED_ACCELERATION = 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
 SORTED = "the frequencies were not in rising order and have been sorted"
 
 

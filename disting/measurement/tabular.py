@@ -10,7 +10,7 @@ from disting.errors import InputError
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.column_words import FREQUENCIES, PHASES, Meaning, meaning
-from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
 from disting.measurement.table import Table
 from disting.model.chain import Sensor
 
@@ -205,5 +205,5 @@ def _quantity(table: Table, sensor: Sensor | str | None, notes: list[str]) -> Se
     found = [quantity for quantity, words in SENSOR_WORDS.items() if words.search(text)]
     if len(found) == 1:
         return found[0]
-    notes.append('sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"')
+    notes.append(ASSUMED_ACCELERATION)
     return Sensor.ACCELERATION
