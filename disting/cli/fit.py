@@ -2,7 +2,7 @@
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
 from disting.fit.modes import Result, physical
+from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Candidate, Selection, select
 from disting.fit.swarm import by_swarm
@@ -45,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
             test=test,
             thresholds=Thresholds(*options.thresholds),
             case=Case(options.case),
-            lines=WEIGHTS[options.weights],
+            lines=_weights(options),
             sign=SIGNS[options.sign],
             bounds=dict(options.bound),
             fixed=dict(options.fix),
@@ -66,6 +67,12 @@ def run(options: argparse.Namespace) -> int:
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
     return 0
+
+
+def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
+    """How the lines count; coherence tells it where Welch's method made them."""
+    chosen = options.weights
+    return WEIGHTS[("coherence" if "segment" in dict(options.read) else "none") if chosen == "auto" else chosen]
 
 
 def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResponse | None]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from disting.cli.paths import written_file, written_folder
 
-WEIGHTS = ("none", "std", "coherence")
+WEIGHTS = ("auto", "none", "std", "coherence")
 SIGNS = ("+", "-", "auto")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
@@ -36,7 +36,8 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     models.add_argument("--no-prune", action="store_true", help="fit indistinguishable candidates separately")
     choice = p.add_argument_group("cost and selection")
     choice.add_argument("--case", type=int, choices=[1, 2, 3], default=3, help="cost function of the paper (default: 3)")
-    choice.add_argument("--weights", choices=WEIGHTS, default="none", help="of the frequency lines (default: all alike)")
+    text = "of the frequency lines; auto: coherence for Welch's method (--read segment=..), else all alike (default: auto)"
+    choice.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
     choice.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
     text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"

@@ -36,14 +36,24 @@ class Estimated:
 
 
 def estimate(
-    u: Real, y: Real, rate: float, period: int | None, transient: int, lines: Any, band: tuple[float, float] | None
+    u: Real,
+    y: Real,
+    rate: float,
+    period: int | None,
+    transient: int,
+    lines: Any,
+    band: tuple[float, float] | None,
+    excitation: Real,
 ) -> Estimated:
-    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz]."""
-    length = detected_period(u) if period is None else _whole(period, "period", 2)
+    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz]; `excitation` = u or a reference.
+
+    Means over periods forget the noise that a controller feeds back, so G holds in closed loop as well.
+    """
+    length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     notes = [f"period of {length} samples ({length / rate:g} s) detected in the input"] * (period is None)
-    inputs, outputs = (_spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y))
+    inputs, outputs, exciting = (_spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation))
     spacing = rate / length
-    chosen = excited(np.abs(inputs.mean(axis=0))) if lines is None else _given(lines, spacing, inputs.shape[1])
+    chosen = excited(np.abs(exciting.mean(axis=0))) if lines is None else _given(lines, spacing, inputs.shape[1])
     notes += [f"{len(chosen)} excited lines detected in the input"] * (lines is None)
     if band is not None:
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]

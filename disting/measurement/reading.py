@@ -48,7 +48,7 @@ def read_time_series(path: str | Path, input: str | int, output: str | int, **op
     """Samples of `input` and `output` (headers of a text file, names of MATLAB variables) from a file.
 
     Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable [s]); `sensor` = quantity of the
-    output, default position; `sign`.
+    output, default position; `sign`; `reference` = the signal that a controller was asked for, of a record in closed loop.
     """
     file = _existing(path)
     if _is_matlab(file):

@@ -17,12 +17,16 @@ def time_series(
     input: str | int,
     output: str | int,
     *,
+    reference: str | int | None = None,
     sampling_rate: float | None = None,
     time: str | int | None = None,
     sensor: Sensor | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
-    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate` [Hz] or column `time` [s]."""
+    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate` [Hz] or column `time` [s].
+
+    `reference` = the column of what a controller was asked for, where the record is of a closed loop.
+    """
     if sampling_rate is None:
         at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if _is_time(h)), None)
         if at is None:
@@ -32,7 +36,9 @@ def time_series(
     labels = Signal(table.headers[u]), Signal(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
     quantity, notes = said(sensor)
-    return TimeSeries(table.column(u), table.column(y) * as_sign(sign), sampling_rate, quantity, *labels, origin, notes)
+    wanted = None if reference is None else table.column(table.at(reference))
+    samples = table.column(u), table.column(y) * as_sign(sign)
+    return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, notes, wanted)
 
 
 def rate_of(time: Real, origin: str) -> float:

@@ -81,6 +81,7 @@ def series_from_variables(
     input: str,
     output: str,
     *,
+    reference: str | None = None,
     sampling_rate: float | str | None = None,
     time: str | None = None,
     sensor: Sensor | str | None = None,
@@ -94,7 +95,8 @@ def series_from_variables(
     signals = Signal(input), Signal(output)
     samples = _signal(arrays, input, origin), _signal(arrays, output, origin) * as_sign(sign)
     quantity, notes = said(sensor)
-    return TimeSeries(*samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes)
+    wanted = None if reference is None else _signal(arrays, reference, origin)
+    return TimeSeries(*samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes, wanted)
 
 
 def indexed(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
