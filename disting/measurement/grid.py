@@ -6,7 +6,7 @@ unit these are 0.628, 1.257, ... So a grid that is round after division by 2 pi,
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Real
 
 UNIT = {"Hz": 2 * np.pi, "kHz": 2e3 * np.pi, "rad/s": 1.0, "rpm": 2 * np.pi / 60}
@@ -40,7 +40,7 @@ def known(unit: str) -> str:
     """The name of a unit in `UNIT`; raises InputError for another."""
     name = SPELLINGS.get(unit.lower(), unit)
     if name not in UNIT:
-        raise InputError(f'frequency_unit is "Hz", "kHz", "rad/s" or "rpm", not {unit[:40]!r}')
+        raise InputError(f'frequency_unit is "Hz", "kHz", "rad/s" or "rpm", not {shown(unit)}')
     return name
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, listed, shown
 from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.grid import in_omega
@@ -94,7 +94,7 @@ def chosen_response(found: Mapping[str, Stored], asked: str | None, origin: str)
         return str(asked)
     if asked is None and len(found) == 1:
         return next(iter(found))
-    wrong = f"has no frequency response {asked!r}" if asked else "holds several frequency responses"
+    wrong = f"has no frequency response {shown(asked)}" if asked else "holds several frequency responses"
     raise InputError(f"{origin} {wrong}; choose one by response=: {listed(sorted(found))}")
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement import checks, periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.closed_loop import follows_output
@@ -132,7 +132,7 @@ def _rate(value: Any) -> float:
     try:
         rate = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"the sampling rate is a number [Hz], not {value!r}") from None
+        raise InputError(f"the sampling rate is a number [Hz], not {shown(value)}") from None
     if not 0 < rate < np.inf:
         raise InputError(f"the sampling rate is positive [Hz], not {rate:g}")
     return rate

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
 from disting.measurement.grid import in_omega
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
@@ -54,7 +54,7 @@ def from_variables(
     name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
     default = "rad/s" if name in OMEGA_NAMES else "Hz"
     grid = _numeric(arrays, name, origin).real.ravel()
-    values, taken = in_omega(grid, None, frequency_unit, repr(name), default=default)
+    values, taken = in_omega(grid, None, frequency_unit, shown(name), default=default)
     response, chosen_index = indexed(response)
     index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
@@ -133,7 +133,7 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
             raise InputError(f"{origin}: which variable is the {role}? give {role}=; variables: {_listed(arrays)}")
         return found
     if asked not in arrays:
-        raise InputError(f"{origin} has no variable {asked!r}; variables: {_listed(arrays)}")
+        raise InputError(f"{origin} has no variable {shown(asked)}; variables: {_listed(arrays)}")
     return asked
 
 
@@ -191,4 +191,4 @@ def _scalar(arrays: Arrays, name: str, origin: str) -> float:
 
 
 def _listed(arrays: Arrays) -> str:
-    return listed(sorted(arrays))
+    return listed(sorted(arrays)) or "none"

@@ -16,7 +16,7 @@ relation, gamma^2 exceeds 1 - p^(1 / (n_e - 1)) with probability p; lines below 
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.periodic import Estimated
 
@@ -79,7 +79,7 @@ def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], leve
 
 def _segments(length: int, segment: int) -> int:
     if isinstance(segment, bool) or not isinstance(segment, int | np.integer) or segment < 8:
-        raise InputError(f"segment is a whole number of at least 8 samples, not {segment!r}")
+        raise InputError(f"segment is a whole number of at least 8 samples, not {shown(segment)}")
     count = (length - segment // 2) // (segment - segment // 2)
     if count < FEWEST_SEGMENTS:
         raise InputError(
