@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
+from disting.cli.fit_data import measured
 from disting.cli.plain import complain
 from disting.cli.work import engine_for
 from disting.errors import InputError, listed, printable
@@ -19,7 +20,7 @@ from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Candidate, Selection, select
 from disting.fit.swarm import by_swarm
-from disting.measurement import FrequencyResponse, read
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.report.fit.words import name as name_of
@@ -89,8 +90,8 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
 
         both = (demo(0).response("acceleration"), demo(1).response("acceleration"))
     else:
-        settings = dict(options.read) | ({"column": options.column} if options.column else {})
-        both = (read(options.train, **settings), read(options.test, **settings) if options.test else None)
+        train = measured([options.train, *options.repeat], options)
+        both = (train, measured([options.test], options) if options.test else None)
     train, test = both
     if options.band:
         train, test = train.masked(*options.band), test.masked(*options.band) if test else None

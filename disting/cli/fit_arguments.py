@@ -9,6 +9,7 @@ from disting.cli.paths import written_file, written_folder
 from disting.errors import shown
 
 WEIGHTS = ("auto", "none", "std", "coherence")
+UNITS = ("frequency", "phase", "input", "output")
 SIGNS = ("+", "-", "auto")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
@@ -19,9 +20,17 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     data.add_argument("train", nargs="?", type=Path, metavar="TRAIN", help="measured frequency response, or time series")
     data.add_argument("--test", type=Path, metavar="TEST", help="independent data of the drive (default: cross-validation)")
     data.add_argument("--demo", action="store_true", help="simulated data of a small drive instead of files")
-    data.add_argument("--column", metavar="HEADER", help="header of the response's first column (default: the first response)")
+    text = "header of the response's first column (default: the first response); all: they are repeats of one"
+    data.add_argument("--column", metavar="HEADER", help=text)
     text = "option of the reader, such as input=iq, output=angle, sampling_rate=2500, to=acceleration; may be repeated"
     data.add_argument("--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text)
+    text = "another measurement of TRAIN; mean and scatter of all are taken; may be repeated"
+    data.add_argument("--repeat", type=Path, action="append", default=[], metavar="FILE", help=text)
+    text = "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg; may be repeated"
+    data.add_argument("--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text)
+    data.add_argument("--scale", type=float, metavar="X", help="multiply the response by X, such as the gain of the sensor")
+    text = "torque per current [Nm/A], or force per current [N/A] where the output is in m: results in SI units"
+    data.add_argument("--torque-constant", type=float, metavar="K", help=text)
     data.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
     text = "sign of the sensor; auto takes what fits better (default: +)"
     data.add_argument("--sign", choices=SIGNS, default="+", help=text)
@@ -60,6 +69,13 @@ def _option(text: str) -> tuple[str, Any]:
         return name, _range(value)
     parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))  # not at the comma of frf[2,1]
     return name, parts if len(parts) > 1 else parts[0]
+
+
+def _unit(text: str) -> tuple[str, str]:
+    name, equals, unit = text.partition("=")
+    if not (equals and unit) or name not in UNITS:
+        raise argparse.ArgumentTypeError(f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}")
+    return name, unit
 
 
 def _number(text: str) -> int | float | str:

@@ -6,9 +6,10 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.measurement.arrays import Real
-from disting.measurement.response import Signal, as_sign
+from disting.measurement.response import as_sign
 from disting.measurement.table import Table
 from disting.measurement.time_series import TimeSeries, said
+from disting.measurement.units import named
 from disting.model.chain import Sensor
 
 
@@ -33,7 +34,7 @@ def time_series(
             raise InputError(f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers: {table.listed()}")
         sampling_rate = rate_of(table.column(at), table.origin)
     u, y = table.at(input), table.at(output)
-    labels = Signal(table.headers[u]), Signal(table.headers[y])
+    labels = named(table.headers[u]), named(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
     quantity, notes = said(sensor)
     wanted = None if reference is None else table.column(table.at(reference))

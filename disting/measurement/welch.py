@@ -41,7 +41,7 @@ def estimate(
 
     count = _segments(len(u), segment)
     low, high = band or (0.0, np.inf)
-    grid = np.fft.rfftfreq(segment, 1 / rate)
+    grid: Real = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
 
     def spectrum(a: Real, b: Real) -> Complex:
@@ -62,8 +62,8 @@ def estimate(
     good = coherence >= level
     notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples"]
     notes += [_left_out(grid[kept], good, level)] * (not good.all())
-    chosen = (response, deviation, np.clip(coherence, 0.0, 1.0))
-    return Estimated(2 * np.pi * grid[kept][good], *(column[good] for column in chosen), tuple(notes))
+    coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
+    return Estimated(2 * np.pi * grid[kept][good], response[good], deviation[good], coherence[good], tuple(notes))
 
 
 def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], level: float) -> str:
