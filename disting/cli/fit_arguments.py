@@ -32,7 +32,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     text = "torque per current [Nm/A], or force per current [N/A] where the output is in m: results in SI units"
     data.add_argument("--torque-constant", type=float, metavar="K", help=text)
     data.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
-    text = "sign of the sensor; auto takes what fits better (default: +)"
+    text = "sign of the sensor; auto takes what fits better among small and large candidates (default: +)"
     data.add_argument("--sign", choices=SIGNS, default="+", help=text)
     models = p.add_argument_group("candidates")
     models.add_argument("--masses", type=_masses, default=(1, 2, 3, 4), metavar="N", help="3, 1-4 or 1,3 (default: 1-4)")

@@ -1,4 +1,4 @@
-"""The mean of repeated measurements of one response, and its standard deviation from their scatter."""
+"""Repeated measurements of one response: their mean, its standard deviation from their scatter, and whether signs agree."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,6 +8,8 @@ import numpy as np
 from disting.errors import InputError
 from disting.measurement.response import FrequencyResponse
 
+NEAR = 0.02  # relative distance of two frequencies at which a phase is compared
+AGAINST = -0.5  # mean cosine of the phase between responses of opposite sign: most lines are turned by more than 120 degrees
 SAME = 1e-6  # relative distance of two frequencies that count as one
 
 
@@ -34,3 +36,11 @@ def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
     return replace(mean, notes=tuple(said)).noted(
         f"mean of {n} repeats, which scatter by {100 * relative:.2g} % (median of the lines)"
     )
+
+
+def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:
+    """Whether two responses of one machine have opposite signs: at most frequencies that they share, the phase is reversed."""
+    at = np.abs(one.omega[None, :] - other.omega[:, None]).argmin(axis=1)
+    near = np.abs(one.omega[at] - other.omega) <= NEAR * other.omega
+    turned = np.angle(other.G[near]) - np.angle(one.G[at[near]])
+    return bool(len(turned) and np.mean(np.cos(turned)) < AGAINST)

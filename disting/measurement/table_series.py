@@ -29,7 +29,7 @@ def time_series(
     `reference` = the column of what a controller was asked for, where the record is of a closed loop.
     """
     if sampling_rate is None:
-        at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if _is_time(h)), None)
+        at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if is_time(h)), None)
         if at is None:
             raise InputError(f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers: {table.listed()}")
         sampling_rate = rate_of(table.column(at), table.origin)
@@ -50,5 +50,6 @@ def rate_of(time: Real, origin: str) -> float:
     return float(len(steps) / (time[-1] - time[0]))
 
 
-def _is_time(header: str) -> bool:
+def is_time(header: str) -> bool:
+    """Whether a column is the time."""
     return re.match(r"(t|time|zeit)\b", header.lower()) is not None
