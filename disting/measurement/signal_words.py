@@ -23,8 +23,8 @@ INPUTS = {
     "eingang",
 }
 OUTPUTS = {
-    "y", "output", "position", "pos", "theta", "phi", "angle", "q", "x", "speed", "velocity", "vel", "omega", "acceleration", "acc",
-    "weg", "lage", "winkel", "drehzahl", "geschwindigkeit", "beschleunigung", "ausgang",
+    "y", "output", "position", "pos", "theta", "phi", "angle", "q", "x", "speed", "velocity", "vel", "omega", "acceleration",
+    "acc", "weg", "lage", "winkel", "drehzahl", "geschwindigkeit", "beschleunigung", "ausgang",
 }  # fmt: skip
 ASKED_FOR = {"ref", "reference", "set", "setpoint", "cmd", "command", "desired", "soll", "target"}  # not what was measured
 CLOCKS = {"t", "time", "zeit", "timestamp"}

@@ -108,6 +108,7 @@ class TimeSeries:
             self.output,
             self.origin,
             (*self.notes, *found.notes, *([doubt] if doubt else [])),
+            found.distortion,
         )
         return response if sensor is None else response.to_quantity(sensor)
 

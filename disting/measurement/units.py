@@ -143,4 +143,5 @@ def _scaled(response: FrequencyResponse, factor: float) -> FrequencyResponse:
     if factor == 1:
         return response
     deviation = None if response.deviation is None else response.deviation * factor
-    return replace(response, G=response.G * factor, deviation=deviation)
+    distortion = None if response.distortion is None else response.distortion.times(factor)
+    return replace(response, G=response.G * factor, deviation=deviation, distortion=distortion)
