@@ -47,7 +47,8 @@ def distortion(inputs: Complex, outputs: Complex, excited: NDArray[np.intp], spa
     response = np.interp(between, excited, mean.real) + 1j * np.interp(between, excited, mean.imag)
     rest = (outputs[:, between] - response * inputs[:, between]) / np.interp(between, excited, size)
     noise = np.std(rest, axis=0, ddof=1) / np.sqrt(len(rest)) if len(rest) > 1 else None
-    found = Distortion(between * spacing, np.abs(rest.mean(axis=0)), noise, between % 2 == 0)
+    omega = np.multiply(between, spacing, dtype=np.float64)
+    found = Distortion(omega, np.abs(rest.mean(axis=0)), noise, between % 2 == 0)
     return found, _said(found, np.abs(response), told_apart=bool(np.all(excited % 2)))
 
 
