@@ -37,7 +37,7 @@ def test_number_of_solutions_of_four_masses(number):
 
 @pytest.mark.parametrize(("n_masses", "damped"), [(2, False), (2, True), (3, False), (3, True), (4, False)])
 def test_ranks(n_masses, damped):
-    for chain in Family(n_masses, damped):
+    for chain in list(Family(n_masses, damped))[:: 5 if n_masses == 4 else 1]:
         assert identifiability(chain).rank == summary(chain).rank, chain
 
 

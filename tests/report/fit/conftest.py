@@ -44,5 +44,5 @@ def selection(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
 def nothing(train: FrequencyResponse) -> Selection:
     """No candidate is admissible, no test data, one parameter fixed, one at its bound."""
     strict = Thresholds(condition_index=5.0, importance_ratio=10.0, collinearity=2.0)
-    candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag]
+    candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag and not c.dead_time]
     return select(train, candidates, thresholds=strict, fixed={"k12": 900.0}, bounds={"m1": (0.0, 0.009)})
