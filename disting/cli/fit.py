@@ -2,12 +2,13 @@
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
+from disting.cli.fit_data import measured
 from disting.cli.plain import complain
 from disting.cli.work import engine_for
 from disting.errors import InputError, listed, printable
@@ -15,10 +16,11 @@ from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
 from disting.fit.modes import Result, physical
+from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Candidate, Selection, select
 from disting.fit.swarm import by_swarm
-from disting.measurement import FrequencyResponse, read
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.report.fit.words import name as name_of
@@ -45,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
             test=test,
             thresholds=Thresholds(*options.thresholds),
             case=Case(options.case),
-            lines=WEIGHTS[options.weights],
+            lines=_weights(options),
             sign=SIGNS[options.sign],
             bounds=dict(options.bound),
             fixed=dict(options.fix),
@@ -68,6 +70,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
+    """How the lines count; coherence tells it where Welch's method made them."""
+    chosen = options.weights
+    return WEIGHTS[("coherence" if "segment" in dict(options.read) else "none") if chosen == "auto" else chosen]
+
+
 def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResponse | None]:
     """Training and test data, masked; what the readers noticed goes to standard error."""
     if options.demo == bool(options.train):
@@ -82,8 +90,8 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
 
         both = (demo(0).response("acceleration"), demo(1).response("acceleration"))
     else:
-        settings = dict(options.read) | ({"column": options.column} if options.column else {})
-        both = (read(options.train, **settings), read(options.test, **settings) if options.test else None)
+        train = measured([options.train, *options.repeat], options)
+        both = (train, measured([options.test], options) if options.test else None)
     train, test = both
     if options.band:
         train, test = train.masked(*options.band), test.masked(*options.band) if test else None

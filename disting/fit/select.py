@@ -22,7 +22,7 @@ from disting.fit.plant import Real
 from disting.fit.practical import Practical, Thresholds, practical
 from disting.fit.repeatability import Repeatability, margin, repeatability
 from disting.fit.structural import with_structure
-from disting.measurement import FrequencyResponse
+from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
 from disting.settings import Settings
 
@@ -118,7 +118,7 @@ def select(
     """Fit `candidates` to `train` and select one.
 
     `weights` of amplitude and phase, see `Cost`; `lines` gives each line's weight, such as `lines_by_deviation`; `sign` -1: the
-    sensor is reversed, 0: whichever fits the smallest candidate better. `bounds` and `fixed` by parameter name. `prune`:
+    sensor is reversed, 0: whichever fits better. `bounds` and `fixed` by parameter name. `prune`:
     candidates with the same positive models, within `bounds` and `fixed`, are fitted once; `method` as in `estimates`. An
     engine with a store resumes interrupted work. Raises InputError.
     """
@@ -158,6 +158,8 @@ def _check(train: FrequencyResponse, test: FrequencyResponse | None, candidates:
         raise InputError("a selection needs at least one candidate")
     if test is not None and test.sensor is not train.sensor:
         raise InputError(f"training shows {train.sensor.value}, test {test.sensor.value}; convert one of them")
+    if test is not None and are_opposite(train, test):
+        raise InputError("training and test are of opposite sign; reverse one of them, as by sign_reversed()")
     other = {c.sensor for c in candidates} - {train.sensor}
     if other:
         raise InputError(f"the data shows {train.sensor.value}, a candidate {other.pop().value}; choose one sensor quantity")
@@ -173,10 +175,11 @@ def _check_units(data: FrequencyResponse) -> None:
 
 
 def _signed(task: Task, candidates: Sequence[Chain]) -> Task:
-    """The sign with which the smallest candidate fits better."""
-    smallest = min(candidates, key=lambda c: len(c.parameters))
+    """The sign with which candidates fit better, the best of the largest and the smallest ones of each size."""
+    by_size = [[c for c in candidates if c.n_masses == n] for n in sorted({c.n_masses for c in candidates})]
+    asked = dict.fromkeys(choose(one, key=lambda c: len(c.parameters)) for one in by_size for choose in (min, max))
     both = [replace(task, sign=sign) for sign in (1, -1)]
-    return min(both, key=lambda t: estimates([smallest], t)[smallest].j)
+    return min(both, key=lambda t: min(found.j for found in estimates(list(asked), t).values()))
 
 
 def _judged(found: Estimate, task: Task) -> Practical:
