@@ -9,6 +9,7 @@ from disting.cli.paths import written_file, written_folder
 
 WEIGHTS = ("none", "std", "coherence")
 SIGNS = ("+", "-", "auto")
+RULES = ("determined", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
 
@@ -39,6 +40,8 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     choice.add_argument("--weights", choices=WEIGHTS, default="none", help="of the frequency lines (default: all alike)")
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
     choice.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
+    text = "admissible: what the data determine (determined), or the paper's three criteria alone (default: determined)"
+    choice.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
     text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"
     choice.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
     choice.add_argument("--seed", default="disting", help="of the few random starts")

@@ -52,7 +52,8 @@ def test_what_is_simulated_is_selected(files, tmp_path):
 
 def test_the_printed_result_says_what_matters(files):
     said = disting("fit", files[0], "--test", files[1], "--masses", "2").stdout
-    assert said.startswith("16 candidates fitted to 241 frequency lines, validated on test data\n")
+    assert said.startswith("2:1+b2+delay explains this data (chi2 per line ")
+    assert "\n16 candidates fitted to 241 frequency lines, validated on test data\n" in said
     assert "selected: 2 masses, damper b2, dead time " in said
     assert "  b2   = " in said and "antiresonance 1" in said and " Hz\n" in said
     assert "for generic positive parameters no other candidate with as many masses behaves the same" in said

@@ -8,8 +8,9 @@ from markupsafe import Markup
 import disting
 from disting.fit.alternatives import Alternative
 from disting.fit.estimate import Task
+from disting.fit.judged import Candidate
 from disting.fit.modes import Result
-from disting.fit.select import Candidate, Selection
+from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw
