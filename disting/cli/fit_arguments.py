@@ -11,6 +11,7 @@ from disting.errors import shown
 WEIGHTS = ("auto", "none", "std", "coherence")
 UNITS = ("frequency", "phase", "input", "output")
 SIGNS = ("+", "-", "auto")
+RULES = ("determined", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
 
@@ -50,6 +51,8 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     choice.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
     choice.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
+    text = "admissible: what the data determine (determined), or the paper's three criteria alone (default: determined)"
+    choice.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
     text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"
     choice.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
     choice.add_argument("--seed", default="disting", help="of the few random starts")

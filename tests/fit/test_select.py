@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
+from disting.fit.admissible import Rule
 from disting.fit.candidates import figure_1, variants
 from disting.fit.cost import lines_by_deviation
 from disting.fit.export import model_from_dict, predicted, selection_to_dict
@@ -100,9 +101,9 @@ def test_a_profile_rises_on_both_sides(selection):
     middle = len(found.values) // 2
     assert found.values[middle] == pytest.approx(selection.selected.estimate.parameters["k12"])
     assert np.all(np.diff(found.costs[middle:]) > 0) and np.all(np.diff(found.costs[: middle + 1]) < 0)
-    # Three standard errors raise J by about 9 s^2, s^2 = J / (n_y - N_p), as in a linear problem.
+    # Three standard errors raise J by about 9 times the mean square of the residuals, as in a linear problem.
     expected = 9 * selection.selected.j_train / (2 * OMEGA.size - 6)
-    assert found.costs[-1] - found.costs[middle] == pytest.approx(expected, rel=0.1)
+    assert found.costs[-1] - found.costs[middle] == pytest.approx(expected, rel=0.5)
     with pytest.raises(InputError, match="m9 is no fitted parameter"):
         profile(selection.selected, selection.task, "m9")
 
@@ -114,7 +115,7 @@ def test_without_test_data_lines_are_left_out_in_turn():
 
 
 def test_nothing_is_selected_where_no_candidate_is_admissible():
-    found = select(planted(1), figure_1((1,)), test=planted(2), thresholds=Thresholds(0.5, 0.5, 0.5))
+    found = select(planted(1), figure_1((1,)), test=planted(2), thresholds=Thresholds(0.5, 0.5, 0.5), rule=Rule.PAPER)
     assert found.selected is None and found.alternatives == () and selection_to_dict(found)["selected"] is None
 
 
