@@ -19,7 +19,7 @@ from disting.fit.admissible import Rule, reasons
 from disting.fit.alternatives import Alternative, alternatives, limits_of, representatives
 from disting.fit.cost import Case, Cost
 from disting.fit.estimate import Method, Task, estimates
-from disting.fit.explained import Explanation, explanation
+from disting.fit.explained import LARGEST, Explanation, explanation
 from disting.fit.judged import FOLDS, Candidate, judged
 from disting.fit.members import Member, members
 from disting.fit.noise import Noise, noise
@@ -214,5 +214,7 @@ def _better(selected: Candidate, fitted: Sequence[Candidate], sigma: Real) -> tu
 
 
 def _left(candidate: Candidate, sigma: Real) -> Noise:
-    """What a candidate leaves of the judged data, whose residuals scatter by `sigma`."""
+    """What a candidate leaves of the judged data, whose residuals scatter by `sigma`: what misses them widely is no noise."""
+    if candidate.chi2 > LARGEST:
+        return Noise(sigma)
     return noise(candidate.residual, sigma, candidate.missed)

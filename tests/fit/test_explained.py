@@ -163,3 +163,10 @@ def test_an_excluded_candidate_that_fits_better_is_named_with_its_reason():
     found = select(data[0], [Chain(1), DRIVE], test=data[1], bounds={"k12": (0.0, 2.9e4)})
     assert found.selected.chain == Chain(1) and [c.chain for c in found.better] == [DRIVE]
     assert any("2:1+b2 fits better" in line and "k12 is at its bound" in line for line in first_lines(found))
+
+
+def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
+    data = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)]
+    found = select(data[0], [Chain(1), replace(ONE, dead_time=True)], test=data[1], fixed={"m1": 0.5})
+    lowest = min(c.j_test for c in found.candidates)
+    assert not found.explanation.explains and found.described.j_test == lowest
