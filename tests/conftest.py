@@ -10,11 +10,16 @@ settings.register_profile("fresh", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
 
+SECTIONS = {"oracle": "compared with independent programs", "attack": "attacked"}
+
+
 def pytest_terminal_summary(terminalreporter):
-    """What the tests against independent programs compared is said whether they pass or fail."""
+    """What was compared with independent programs, and what was attacked, is said whether the tests pass or fail."""
     reports = [report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])]
-    lines = [(r.nodeid, text) for r in reports if r.when == "call" for name, text in r.user_properties if name == "oracle"]
-    if lines:
-        terminalreporter.section("compared with independent programs")
-    for nodeid, text in lines:
-        terminalreporter.write_line(f"{nodeid}: {text}")
+    told = [(r.nodeid, name, text) for r in reports if r.when == "call" for name, text in r.user_properties]
+    for section, title in SECTIONS.items():
+        lines = [f"{nodeid}: {text}" for nodeid, name, text in told if name == section]
+        if lines:
+            terminalreporter.section(title)
+        for line in lines:
+            terminalreporter.write_line(line)

@@ -1,15 +1,12 @@
 """Builds a catalogue: every model of a family, every pair, every representation, with evidence."""
 
-import json
-import platform
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from importlib.metadata import version
 from pathlib import Path
 
-import disting
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
+from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, SCHEMA, Record, lines, name_of
+from disting.catalogs.provenance import write_provenance
 from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
@@ -19,6 +16,7 @@ from disting.inclusion import inclusions_to_dict
 from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
+from disting.written import write_whole
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
 PARTS |= {View.REAL.value: View.REAL}  # what holds over positive parameters follows from the shares of both sides
@@ -60,23 +58,8 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"{c.name}.jsonl" for c in catalogs]
     for c, path in zip(catalogs, paths, strict=True):
-        partial = path.with_suffix(".partial")  # a killed run leaves no half-written catalogue under its name
-        partial.write_text(lines(list(c.records)), encoding="utf-8")
-        partial.replace(path)
-    provenance = folder / PROVENANCE
-    provenance.write_text(json.dumps(provenance_of(folder), indent=1, sort_keys=True) + "\n", encoding="utf-8")
-    return [*paths, provenance]
-
-
-def provenance_of(folder: Path) -> Record:
-    """Schema, software versions, command and the digest of each catalogue file in a folder."""
-    return {
-        "schema": SCHEMA,
-        "command": "disting catalog build 1 2 3 4 5",
-        "software": {"disting": disting.__version__, "python": platform.python_version()}
-        | {name: version(name) for name in ("numpy", "python-flint")},
-        "files": {p.name: digest(p) for p in sorted(folder.glob("chains-*.jsonl"))},
-    }
+        write_whole(path, [lines(list(c.records))])
+    return [*paths, write_provenance(folder)]
 
 
 def _model(number: int, subject: Subject, identifiability: Identifiability) -> Record:

@@ -13,13 +13,16 @@ from functools import cache, cached_property
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines, shipped_folder
+from disting.catalogs.provenance import write_provenance
 from disting.certainty import Certainty
 from disting.comparison import name_of
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
+from disting.packaged import intact_text
 from disting.verdict import RULE_NAMES, Query, Relation, View
+from disting.written import write_whole
 
 SCHEMA = 1
 FILE = "candidates.jsonl"
@@ -112,7 +115,7 @@ def read(folder: Path) -> Matrix:
     path = folder / FILE
     remedy = f"make it with '{COMMAND}'"
     try:
-        records = tuple(json.loads(line) for line in path.read_text(encoding="utf-8").splitlines())
+        records = tuple(json.loads(line) for line in intact_text(path).splitlines())
         n = records[0]["models"]
         whole = records[0]["schema"] == SCHEMA and [len(r["relation"]) for r in records[1 + n :]] == list(range(n - 1, 0, -1))
     except FileNotFoundError:
@@ -131,11 +134,11 @@ def shipped() -> Matrix:
 
 
 def write(found: Matrix, folder: Path) -> Path:
-    """Write the file; a killed run leaves no half-written one under its name."""
+    """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    partial = folder / (FILE + ".partial")
-    partial.write_text(found.text(), encoding="utf-8")
-    return partial.replace(folder / FILE)
+    path = write_whole(folder / FILE, [found.text()])
+    write_provenance(folder)
+    return path
 
 
 def _model(number: int, chain: Chain, rank: int) -> Record:

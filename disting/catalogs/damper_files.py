@@ -17,10 +17,13 @@ import numpy as np
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets
 from disting.catalogs.files import Record, lines, shipped_folder
+from disting.catalogs.provenance import write_provenance
 from disting.engine.classes import Classes
 from disting.errors import CatalogError
 from disting.model.family import Family
+from disting.packaged import intact_text
 from disting.settings import Settings
+from disting.written import write_whole
 
 SCHEMA = 1
 SHIPPED_SIZES = (3, 4, 5)
@@ -67,7 +70,7 @@ def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
     path = folder / f"{name_of(n_masses, damped)}.jsonl"
     remedy = f"make it with '{COMMAND} {n_masses}'"
     try:
-        header, *models = (json.loads(line) for line in path.read_text(encoding="utf-8").splitlines())
+        header, *models = (json.loads(line) for line in intact_text(path).splitlines())
         if header["schema"] != SCHEMA:
             raise ValueError("another schema")
         return _family(Family(n_masses, damped), header, models)
@@ -84,12 +87,12 @@ def was_patient(folder: Path, n_masses: int, damped: bool) -> bool:
 
 
 def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: bool = False) -> Path:
-    """Write the file; a killed run leaves no half-written one under its name."""
+    """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{name_of(found.family.n_masses, found.family.damped)}.jsonl"
-    partial = path.with_suffix(".partial")
-    partial.write_text(text_of(found, settings, patient=patient), encoding="utf-8")
-    return partial.replace(path)
+    name = name_of(found.family.n_masses, found.family.damped)
+    path = write_whole(folder / f"{name}.jsonl", [text_of(found, settings, patient=patient)])
+    write_provenance(folder)
+    return path
 
 
 def _family(family: Family, header: Record, models: Sequence[Record]) -> DamperFamily:

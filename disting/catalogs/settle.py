@@ -29,7 +29,7 @@ def settle(n_masses: int, folder: Path, engine: Engine, told: Callable[[str], No
         answer = decided(pair)
         told(f"{' against '.join(map(str, sorted(pair)))}: {'differ' if answer else 'left open'}")
         if answer is not None:
-            with (folder / ROWS).open("a", encoding="utf-8") as file:
+            with (folder / ROWS).open("a", encoding="utf-8", newline="\n") as file:
                 file.write(line_of(answer))
             count += 1
     return count

@@ -10,9 +10,10 @@ from disting.certainty import USELESS
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.domain import Domain
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.model.family import MOST_MASSES
 from disting.verdict import RULE_NAMES, Query, Relation, View
+from disting.written import write_whole
 
 RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with such parameters"}
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
@@ -22,7 +23,7 @@ def reference(text: str) -> tuple[int, int]:
     """Size and number of a model written masses:number; raises InputError."""
     match = re.fullmatch(r"(\d{1,3}):(\d{1,7})", text)
     if not match:
-        raise InputError(f"a model is written masses:number, for instance 3:4, not {text!r}")
+        raise InputError(f"a model is written masses:number, for instance 3:4, not {shown(text)}")
     if int(match[1]) > MOST_MASSES:
         raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {match[1]}")
     return int(match[1]), int(match[2])
@@ -71,17 +72,9 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
     if where == "-":
         sys.stdout.writelines(lines)
         return
-    target = Path(where).resolve()  # a link stays a link
-    is_file = target.is_file() or not target.exists()
-    partial = target.with_name(f"{target.name}.partial") if is_file else target  # devices and pipes are written to as they are
     try:
-        with partial.open("w", encoding="utf-8") as file:
-            file.writelines(lines)
-        if is_file:
-            partial.replace(target)  # at the end: a full disk or a kill leaves an older file as it was
+        write_whole(Path(where), lines)
     except OSError as reason:
-        if is_file:
-            partial.unlink(missing_ok=True)
         raise InputError(
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
         ) from None

@@ -2,15 +2,15 @@
 
 import argparse
 import json
-import sys
 from collections.abc import Iterator
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
+from disting.cli.plain import complain
 from disting.cli.work import engine_for
-from disting.errors import InputError
+from disting.errors import InputError, listed, printable
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
         text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
         emitted(options.json, text)
     if options.json != "-":
-        print("\n".join(_told(found, train)))
+        print(printable("\n".join(_told(found, train))))
     if options.out:
         _write(found, options.out, train, test, profiles=options.profiles)
         if options.json != "-":
@@ -90,7 +90,7 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
     for response in (train, test):
         if response is not None:
             for note in (*response.notes, *response.suspicions):
-                print(f"disting: {response.origin or 'data'}: {note}", file=sys.stderr)
+                complain(f"{response.origin or 'data'}: {note}")
     return train, test
 
 
@@ -103,7 +103,7 @@ def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, .
     known = {name for chain in found for name in chain.parameters}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
     if unknown:
-        raise InputError(f"no candidate has a parameter {', '.join(unknown)}; there are {', '.join(sorted(known))}")
+        raise InputError(f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}")
     return found
 
 

@@ -7,6 +7,8 @@ import codecs
 import sys
 from unicodedata import normalize
 
+from disting.errors import brief
+
 HANDLER = "disting.plain"
 PLAIN = {
     "≠": "!=", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "←": "<-", "↔": "<->", "·": "*", "×": "x", "−": "-", "–": "-",
@@ -31,6 +33,11 @@ def in_ascii(text: str) -> str:
     'rank d(G1)/dp = 6 != 7, Grobner, ?'
     """
     return "".join(c if c.isascii() else PLAIN.get(c) or _without_marks(c) or "?" for c in text)
+
+
+def complain(message: object) -> None:
+    """Write one line to standard error, printable, and shortened in its middle where somebody gave very much to quote."""
+    print(f"disting: {brief(str(message))}".replace("\n", " "), file=sys.stderr)
 
 
 def _without_marks(character: str) -> str:

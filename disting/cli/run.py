@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from contextlib import redirect_stdout
 
 from disting.cli.parser import parser
-from disting.cli.plain import say_what_can_be_said
-from disting.errors import DistingError
+from disting.cli.plain import complain, say_what_can_be_said
+from disting.errors import DistingError, listed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -29,16 +29,16 @@ def _run(arguments: Sequence[str] | None) -> int:
     except BrokenPipeError:  # the reader of a pipe has seen enough
         return 0
     except DistingError as reason:
-        print(f"disting: {reason}", file=sys.stderr)
+        complain(reason)
         return 2
     except OSError as reason:
-        print(f"disting: {reason.strerror or reason}: {reason.filename or ''}".rstrip(": "), file=sys.stderr)
+        complain(f"{reason.strerror or reason}: {listed([str(reason.filename or '')])}".rstrip(": "))
         return 2
     except MemoryError as reason:
-        print(f"disting: there is not enough memory ({reason or 'no more can be had'}); ask for less", file=sys.stderr)
+        complain(f"there is not enough memory ({reason or 'no more can be had'}); ask for less")
         return 2
     except KeyboardInterrupt:
-        print("disting: interrupted; what was finished is kept in the cache", file=sys.stderr)
+        complain("interrupted; what was finished is kept in the cache")
         return 130
     finally:
         _drop_what_cannot_be_written()
@@ -53,4 +53,4 @@ def _drop_what_cannot_be_written() -> None:
 
 
 def _warned(message: Warning | str, *_: object, **__: object) -> None:
-    print(f"disting: warning: {message}", file=sys.stderr)
+    complain(f"warning: {message}")

@@ -2,21 +2,26 @@
 
 import json
 from dataclasses import dataclass
+from io import BytesIO
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.fit.modes import poles, zeros
 from disting.fit.plant import Plant, Real
 from disting.fit.select import Candidate, Selection
 from disting.model.chain import Chain, Sensor
 from disting.simulation import matrices, port_vectors
+from disting.written import write_whole
 
 if TYPE_CHECKING:
     import control
+
+
+MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)  # where SciPy writes the time of day
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +99,13 @@ def _control() -> Any:
 
 
 def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1) -> None:
-    """A, B, C, D and delay as a MATLAB v5 file."""
+    """A, B, C, D and delay as a MATLAB v5 file; the same model gives the same bytes."""
     from scipy.io import savemat
 
     ss = state_space(chain, values, sign)
-    savemat(path, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
+    content = BytesIO()
+    savemat(content, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
+    write_whole(path, MAT_HEAD + content.getvalue()[len(MAT_HEAD) :])
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:
@@ -171,7 +178,7 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
         )
         values = {name: float(plain["parameters"][name]) for name in chain.parameters}
     except (KeyError, TypeError, ValueError) as reason:
-        raise InputError(f"this is no fitted model: {reason!r} is missing or wrong") from None
+        raise InputError(f"this is no fitted model: {shown(reason)} is missing or wrong") from None
     return chain, values
 
 

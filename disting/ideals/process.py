@@ -1,16 +1,20 @@
 """A task in a process of its own that can be killed: for computations that may take any time or memory.
 
-Giving up is an ordinary outcome with its reason; it never becomes an answer.
+Giving up is an ordinary outcome with its reason; it never becomes an answer. The process is an interpreter with a command line
+of its own, told by its input what to do: a fork would share locks, and multiprocessing's spawn runs the caller's script again.
 """
 
-import resource
+import contextlib
+import os
+import pickle
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from multiprocessing import get_context
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from typing import Any
+
+COMMAND = "from disting.ideals.process import serve; serve()"
 
 
 class End(StrEnum):
@@ -40,38 +44,51 @@ class Ended:
 def run_limited(task: Callable[..., Any], arguments: tuple[Any, ...], seconds: float, megabytes: int = 4096) -> Ended:
     """Result of task(*arguments) in a fresh process, killed after so many seconds; both must be picklable.
 
-    `megabytes` bounds the address space, Python and its libraries (about 300) included. A library that aborts on a failed
-    allocation makes the process DIE; so does a kill from outside.
+    The task is a function of a module that can be imported, not of the caller's script. `megabytes` bounds the address space,
+    Python and its libraries (about 300) included, where the system can bound it (not on Windows). A library that aborts on a
+    failed allocation makes the process DIE; so does a kill from outside.
     """
-    context = get_context("spawn")
-    here, there = context.Pipe(duplex=False)
-    process = context.Process(target=_work, args=(there, task, arguments, megabytes), daemon=True)
-    process.start()
-    there.close()
+    question = b"".join(map(pickle.dumps, ((seconds, megabytes), (task, arguments))))
+    command = [sys.executable, "-P", "-c", COMMAND]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     try:
-        return here.recv() if here.poll(seconds) else Ended(End.OUT_OF_TIME, detail=f"{seconds:g} s")
-    except EOFError:
-        process.join()
-        return Ended(End.DIED, detail=f"exit status {process.exitcode}")
-    finally:
-        _end(process)
-        here.close()
+        done = subprocess.run(
+            command, input=question, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=seconds, env=environment
+        )
+    except subprocess.TimeoutExpired:
+        return Ended(End.OUT_OF_TIME, detail=f"{seconds:g} s")
+    except OSError as reason:
+        return Ended(End.FAILED, detail=f"no process can be started: {reason.strerror}")
+    if done.returncode or not done.stdout:
+        return Ended(End.DIED, detail=f"exit status {done.returncode}")
+    ended: Ended = pickle.loads(done.stdout)
+    return ended
 
 
-def _end(process: BaseProcess) -> None:
-    if process.is_alive():
-        process.kill()
-    process.join()
+def serve() -> None:
+    """What the fresh process does: read a task from its input, write how it ended to its output."""
+    with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as answer:
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a task prints is no answer
+        seconds, megabytes = pickle.load(sys.stdin.buffer)
+        _limit(seconds, megabytes)
+        answer.write(pickle.dumps(_ended(megabytes)))
 
 
-def _work(answer: Connection, task: Callable[..., Any], arguments: tuple[Any, ...], megabytes: int) -> None:
-    limit = megabytes << 20
-    resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+def _ended(megabytes: int) -> Ended:
     try:
-        ended = Ended(End.DONE, task(*arguments))
+        task, arguments = pickle.load(sys.stdin.buffer)
+        return Ended(End.DONE, task(*arguments))
     except MemoryError:
-        ended = Ended(End.OUT_OF_MEMORY, detail=f"{megabytes} MB")
+        return Ended(End.OUT_OF_MEMORY, detail=f"{megabytes} MB")
     except Exception as error:  # reported to the caller, who cannot see it otherwise
-        ended = Ended(End.FAILED, detail=f"{type(error).__name__}: {error}")
-    answer.send(ended)
+        return Ended(End.FAILED, detail=f"{type(error).__name__}: {error}")
+
+
+def _limit(seconds: float, megabytes: int) -> None:
+    """Limits that hold even if the caller is gone; Windows has none, there the caller's clock alone ends the task."""
+    with contextlib.suppress(ImportError):
+        import resource
+
+        time = int(seconds) + 2
+        for what, most in ((resource.RLIMIT_AS, megabytes << 20), (resource.RLIMIT_CPU, time), (resource.RLIMIT_CORE, 0)):
+            resource.setrlimit(what, (most, most))

@@ -38,10 +38,10 @@ from disting.ideals.parts import gap, has_relation, is_plain, parts, power, spli
 from disting.ideals.system import terms
 from disting.inclusion.end_rows import end_resultant
 from disting.inclusion.inner_rows import inner_resultant
-from disting.inclusion.meeting import powers
 from disting.inclusion.outside_evidence import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
 from disting.inclusion.row_equations import equation_safety, row_equation
 from disting.inclusion.rows import FREE, Row, rows_of
+from disting.invariants.powers import powers
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
 

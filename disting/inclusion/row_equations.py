@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 
 from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import SEARCH_BITS, Size, prime, residues, safety
-from disting.inclusion.meeting import common_power, powers
 from disting.inclusion.rows import Row
+from disting.invariants.powers import common_power, powers
 from disting.invariants.transfer import plain_receptance, values_at
 
 DEGREES = range(2, 9)

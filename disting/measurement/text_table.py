@@ -9,14 +9,15 @@ from collections import Counter
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.column_words import FREQUENCIES, meaning
 from disting.measurement.table import Table
 
 DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (" ", "."), (" ", ","))
 SAMPLE = 60  # lines from the end by which the dialect is chosen: a header is at the beginning
 # No two parts can match the same digits, so that a cell of many digits is read in linear time.
-NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE | re.ASCII)
+SWAPPED = str.maketrans(",.", ".,")
 BRACKET = re.compile(r"\s*\([^()]*\)\s*$")
 
 
@@ -49,10 +50,15 @@ def table(text: str, origin: str) -> Table:
 
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
-    def readable(dialect: tuple[str, str]) -> int:
-        """How many of the last lines are numbers only, more than one, when read so."""
-        parts = [_fields(line, dialect[0]) for line in lines[-SAMPLE:]]
-        return sum(len(p) > 1 and _count(p, dialect[1]) == len(p) for p in parts)
+    def readable(dialect: tuple[str, str]) -> float:
+        """How many of the last lines are numbers only, more than one, when read so; between blanks a tab counts against it.
+
+        A line of a file with tabs that lacks a cell must not make it one with blanks, where two tabs are as good as one.
+        """
+        delimiter, decimal = dialect
+        sample = [(line, _fields(line, delimiter)) for line in lines[-SAMPLE:]]
+        good = [line for line, parts in sample if len(parts) > 1 and _count(parts, decimal) == len(parts)]
+        return sum(0.5 if delimiter == " " and "\t" in line else 1.0 for line in good)
 
     best = max(DIALECTS, key=readable, default=DIALECTS[0])
     if not lines or not readable(best):
@@ -69,7 +75,12 @@ def _fields(line: str, delimiter: str) -> list[str]:
 
 def _count(fields: list[str], decimal: str) -> int:
     """How many fields are numbers."""
-    return sum(NUMBER.fullmatch(field.replace(",", ".") if decimal == "," else field) is not None for field in fields)
+    return sum(NUMBER.fullmatch(_with_point(field, decimal)) is not None for field in fields)
+
+
+def _with_point(field: str, decimal: str) -> str:
+    """A field of the file's decimal sign as one with a point; the other sign makes it no number, for it may mean thousands."""
+    return field.translate(SWAPPED) if decimal == "," else field
 
 
 def _width(rows: list[list[str]]) -> int:
@@ -78,14 +89,18 @@ def _width(rows: list[list[str]]) -> int:
 
 
 def _first_row(split: list[tuple[int, list[str]]], decimal: str, width: int, origin: str) -> int:
-    """Number of lines before the data; one of full width with some numbers and some words is damaged data."""
+    """Number of lines before the data; one that is partly numbers is damaged data, if it is of full width or below a header."""
+    below_header = False
     for at, (n, fields) in enumerate(split):
         numbers = _count(fields, decimal)
         if len(fields) == width and numbers == width:
             return at
+        if len(fields) != width and numbers and (below_header or numbers == len(fields) > 1):
+            raise InputError(f"{origin}, line {n}: {len(fields)} columns where the others have {width}")
+        below_header |= len(fields) == width and not numbers
         if len(fields) == width and numbers:
             wrong = next(i for i, f in enumerate(fields, 1) if not _count([f], decimal))
-            raise InputError(f"{origin}, line {n}, column {wrong}: {fields[wrong - 1][:40]!r} is no number")
+            raise InputError(f"{origin}, line {n}, column {wrong}: {shown(fields[wrong - 1])} is no number")
     raise InputError(f"{origin} holds no line of {width} numbers")
 
 
@@ -113,9 +128,9 @@ def _numbers(n: int, fields: list[str], headers: tuple[str, ...], decimal: str, 
         raise InputError(f"{origin}, line {n}: {len(fields)} columns where the others have {len(headers)}")
     numbers = []
     for column, field in enumerate(fields, 1):
-        text = field.replace(",", ".") if decimal == "," else field
+        text = _with_point(field, decimal)
         if not NUMBER.fullmatch(text):
             named = f" ({headers[column - 1]})" if headers[column - 1] else ""
-            raise InputError(f"{origin}, line {n}, column {column}{named}: {field[:40]!r} is no number")
+            raise InputError(f"{origin}, line {n}, column {column}{named}: {shown(field)} is no number")
         numbers.append(float(re.sub("[dD]", "e", text)))
     return numbers

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement import periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal, as_sensor
@@ -76,12 +76,13 @@ class TimeSeries:
         of Welch's method (module `welch`), which is used exactly where `segment` is given. `band` = (low, high) [Hz].
         Raises InputError where no period is found, periods are missing, or `period` and `segment` are both given.
         """
-        if segment is None:
-            found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band)
-        elif period is None and lines is None:
-            found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band)
-        else:
+        if segment is not None and (period is not None or lines is not None):
             raise InputError("period and lines belong to a periodic excitation, segment to any other: give one of them")
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite then is refused below
+            if segment is None:
+                found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band)
+            else:
+                found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band)
         response = FrequencyResponse(
             found.omega,
             found.G,
@@ -116,7 +117,7 @@ def _rate(value: Any) -> float:
     try:
         rate = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"the sampling rate is a number [Hz], not {value!r}") from None
+        raise InputError(f"the sampling rate is a number [Hz], not {shown(value)}") from None
     if not 0 < rate < np.inf:
         raise InputError(f"the sampling rate is positive [Hz], not {rate:g}")
     return rate

@@ -5,19 +5,25 @@ The quantity of the sensor is the data type of the ordinate's numerator: 8 displ
 
 import contextlib
 import io
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
 from disting.model.chain import Sensor
 
 RESPONSE, COHERENCE = 4, 6
 QUANTITIES = {8: Sensor.POSITION, 11: Sensor.VELOCITY, 12: Sensor.ACCELERATION}
 DIRECTIONS = {0: "", 1: "+x", 2: "+y", 3: "+z", 4: "+rx", 5: "+ry", 6: "+rz"}
+# Columns of numbers in a line that belong together, and the longest line, by type of the ordinate and of the abscissa
+COLUMNS = {
+    (2, 0): (13, 78), (2, 1): (13, 78), (5, 0): (13, 78), (5, 1): (13, 78),
+    (4, 0): (33, 66), (4, 1): (20, 80), (6, 0): (53, 53), (6, 1): (20, 80),
+}  # fmt: skip
 PLACE = ("rsp_node", "rsp_dir", "ref_node", "ref_dir")
 
 Record = Mapping[str, Any]
@@ -32,14 +38,17 @@ def read_uff(path: Path, *, record: int | None = None, sensor: Sensor | str | No
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
     number = 1 if record is None else record
     if not 1 <= number <= len(responses):
-        listed = "; ".join(f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)) or "none"
-        raise InputError(f"{path.name} has no frequency response number {number}; there are: {listed}")
+        there = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
+        raise InputError(f"{path.name} has no frequency response number {number}; there are: {there}")
     chosen = responses[number - 1]
     quantity, note = _quantity(chosen, sensor)
     try:
+        data = np.asarray(chosen["data"], dtype=complex)
+        if len(data) != chosen["num_pts"]:
+            raise ValueError(f"{len(data)} values where {chosen['num_pts']} are said")
         return FrequencyResponse(
             2 * np.pi * np.asarray(chosen["x"], dtype=float),
-            np.asarray(chosen["data"], dtype=complex) * as_sign(sign),
+            data if as_sign(sign) > 0 else -data,
             coherence=_coherence(records, chosen),
             sensor=quantity,
             input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
@@ -56,12 +65,25 @@ def _records(path: Path) -> Sequence[Record]:
     except ImportError:
         raise InputError(f'{path.name} is a universal file: pip install "disting[uff]"') from None
     try:
+        _check_columns(path.read_bytes().decode("latin-1"))
         with contextlib.redirect_stdout(io.StringIO()):  # pyuff prints what it cannot read
             file = pyuff.UFF(str(path))
             numbers = [i for i, kind in enumerate(file.get_set_types()) if kind == 58]
             return [file.read_sets(i) for i in numbers]
     except Exception as error:  # damaged files raise whatever the library meets first
         raise InputError(f"{path.name} is no universal file that can be read: {type(error).__name__}: {error}") from None
+
+
+def _check_columns(text: str) -> None:
+    """Raise ValueError for a line of numbers that is not of whole columns: those behind its damage would be shifted."""
+    for block in re.split(r"(?m)^ {4}-1[ \r]*\n?", text):
+        lines = block.splitlines()
+        if not lines or lines[0].strip() != "58":
+            continue
+        width, most = COLUMNS[int(lines[7][:10]), int(lines[7][20:30])]
+        for number, line in enumerate(lines[12:], 1):
+            if len(line.rstrip()) % width or len(line.rstrip()) > most:
+                raise ValueError(f"line {number} of the numbers is not of whole columns")
 
 
 def _quantity(record: Record, asked: Sensor | str | None) -> tuple[Sensor, str | None]:

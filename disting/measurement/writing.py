@@ -1,11 +1,15 @@
 """A frequency response as CSV that reads back bit by bit: frequencies in rad/s, numbers with all their digits."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 from disting.errors import InputError
 from disting.measurement.response import FrequencyResponse, Signal
-from disting.measurement.tabular import MARK
+from disting.measurement.tabular import ESCAPED, MARK
+from disting.written import write_whole
+
+FORMULA = re.compile(rf"(?<=[,;])[=+@-]|(?<=[,;] )[=+@-]|{ESCAPED.pattern[:2]}(?={ESCAPED.pattern[2:]})")
 
 
 def csv_text(response: FrequencyResponse) -> str:
@@ -16,7 +20,7 @@ def csv_text(response: FrequencyResponse) -> str:
 def write_csv(response: FrequencyResponse, path: str | Path) -> None:
     """Write `csv_text` to a file; `read` gives an equal response. Raises InputError where the file cannot be written."""
     try:
-        Path(path).write_text(csv_text(response), encoding="utf-8", newline="\n")
+        write_whole(Path(path), [csv_text(response)])
     except OSError as error:
         raise InputError(f"{path} cannot be written: {error.strerror}") from None
 
@@ -40,4 +44,5 @@ def _rows(response: FrequencyResponse) -> Iterator[str]:
 
 
 def _line(text: str) -> str:
-    return " ".join(text.split())
+    r"""A text of one line. Spreadsheets split comments too: what they would compute is written as \\u003d and the like."""
+    return FORMULA.sub(lambda sign: f"\\u{ord(sign[0]):04x}", " ".join(text.split()))

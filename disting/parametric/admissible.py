@@ -128,7 +128,9 @@ def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | 
                 lacking.append((left_given, _written(values), ()))
             if having and lacking:
                 return having[0], lacking[0], ""
-        shares.append(f"at {count} of {POINTS} random points of {one.given.name}")
+        share = f"{count} of {POINTS} random" if one.looked_at else "no"
+        lost = one.not_looked_at
+        shares.append(f"at {share} points of {one.given.name}{lost and f' ({lost})'}")
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
 
 

@@ -58,6 +58,11 @@ def having(parted: Parted, point: Point) -> tuple[float, ...] | None:
     return None
 
 
+def searched_cases(parted: Parted) -> int:
+    """How many sections and cases are looked at by `having`: a case of more equations or unknowns is not."""
+    return len(parted.sections) + sum(_is_searched(parted, case) for case in parted.others)
+
+
 def lacking(parted: Parted, point: Point) -> bool:
     """Whether no parameters near the point have an equivalent; False also where it is not seen."""
     if any(not value_at(g, point) for g in parted.search.generic):
@@ -89,9 +94,9 @@ def _valued(values: tuple[Ratio, ...], point: Point) -> list[Fraction] | None:
 def _in_case(parted: Parted, case: Case, point: Point) -> tuple[float, ...] | None:
     """An equivalent of a case that is no section: other unknowns at rational values, the last one in an interval."""
     ring = parted.search.ring
-    free = ring.occurring((*case.equations, *case.positive))
-    if len(free) > UNKNOWNS or len(case.equations) > 1:
+    if not _is_searched(parted, case):
         return None
+    free = ring.occurring((*case.equations, *case.positive))
     signs = (1,) if ring.domain is Domain.POSITIVE else (1, -1)
     for at in ring.occurring(case.equations) or free:
         others = [i for i in ring.unknowns if i != at and i not in dict(case.solved)]
@@ -102,6 +107,11 @@ def _in_case(parted: Parted, case: Case, point: Point) -> tuple[float, ...] | No
                 if found:
                     return found
     return None
+
+
+def _is_searched(parted: Parted, case: Case) -> bool:
+    free = parted.search.ring.occurring((*case.equations, *case.positive))
+    return len(free) <= UNKNOWNS and len(case.equations) <= 1
 
 
 def _in_interval(parted: Parted, case: Case, fixed: Point, at: int, sign: int) -> tuple[float, ...] | None:

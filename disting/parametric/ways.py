@@ -14,7 +14,7 @@ from disting.parametric.between import Path, odd_path, path, without_equations
 from disting.parametric.cases import Case, searched
 from disting.parametric.model import Model
 from disting.parametric.orthant import Orthant, TooMuch
-from disting.parametric.robust import Parted, Point, having, lacking
+from disting.parametric.robust import Parted, Point, having, lacking, searched_cases
 from disting.parametric.sections import Section, cover, held, sections
 
 ORDERS = 24  # in which unknowns are solved for
@@ -42,6 +42,17 @@ class Way:
             return next((p for case in self.parted.others if (p := tried(ring, case))), None)
         except TooMuch:
             return None
+
+    @property
+    def looked_at(self) -> int:
+        """In how many cases of the search equivalents of a point are looked for."""
+        return searched_cases(self.parted)
+
+    @property
+    def not_looked_at(self) -> str:
+        """Why an equivalent of a point may be missed, or "" if it is looked for in all cases."""
+        cases = len(self.parted.sections) + len(self.parted.others)
+        return "" if self.looked_at == cases else f"{cases - self.looked_at} of {cases} cases have too many unknowns to look"
 
     def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""

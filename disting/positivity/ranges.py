@@ -17,8 +17,9 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from disting.certainty import Certainty, Grade, graded
-from disting.errors import InputError
+from disting.certainty import LEAST_SAFETY, Certainty, Grade, graded
+from disting.errors import InputError, shown
+from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical, forms
 from disting.positivity.evidence import BoxMap, Excluded, Points
@@ -26,7 +27,7 @@ from disting.positivity.finding import is_plain, positive_finding, refuse
 from disting.positivity.parts import Obstacle, Point
 from disting.positivity.points import Range, equivalent, random_point, read, spelled
 from disting.positivity.result import Empirical, PositiveFinding, Share
-from disting.positivity.witness import DRAWS, FLOOR, bits, drawn_near, is_long
+from disting.positivity.witness import DRAWS, bits, drawn_near, is_long
 from disting.settings import Settings
 from disting.synthesis.construction import is_untested
 from disting.synthesis.duality import are_dual, dual
@@ -139,7 +140,7 @@ def _lacks_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> Gr
     """Whether, and how surely, an open part of the box near the point has none: words are exact, listed solutions bounded."""
     if equivalent_within(given, point, other, limits.other) is not Answer.NO:
         return None
-    return graded(not other.damped and equivalent(given, point, other) is Answer.NO, FLOOR)
+    return graded(not other.damped and equivalent(given, point, other) is Answer.NO, LEAST_SAFETY)
 
 
 def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:
@@ -217,10 +218,13 @@ def _known(chain: Chain, side: Mapping[str, Range]) -> None:
 
 
 def _range(name: str, low: Bound, high: Bound) -> Range:
+    if any(isinstance(edge, str) and is_too_long(edge) for edge in (low, high)):
+        limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as a power of ten"
+        raise InputError(f"the range of {name}, {shown(low)} to {shown(high)}: a bound has {limits}; choose other units")
     try:
         exact = Fraction(low), Fraction(high)
     except (ValueError, TypeError, OverflowError, ZeroDivisionError):
-        raise InputError(f"the range of {name} has two numbers, not {low!r} and {high!r}") from None
+        raise InputError(f"the range of {name} has two numbers, not {shown(low)} and {shown(high)}") from None
     if not 0 <= exact[0] <= exact[1] or not exact[1]:
         raise InputError(f"the range of {name} is positive and not empty, not {low} to {high}")
     return exact

@@ -20,6 +20,7 @@ from disting.report.scene import PAGE_PALETTE, Anchor, Ink, Layer, Rect, Scene, 
 from disting.report.svg import body, number
 from disting.report.words import SIGNS, probability
 from disting.verdict import RULE_NAMES, Verdict
+from disting.written import write_whole
 
 CELL = 24.0
 LEFT, TOP = 44.0, 8.0
@@ -56,9 +57,7 @@ def name_of(damped: bool) -> str:
 def write_sizes(decided: Decisions, out: Path) -> Path:
     """Write the page of models of several sizes, decided with inclusions, into a folder; returns its path."""
     out.mkdir(parents=True, exist_ok=True)
-    path = out / f"{name_of(decided.subjects[0].chain.damped)}.html"
-    path.write_text(sizes_page(decided), encoding="utf-8")
-    return path
+    return write_whole(out / f"{name_of(decided.subjects[0].chain.damped)}.html", [sizes_page(decided)])
 
 
 def sizes_page(decided: Decisions) -> str:

@@ -17,6 +17,7 @@ from disting.report.matrix import figure, figure_png
 from disting.report.model import folder_of, model_page
 from disting.report.page import page
 from disting.report.svg import svg
+from disting.written import write_whole
 
 STYLE = "models/style.css"
 LINKS: tuple[Link, ...] = (
@@ -46,7 +47,9 @@ def write_report(catalogs: Sequence[Catalog], out: Path, dampers: Sequence[Dampe
     files += [_damper_file(f, names) for f in dampers]
     style, start = source("style.css") + source("model.css"), index(listed, links, families)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]
-    return [_written(out / name, content) for name, content in files]
+    for folder in {(out / name).parent for name, _ in files}:
+        folder.mkdir(parents=True, exist_ok=True)
+    return [write_whole(out / name, content) for name, content in files]
 
 
 def _beside(catalogs: Sequence[Catalog], out: Path) -> Iterator[Catalog]:
@@ -81,9 +84,3 @@ def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, byte
     yield f"{c.name}.json", c.to_json().encode()
     for row in c.rows:
         yield f"{folder_of(c)}/{row.number}.html", model_page(c, row.number).encode()
-
-
-def _written(path: Path, content: bytes) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(content)
-    return path

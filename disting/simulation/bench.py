@@ -51,6 +51,7 @@ class Bench:
             raise InputError(f"a seed is a whole number of at least 0, not {self.seed}")
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what is not finite then is refused as no record
 def simulate(
     model: Chain | Structure, parameters: Mapping[str, float], excitation: Excitation | None = None, bench: Bench | None = None
 ) -> TimeSeries:

@@ -74,6 +74,18 @@ def test_bad_usage_is_one_clear_sentence_and_status_2(capsys, arguments, says):
     assert says in refused(capsys, *arguments)
 
 
+@pytest.mark.parametrize(
+    "words", [("compare", "3:1\x1b[2J", "3:1"), ("fit", "\x1b]0;x\x07.csv"), ("models", "\u202e3"), ("models", "1\n2")]
+)
+def test_control_characters_do_not_reach_the_terminal(capsys, words):
+    assert refused(capsys, *words).isprintable()
+
+
+def test_what_is_quoted_is_shortened(capsys):
+    assert len(refused(capsys, "doctor", "1" * 100_000)) < 1000
+    assert "for instance 3:4" in refused(capsys, "compare", "3:1" * 100_000, "3:1")
+
+
 def test_processes_say_the_same():
     done = disting("compare", "3:12", "3:1")
     assert (done.returncode, done.stdout) == (2, "")

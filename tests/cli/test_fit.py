@@ -1,6 +1,7 @@
 """disting fit and disting simulate on real files."""
 
 import json
+import os
 
 import numpy as np
 import pytest
@@ -127,3 +128,13 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
     out, err = capsys.readouterr()
     lines = [line for line in err.splitlines() if " detected in the input" not in line]
     assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="names of other systems are Unicode")
+def test_a_file_whose_name_is_no_text_gets_its_page(files, tmp_path):
+    """The page names the file; it could not be encoded."""
+    data = os.path.join(os.fsencode(tmp_path), b"\xff.csv")
+    with open(data, "wb") as file:
+        file.write(files[0].read_bytes())
+    done = disting("fit", os.fsdecode(data), "--masses", "1", "--out", tmp_path / "out")
+    assert done.returncode == 0 and "\\udcff.csv" in (tmp_path / "out" / "fit.html").read_text(encoding="utf-8")

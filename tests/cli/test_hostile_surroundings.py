@@ -3,11 +3,12 @@
 import os
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
 
-from tests.cli.process import COMMAND, disting
+from tests.cli.process import COMMAND, disting, marked
 
 
 @pytest.mark.parametrize(
@@ -53,27 +54,26 @@ def test_workers_end_with_their_parent(tmp_path, by):
     assert not marked(tmp_path)
 
 
-def marked(folder):
-    """Processes that inherited the mark in their environment."""
-    found = set()
-    for name in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            with open(f"/proc/{name}/environ", "rb") as file:
-                if f"MARK={folder}\0".encode() in file.read():
-                    found.add(int(name))
-        except OSError:  # it ended, or is another user's
-            continue
-    return found
+@pytest.mark.skipif(os.name != "posix", reason="the limit is of POSIX")
+@pytest.mark.parametrize(
+    ("name", "command"), [("a.csv", ("verdicts", 3, "--csv")), ("fit.html", ("fit", "--demo", "--masses", 1, "--out"))]
+)
+def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path, name, command):
+    """No file may grow beyond a kilobyte, as on a full disk."""
+    (tmp_path / name).write_text("precious")
+    where = tmp_path if name == "fit.html" else tmp_path / name
+    done = disting_with_small_files(*command, where)
+    assert done.returncode == 2 and name in done.stderr and "File too large" in done.stderr
+    assert (tmp_path / name).read_text() == "precious" and [p.name for p in tmp_path.iterdir()] == [name]
 
 
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="this system has no disk that is always full")
-def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path):
-    there, partial = tmp_path / "a.csv", tmp_path / "a.csv.partial"
-    there.write_text("precious")
-    partial.symlink_to("/dev/full")
-    done = disting("verdicts", 3, "--csv", there)
-    assert done.returncode == 2 and "a.csv cannot be written (No space left on device)" in done.stderr
-    assert there.read_text() == "precious" and not os.path.lexists(partial)
+def disting_with_small_files(*arguments):
+    """The command while no file may grow beyond a kilobyte."""
+    limit = "import resource, runpy; resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))"
+    limited = f"{limit}; runpy.run_module('disting', run_name='__main__')"
+    environment = os.environ | {"DISTING_CACHE": "off"}
+    command = [sys.executable, "-c", limited, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="named pipes are of POSIX")

@@ -156,6 +156,26 @@ def test_universal_files_of_pyuff(tmp_path):
         read(path, record=3)
 
 
+@pytest.mark.parametrize(
+    ("good", "bad", "words"),
+    [
+        ("      12", "      13", "12 values where 13 are said"),
+        ("\n  ", "\n   ", "line 1 of the numbers is not of whole columns"),
+        ("e+00\n", "e+00", "of the numbers is not of whole columns"),
+    ],
+)
+def test_universal_files_whose_columns_are_shifted_or_missing(tmp_path, good, bad, words):
+    """One blank more at the beginning of a line moved the exponents out of their columns: 1e+01 was read as 1e+0."""
+    pyuff = pytest.importorskip("pyuff")
+    path = tmp_path / "a.uff"
+    pyuff.UFF(str(path)).write_sets(universal(pyuff, 4, G, 3, 11), "add")
+    text = path.read_text()
+    at = text.index(good, 0 if "12" in good else text.index("NONE                 NONE"))
+    path.write_text(text[:at] + bad + text[at + len(good) :])
+    with pytest.raises(InputError, match=words):
+        read(path)
+
+
 def test_frequency_response_data_of_python_control():
     control = pytest.importorskip("control")
     data = np.stack([[G, 2 * G]])

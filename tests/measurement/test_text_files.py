@@ -18,6 +18,7 @@ from disting.measurement import (
     series_from_frame,
     write_csv,
 )
+from disting.measurement.tabular import frequency_response
 from disting.measurement.text_table import table
 from disting.model.chain import Sensor
 
@@ -281,3 +282,38 @@ def test_a_cell_of_many_digits_is_refused_at_once():
     """Matching took quadratic time: over two minutes for 40,000 digits. A hundred times as many are read here."""
     with pytest.raises(InputError, match="is no number"):
         table("f,re,im\n" + "1,2,3\n" * 20 + "1" * 4_000_000 + "x,1,2\n", "long.csv")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (["f,Re,Im", "0.5,7", *lines(ROWS)], "line 2: 2 columns where the others have 3"),
+        (["f,Re,Im", "0.5,7,8,9", *lines(ROWS)], "line 2: 4 columns where the others have 3"),
+        (["f,Re,Im", "0.5", *lines(ROWS)], "line 2: 1 columns where the others have 3"),
+        (["0.5,7", *lines(ROWS)], "line 1: 2 columns where the others have 3"),
+        (["f;Re;Im", *lines(ROWS, ";"), "13;1,234;5.5"], "line 14, column 2 .Re.: '1,234' is no number"),
+        (["f;Re;Im", *lines(ROWS, ";", ","), "13;1.234;5,5"], "line 14, column 2 .Re.: '1.234' is no number"),
+        (["f\tRe\tIm", *lines(ROWS, "\t"), "13\t\t4\t5"], "line 14: 4 columns where the others have 3"),
+        (["f,Re,Im", *lines(ROWS), "13,\u0663,5"], "line 14, column 2 .Re.: '\u0663' is no number"),
+    ],
+)
+def test_damage_of_the_first_line_and_foreign_decimal_signs_lose_no_number(tmp_path, text, words):
+    """A first line without all its cells was passed over like a preface; 1,234 among decimal points was read as 1.234."""
+    with pytest.raises(InputError, match=words):
+        read(written(tmp_path / "a.csv", text))
+
+
+def test_headers_by_the_thousand_are_not_all_listed():
+    with pytest.raises(InputError, match="no column is a frequency") as refused_:
+        frequency_response(table(",".join(["x"] * 5000) + "\n" + (",".join(["1"] * 5000) + "\n") * 9, "wide.csv"))
+    assert len(str(refused_.value)) < 1000
+
+
+def test_no_label_becomes_a_formula_of_a_spreadsheet(tmp_path):
+    r"""Comments are split into cells too; a label that holds \\u003d itself comes back as it was."""
+    labels = Signal("x,=cmd()", "a; @b"), Signal("\\u003d1", "\\u005c")
+    response = FrequencyResponse(FREQUENCY, G, input=labels[0], output=labels[1], origin="x,-2+3")
+    write_csv(response, tmp_path / "a.csv")
+    text = (tmp_path / "a.csv").read_text(encoding="utf-8")
+    assert not any(sign in text for sign in (",=", "; @", ",-2+"))
+    assert read(tmp_path / "a.csv") == response

@@ -1,8 +1,5 @@
 """Models made to mislead: constants that agree modulo the first public prime, nothing left to vary, signs that never meet."""
 
-import subprocess
-import sys
-
 import pytest
 
 from disting import InputError, Model, Query, Relation, View, compare
@@ -67,19 +64,3 @@ def test_numbers_of_many_digits_are_compared_or_refused():
         assert compare(one, other).relation is not Relation.UNDECIDED
     except InputError:
         pass
-
-
-SCRIPT = """
-from disting import Model, Query, View, compare
-print("once")
-left, right = (Model.from_transfer_function([gain], ["1", "1"]) for gain in ("a**1000", "c"))
-print(compare(left, right, query=Query(View.REAL)).relation.value)
-"""
-
-
-@pytest.mark.slow
-def test_a_script_without_a_main_guard_runs_once(tmp_path):
-    """A fibre that needs a process of its own: the user's script is not run again in it."""
-    (tmp_path / "script.py").write_text(SCRIPT)
-    done = subprocess.run([sys.executable, str(tmp_path / "script.py")], capture_output=True, text=True, timeout=300)
-    assert (done.returncode, done.stdout.count("once")) == (0, 1), done.stderr[-500:]

@@ -153,12 +153,12 @@ def _file(figure: "Figure", kind: str) -> bytes:
     buffer, dpi = BytesIO(), figure.dpi
     if kind == "png":
         figure.dpi = RESOLUTION
-        FigureCanvasAgg(figure).print_png(buffer, metadata=METADATA[kind])
+        FigureCanvasAgg(figure).print_png(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
         figure.dpi = dpi
     elif kind == "pdf":
-        FigureCanvasPdf(figure).print_pdf(buffer, metadata=METADATA[kind])
+        FigureCanvasPdf(figure).print_pdf(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
     else:
-        FigureCanvasSVG(figure).print_svg(buffer, metadata=METADATA[kind])
+        FigureCanvasSVG(figure).print_svg(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
     return buffer.getvalue()
 
 

@@ -20,6 +20,7 @@ from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
 from disting.report.fit.words import name
+from disting.written import write_whole
 
 COLUMNS = (
     "n_masses", "gap", "actuator", "sensor", "ground_dampers", "lag", "delay", "n_parameters", "j_train", "j_test",
@@ -47,7 +48,7 @@ def write_fit_report(
     figures = fit_figures(selection, results, train, test, found)
     folder.mkdir(parents=True, exist_ok=True)
     page = fit_page(selection, results, figures, train, test)
-    return [_written(folder / file, content) for file, content in _files(selection, page, figures)]
+    return [write_whole(folder / file, content) for file, content in _files(selection, page, figures)]
 
 
 def fit_figures(
@@ -72,14 +73,14 @@ def fit_figures(
     return [figure for figure in drawn if figure is not None]
 
 
-def _files(selection: Selection, page: str, figures: Sequence[Drawn]) -> Iterator[tuple[str, bytes]]:
-    yield "fit.html", page.encode()
+def _files(selection: Selection, page: str, figures: Sequence[Drawn]) -> Iterator[tuple[str, bytes | list[str]]]:
+    yield "fit.html", [page]
     for figure in figures:
         yield f"{figure.name}.svg", figure.svg
         yield f"{figure.name}.png", figure.png
         yield f"{figure.name}.pdf", figure.pdf
-    yield "fit.json", (json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
-    yield "candidates.csv", candidates_csv(selection).encode()
+    yield "fit.json", [json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False), "\n"]
+    yield "candidates.csv", [candidates_csv(selection)]
 
 
 def candidates_csv(selection: Selection) -> str:
@@ -97,8 +98,3 @@ def _cell(value: Any) -> Any:
     if isinstance(value, list):
         return ("; " if any(isinstance(v, str) for v in value) else " ").join(map(str, value))
     return "" if value is None else str(value).lower() if isinstance(value, bool) else value
-
-
-def _written(path: Path, content: bytes) -> Path:
-    path.write_bytes(content)
-    return path

@@ -7,6 +7,7 @@ from disting.paper import Findings
 from disting.report.paper.figures import paper_figures
 from disting.report.paper.page import paper_page
 from disting.report.paper.picture import Picture
+from disting.written import write_whole
 
 
 def write_paper(findings: Findings, out: Path) -> list[Path]:
@@ -17,7 +18,7 @@ def write_paper(findings: Findings, out: Path) -> list[Path]:
     pictures = paper_figures(findings)
     page = paper_page(findings, pictures)
     out.mkdir(parents=True, exist_ok=True)
-    return [_written(out / name, content) for name, content in _files(page, pictures)]
+    return [write_whole(out / name, content) for name, content in _files(page, pictures)]
 
 
 def _files(page: str, pictures: Sequence[Picture]) -> Iterator[tuple[str, bytes]]:
@@ -25,8 +26,3 @@ def _files(page: str, pictures: Sequence[Picture]) -> Iterator[tuple[str, bytes]
     for picture in pictures:
         for ending, content in picture.files:
             yield picture.name + ending, content
-
-
-def _written(path: Path, content: bytes) -> Path:
-    path.write_bytes(content)
-    return path

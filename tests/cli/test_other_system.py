@@ -1,0 +1,73 @@
+"""A system without what only POSIX has, such as Windows: everything is imported and every command runs there."""
+
+import os
+import re
+import subprocess
+import sys
+
+from tests.cli.process import disting
+
+LACKING = """
+import importlib.util, os, signal, sys
+import filelock, multiprocessing.popen_spawn_posix, platformdirs, subprocess  # they have a way of their own for each system
+
+MODULES = {"resource", "fcntl", "pwd", "grp", "termios", "tty", "pty", "syslog", "posix_ipc"}
+
+
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name in MODULES:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+
+for name in MODULES:
+    sys.modules.pop(name, None)
+sys.meta_path.insert(0, Finder())
+for name in ("fork", "killpg", "getuid", "geteuid", "getgid", "setsid", "getpgid", "mkfifo", "nice", "register_at_fork",
+             "sched_getaffinity", "statvfs", "getloadavg", "wait4", "chown", "fchmod"):
+    delattr(os, name) if hasattr(os, name) else None
+for name in ("SIGHUP", "SIGKILL", "SIGALRM", "SIGVTALRM", "SIGPIPE", "SIGUSR1", "setitimer", "alarm", "pthread_sigmask"):
+    delattr(signal, name) if hasattr(signal, name) else None
+"""
+COMMANDS = [
+    ["models", "2", "--damped", "--identifiability"],
+    ["compare", "3:1", "3:4", "--damped", "--prove"],
+    ["verdicts", "2", "--csv", "pairs ü.csv", "--json", "pairs ü.json", "--jobs", "2"],
+    ["dampers", "2:1", "--damped"],
+    ["equivalents", "2:1", "--to", "2", "--set", "m1=1,m2=2,k12=3"],
+    ["simulate", "--csv", "bench ß.csv"],
+    ["fit", "bench ß.csv", "--masses", "1", "--json", "fit ñ.json"],
+    ["report", "1", "--out", "pages å"],
+    ["catalog", "build", "1", "--out", "catalogues ø"],
+    ["catalog", "verify", "1", "--catalog", "catalogues ø"],
+    ["doctor"],
+    ["cache", "info"],
+    ["cache", "clear"],
+]
+SCRIPT = f"""
+from disting.cli import main
+from disting.ideals.process import run_limited
+
+if __name__ == "__main__":
+    for command in {COMMANDS!r}:
+        assert main(command) == 0, command
+    assert run_limited(divmod, (7, 2), 60).value == (3, 1)
+"""
+
+
+def test_every_command_runs_where_posix_is_not_and_names_are_not_ascii(tmp_path):
+    listed = re.findall(r"^    (\w+)\b", disting("--help").stdout, re.MULTILINE)
+    assert set(listed) == {command[0] for command in COMMANDS}
+    blocker, folder = tmp_path / "blocker", tmp_path / "a folder é"
+    blocker.mkdir()
+    folder.mkdir()
+    (blocker / "sitecustomize.py").write_text(LACKING, encoding="utf-8")
+    (folder / "script.py").write_text(SCRIPT, encoding="utf-8")
+    environment = os.environ | {
+        "DISTING_CACHE": str(folder / "cache å.sqlite3"),
+        "PYTHONPATH": os.pathsep.join([str(blocker), os.getcwd(), *filter(None, sys.path)]),
+    }
+    done = subprocess.run([sys.executable, "script.py"], cwd=folder, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr[-1000:]
+    written = {"pairs ü.csv", "pairs ü.json", "bench ß.csv", "fit ñ.json", "pages å", "catalogues ø", "cache å.sqlite3"}
+    assert written <= {path.name for path in folder.iterdir()}
