@@ -21,6 +21,18 @@ def disting(*arguments, cache="off", cwd=None):
     return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
 
 
+def called(*arguments, cache="off"):
+    """The same without a process of its own, which takes a second to start: for tests of what a command says."""
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        patch.setenv("DISTING_CACHE", str(cache))
+        patch.setenv("COLUMNS", "100")
+        try:
+            status = main([*map(str, arguments)])
+        except SystemExit as end:  # argparse ends the process
+            status = end.code or 0
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
+
+
 def marked(folder):
     """Processes that inherited the mark in their environment."""
     found = set()
@@ -32,18 +44,6 @@ def marked(folder):
         except OSError:  # it ended, or is another user's
             continue
     return found
-
-
-def called(*arguments, cache="off"):
-    """The same without a process of its own, which takes a second to start: for tests of what a command says."""
-    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
-        patch.setenv("DISTING_CACHE", str(cache))
-        patch.setenv("COLUMNS", "100")
-        try:
-            status = main([*map(str, arguments)])
-        except SystemExit as end:  # argparse ends the process
-            status = end.code or 0
-    return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
 
 
 def rows(text):
