@@ -1,10 +1,21 @@
-"""The few errors that a user can meet. Not knowing is no error: it is the relation UNDECIDED."""
+"""The few errors that a user can meet. Not knowing is no error: it is the relation UNDECIDED.
+
+What is echoed of an input is short and can be printed, whoever made the input: see `shown` and `listed`.
+"""
 
 from collections.abc import Iterable
+from itertools import islice
+
+LONGEST_ECHO = 60  # characters of one thing that is echoed
+MOST_LISTED = 30  # of many
+LONGEST_MESSAGE = 1500  # whatever a message is made of
 
 
 class DistingError(Exception):
     """Base of every error that this package raises on purpose; the message names the cause and the remedy."""
+
+    def __init__(self, message: object = "") -> None:
+        super().__init__(brief(str(message)))
 
 
 class ConstraintViolation(DistingError):
@@ -23,12 +34,48 @@ class ContradictionError(DistingError):
     """Two conditions decided one pair differently: a defect of the program, never of the input."""
 
 
-def listed(names: Iterable[str], most: int = 40) -> str:
-    """Names for a message, as many as a person reads.
+def shown(value: object) -> str:
+    """What a user gave, as Python writes it, but no longer than an eye takes in.
 
-    >>> listed(["f", "Re", "Im", "x" * 99], most=2), listed([])
-    ('f, Re and 2 more', 'none')
+    >>> shown("a" * 99), shown(10**9999), shown("a\\x1b[2J")
+    ("'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…'", 'a number of 33216 bits', "'a\\\\x1b[2J'")
     """
-    found = [name if len(name) <= 60 else f"{name[:57]}..." for name in names]
-    more = f" and {len(found) - most} more" if len(found) > most else ""
-    return (", ".join(found[:most]) or "none") + more
+    if isinstance(value, str):
+        return _cut(repr(value[:LONGEST_ECHO]), len(value) > LONGEST_ECHO)
+    if isinstance(value, int) and value.bit_length() > 200:
+        return f"a number of {value.bit_length()} bits"
+    return _cut(printable(repr(value)), False)
+
+
+def listed(names: Iterable[str], separator: str = ", ") -> str:
+    """Names in a row, the first of them if there are many.
+
+    >>> listed(map(str, range(10**6)))[-50:]
+    '25, 26, 27, 28, 29 and 999970 more'
+    """
+    rest = iter(names)
+    first = [name if len(name) <= LONGEST_ECHO else f"{name[: LONGEST_ECHO // 2]}…" for name in islice(rest, MOST_LISTED)]
+    more = sum(1 for _ in rest)
+    return printable(separator.join(first)) + f" and {more} more" * bool(more)
+
+
+def printable(text: str) -> str:
+    """The text with what is no printable character, nor the end of a line, written as an escape.
+
+    >>> printable("a\\x00ü\\n")
+    'a\\\\x00ü\\n'
+    """
+    return "".join(c if c.isprintable() or c == "\n" else repr(c)[1:-1] for c in text)
+
+
+def brief(message: str) -> str:
+    """A message that fits a screen: printable, beginning and end of one that is too long."""
+    if len(message) > LONGEST_MESSAGE:
+        message = f"{message[: LONGEST_MESSAGE // 2]} … {message[-LONGEST_MESSAGE // 2 :]}"
+    return printable(message)
+
+
+def _cut(written: str, is_part: bool) -> str:
+    if len(written) <= LONGEST_ECHO + 2 and not is_part:
+        return written
+    return f"{written[: LONGEST_ECHO // 2 + 1]}…{written[0] if is_part else ''}"

@@ -10,7 +10,7 @@ from disting.certainty import USELESS
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.domain import Domain
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.model.family import MOST_MASSES
 from disting.verdict import RULE_NAMES, Query, Relation, View
 from disting.written import write_whole
@@ -23,7 +23,7 @@ def reference(text: str) -> tuple[int, int]:
     """Size and number of a model written masses:number; raises InputError."""
     match = re.fullmatch(r"(\d{1,3}):(\d{1,7})", text)
     if not match:
-        raise InputError(f"a model is written masses:number, for instance 3:4, not {text!r}")
+        raise InputError(f"a model is written masses:number, for instance 3:4, not {shown(text)}")
     if int(match[1]) > MOST_MASSES:
         raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {match[1]}")
     return int(match[1]), int(match[2])

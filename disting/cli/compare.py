@@ -12,7 +12,7 @@ from disting.comparison import compare
 from disting.conditions.ways import BothWays
 from disting.domain import Domain
 from disting.equivalence import chain_of
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
@@ -69,7 +69,7 @@ def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[st
 
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:
-        raise InputError(f"no parameter of the two models is called {', '.join(sorted(unknown))}")
+        raise InputError(f"no parameter of the two models is called {listed(sorted(unknown))}")
     sides = list(zip((verdict.left, verdict.right), chains, (verdict.left_positive, verdict.right_positive), strict=True))
     for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
         boxes = ({n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other))

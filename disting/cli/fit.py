@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
-from disting.cli.plain import complain, readable
+from disting.cli.plain import complain
 from disting.cli.work import engine_for
-from disting.errors import InputError
+from disting.errors import InputError, listed, printable
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
         text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
         emitted(options.json, text)
     if options.json != "-":
-        print(readable("\n".join(_told(found, train))))
+        print(printable("\n".join(_told(found, train))))
     if options.out:
         _write(found, options.out, train, test, profiles=options.profiles)
         if options.json != "-":
@@ -103,7 +103,7 @@ def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, .
     known = {name for chain in found for name in chain.parameters}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
     if unknown:
-        raise InputError(f"no candidate has a parameter {', '.join(unknown)}; there are {', '.join(sorted(known))}")
+        raise InputError(f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}")
     return found
 
 

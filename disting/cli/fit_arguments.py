@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.paths import written_file, written_folder
+from disting.errors import shown
 
 WEIGHTS = ("none", "std", "coherence")
 SIGNS = ("+", "-", "auto")
@@ -53,7 +54,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 def _option(text: str) -> tuple[str, Any]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
-        raise argparse.ArgumentTypeError(f"an option is written like sampling_rate=2500, not {text!r}")
+        raise argparse.ArgumentTypeError(f"an option is written like sampling_rate=2500, not {shown(text)}")
     if ".." in value:
         return name, _range(value)
     parts = tuple(_number(part) for part in value.split(","))
@@ -76,7 +77,7 @@ def _range(text: str) -> tuple[float, float]:
     except ValueError:
         limits = (1.0, 0.0)
     if not dots or not limits[0] < limits[1]:
-        raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {text!r}")
+        raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {shown(text)}")
     return limits
 
 
@@ -90,13 +91,13 @@ def _value(text: str) -> tuple[str, float]:
     try:
         return name, float(value)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"a value is written like m1=0.02, not {text!r}") from None
+        raise argparse.ArgumentTypeError(f"a value is written like m1=0.02, not {shown(text)}") from None
 
 
 def _masses(text: str) -> tuple[int, ...]:
     match = re.fullmatch(r"([1-9])(?:-([1-9])|((?:,[1-9])*))", text)
     if not match or int(match[2] or 9) < int(match[1]):
-        raise argparse.ArgumentTypeError(f"numbers of masses are written like 3, 1-4 or 1,3, not {text!r}")
+        raise argparse.ArgumentTypeError(f"numbers of masses are written like 3, 1-4 or 1,3, not {shown(text)}")
     if match[2]:
         return tuple(range(int(match[1]), int(match[2]) + 1))
     return tuple(sorted({int(n) for n in text.split(",")}))
@@ -108,5 +109,5 @@ def _thresholds(text: str) -> tuple[float, float, float]:
     except ValueError:
         first = second = third = -1.0
     if not all(limit > 0 for limit in (first, second, third)):
-        raise argparse.ArgumentTypeError(f"thresholds are written like 30,1000,20, all positive, not {text!r}")
+        raise argparse.ArgumentTypeError(f"thresholds are written like 30,1000,20, all positive, not {shown(text)}")
     return first, second, third

@@ -14,6 +14,7 @@ from disting.cli.paths import written_file, written_folder
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
+from disting.errors import LONGEST_ECHO, brief, shown
 from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 
@@ -34,9 +35,9 @@ def _whole(low: int, high: int = 10**9) -> Callable[[str], int]:
     def number(text: str) -> int:
         """The number, or an error that says what is needed."""
         if not text.isdecimal() or len(text) > 99 or int(text) < low:
-            raise argparse.ArgumentTypeError(f"a whole number of at least {low} is needed, not {text!r}")
+            raise argparse.ArgumentTypeError(f"a whole number of at least {low} is needed, not {shown(text)}")
         if int(text) > high:
-            raise argparse.ArgumentTypeError(f"a whole number of at most {high} is needed, not {text!r}")
+            raise argparse.ArgumentTypeError(f"a whole number of at most {high} is needed, not {shown(text)}")
         return int(text)
 
     return number
@@ -46,7 +47,7 @@ def _sizes(text: str) -> range:
     """One size such as 4, or several such as 1-4."""
     match = re.fullmatch(r"([1-9]\d{0,2})(?:-([1-9]\d{0,2}))?", text)
     if not match or int(match[2] or match[1]) < int(match[1]):
-        raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {text!r}")
+        raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {shown(text)}")
     if int(match[2] or match[1]) > MOST_MASSES:
         raise argparse.ArgumentTypeError(f"families of at most {MOST_MASSES} masses are listed, not of {match[2] or match[1]}")
     return range(int(match[1]), int(match[2] or match[1]) + 1)
@@ -56,7 +57,7 @@ def _bounds(text: str) -> tuple[str, tuple[str, str]]:
     """A range such as k12=0..1000."""
     match = re.fullmatch(r"(\w+)=([^=.]*\.?[^=.]*)\.\.([^=]+)", text)
     if not match:
-        raise argparse.ArgumentTypeError(f"a range is written like k12=0..1000, not {text!r}")
+        raise argparse.ArgumentTypeError(f"a range is written like k12=0..1000, not {shown(text)}")
     return match[1], (match[2], match[3])
 
 
@@ -66,7 +67,7 @@ def _conditions(text: str) -> tuple[int, ...]:
     for part in text.split(","):
         match = re.fullmatch(r"([1-9])(?:-([1-9]))?", part.strip())
         if not match or int(match[2] or match[1]) < int(match[1]):
-            raise argparse.ArgumentTypeError(f"conditions are written like 1-5,8 with numbers 1 to 9, not {text!r}")
+            raise argparse.ArgumentTypeError(f"conditions are written like 1-5,8 with numbers 1 to 9, not {shown(text)}")
         chosen |= set(range(int(match[1]), int(match[2] or match[1]) + 1))
     return tuple(sorted(chosen))
 
@@ -229,8 +230,13 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        complain(f"{message}; see '{self.prog} --help'")
+        complain(f"{_short(message)}; see '{self.prog} --help'")
         self.exit(2)
+
+
+def _short(message: str) -> str:
+    """argparse echoes what it does not know as it is."""
+    return brief(" ".join(word if len(word) <= 2 * LONGEST_ECHO else f"{word[:LONGEST_ECHO]}…" for word in message.split(" ")))
 
 
 def _command(groups: Groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:

@@ -5,10 +5,11 @@ What has no place there is written with signs that have: formulas stay readable,
 
 import codecs
 import sys
-from unicodedata import category, normalize
+from unicodedata import normalize
+
+from disting.errors import brief
 
 HANDLER = "disting.plain"
-MOST, LAST = 800, 300  # characters of a message, and of its end, where the remedy stands
 PLAIN = {
     "≠": "!=", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "←": "<-", "↔": "<->", "·": "*", "×": "x", "−": "-", "–": "-",
     "—": "-", "±": "+-", "∞": "inf", "√": "sqrt", "∂": "d", "∃": "exists ", "∩": " and ", "∅": "{}", "⊂": "<", "⊆": "<=",
@@ -34,20 +35,9 @@ def in_ascii(text: str) -> str:
     return "".join(c if c.isascii() else PLAIN.get(c) or _without_marks(c) or "?" for c in text)
 
 
-def readable(text: object) -> str:
-    """The text without characters that steer a terminal or turn the line around: what files and arguments hold may be shown.
-
-    >>> print(readable("\x1b[2Jcolumn \u202ex"))
-    \\x1b[2Jcolumn \\u202ex
-    """
-    return "".join(c if c == "\n" or category(c)[0] != "C" else ascii(c)[1:-1] for c in str(text))
-
-
 def complain(message: object) -> None:
-    """Write one line to standard error, shortened in its middle where somebody gave very much to quote."""
-    text = readable(message).replace("\n", " ")
-    shown = text if len(text) <= MOST else f"{text[: MOST - LAST]} ... {text[-LAST:]}"
-    print(f"disting: {shown}", file=sys.stderr)
+    """Write one line to standard error; what files and arguments hold steers no terminal there and is not quoted at length."""
+    print(brief(f"disting: {message}").replace("\n", " "), file=sys.stderr)
 
 
 def _without_marks(character: str) -> str:

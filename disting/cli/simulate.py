@@ -4,7 +4,7 @@ import argparse
 
 from disting.cli.common import emitted
 from disting.cli.paths import written_file
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 
@@ -90,4 +90,4 @@ def _friction(text: str) -> tuple[int, float]:
     try:
         return int(mass), float(force)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"friction is written like 1=0.3, not {text!r}") from None
+        raise argparse.ArgumentTypeError(f"friction is written like 1=0.3, not {shown(text)}") from None

@@ -14,12 +14,12 @@ from numbers import Number
 
 from flint import fmpq
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
+from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
 from disting.model.family import MOST_MASSES, Family
 
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
-MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
 Value = Number | str
 
 
@@ -35,7 +35,7 @@ def chain_of(model: Chain | str, family: Family) -> Chain:
         return model
     match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
     if not match:
-        raise InputError(f"a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not {model!r}")
+        raise InputError(f"a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not {shown(model)}")
     return _extended(_sized(family, match[1])[int(match[2])], match[3])
 
 
@@ -117,7 +117,7 @@ def assignments(texts: list[str]) -> dict[str, str]:
     for part in (part.strip() for text in texts for part in text.split(",")):
         name, equals, value = (piece.strip() for piece in part.partition("="))
         if not (name and equals and value):
-            raise InputError(f"values are written name=number, separated by commas, such as m1=1,k12=3/4, not {part!r}")
+            raise InputError(f"values are written name=number, separated by commas, such as m1=1,k12=3/4, not {shown(part)}")
         if name in found:
             raise InputError(f"{name} is given twice")
         found[name] = value
@@ -126,12 +126,12 @@ def assignments(texts: list[str]) -> dict[str, str]:
 
 def _fraction(name: str, value: Value) -> fmpq:
     text = str(value).strip()
-    if _is_long(text):
+    if is_too_long(text):
         limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as its power of ten"
-        raise InputError(f"{name} = {text[:40]!r}: a value has {limits}; choose other units")
+        raise InputError(f"{name} = {shown(text)}: a value has {limits}; choose other units")
     exact = _number(text)
     if exact is None:
-        raise InputError(f"{name} = {str(value)[:40]!r}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
+        raise InputError(f"{name} = {shown(value)}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
     if exact <= 0:
         reason = "masses, springs, dampers and times are positive; a chain without an element is another model"
         raise InputError(f"{name} = {value}: {reason}")
@@ -143,9 +143,3 @@ def _number(text: str) -> Fraction | None:
         return Fraction(text)
     except (ValueError, ZeroDivisionError):
         return None
-
-
-def _is_long(text: str) -> bool:
-    """Whether the text, or the power of ten that it is written with, is too large to be computed with exactly."""
-    exponent = re.search(r"\d\.?[eE]([+-]?\d+)$", text)
-    return len(text) > MOST_DIGITS or bool(exponent and (len(exponent[1]) > 4 or abs(int(exponent[1])) > MOST_DIGITS))

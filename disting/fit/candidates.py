@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 
-from disting.errors import ConstraintViolation, InputError
+from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 
@@ -59,5 +59,5 @@ def _port(text: str, n: int) -> tuple[int, int]:
     """(minus, plus) of a port's text."""
     match = re.fullmatch(r"(?:(\d+):)?(\d+|last)", text)
     if not match:
-        raise InputError(f"a port is written like 2, last or 1:3, not {text!r}")
+        raise InputError(f"a port is written like 2, last or 1:3, not {shown(text)}")
     return int(match[1] or 0), n if match[2] == "last" else int(match[2])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.fit.modes import poles, zeros
 from disting.fit.plant import Plant, Real
 from disting.fit.select import Candidate, Selection
@@ -178,7 +178,7 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
         )
         values = {name: float(plain["parameters"][name]) for name in chain.parameters}
     except (KeyError, TypeError, ValueError) as reason:
-        raise InputError(f"this is no fitted model: {reason!r} is missing or wrong") from None
+        raise InputError(f"this is no fitted model: {shown(reason)} is missing or wrong") from None
     return chain, values
 
 

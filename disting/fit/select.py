@@ -27,6 +27,7 @@ from disting.model.chain import Chain
 from disting.settings import Settings
 
 FOLDS = 5  # of the cross-validation
+MOST_EXTREME = 1e30  # of a frequency or an amplitude
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
 
 Progress = Callable[[str, int, int], object]
@@ -122,6 +123,8 @@ def select(
     engine with a store resumes interrupted work. Raises InputError.
     """
     _check(train, test, candidates)
+    for data in filter(None, (train, test)):
+        _check_units(data)
     engine = engine or Engine(store=Store.none())
     cost = Cost(train, case, weights, lines(train) if lines else None)
     task = Task(cost, sign or 1, bounds or {}, fixed or {}, seed)
@@ -158,6 +161,15 @@ def _check(train: FrequencyResponse, test: FrequencyResponse | None, candidates:
     other = {c.sensor for c in candidates} - {train.sensor}
     if other:
         raise InputError(f"the data shows {train.sensor.value}, a candidate {other.pop().value}; choose one sensor quantity")
+
+
+def _check_units(data: FrequencyResponse) -> None:
+    """Numbers whose squares and products floating point holds; beyond these no unit of measurement is sensible."""
+    for name, values, unit in (("frequencies", data.omega, "rad/s"), ("amplitudes", np.abs(data.G), "output per input")):
+        low, high = float(values.min()), float(values.max())
+        if low < 1 / MOST_EXTREME or high > MOST_EXTREME:
+            limits = f"a fit computes with {1 / MOST_EXTREME:g} to {MOST_EXTREME:g}"
+            raise InputError(f"the {name} are {low:g} to {high:g} {unit}; {limits}: choose other units or leave lines out")
 
 
 def _signed(task: Task, candidates: Sequence[Chain]) -> Task:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.fit.descent import fine
 from disting.fit.estimate import Task
 from disting.fit.plant import Real
@@ -30,7 +30,7 @@ class Sweep:
 def sweep(candidates: Sequence[Candidate], criterion: str) -> Sweep:
     """Thresholds from 1 to 10000; the best candidate is the one with the lowest test cost."""
     if criterion not in CRITERIA:
-        raise InputError(f"the criteria are {', '.join(CRITERIA)}, not {criterion!r}")
+        raise InputError(f"the criteria are {', '.join(CRITERIA)}, not {shown(criterion)}")
     ordered = sorted(candidates, key=lambda c: c.j_test)
     values = np.array([getattr(c.practical, criterion) for c in ordered])
     sizes = np.array([c.n_parameters for c in ordered])

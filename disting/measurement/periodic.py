@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real, real
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
@@ -128,5 +128,5 @@ def _estimated(inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str,
 
 def _whole(value: int, name: str, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
-        raise InputError(f"{name} is a whole number of at least {least}, not {value!r}")
+        raise InputError(f"{name} is a whole number of at least {least}, not {shown(value)}")
     return int(value)

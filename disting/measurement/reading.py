@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.measurement.matlab import variables
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.table_series import time_series
@@ -92,4 +92,4 @@ def _check(reader: Callable[..., Any], options: dict[str, Any], file: Path) -> N
     known = {p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY}
     unknown = sorted(set(options) - known)
     if unknown:
-        raise InputError(f"{file.name}: unknown option {', '.join(unknown)}; known for this format: {', '.join(sorted(known))}")
+        raise InputError(f"{file.name}: unknown option {listed(unknown)}; known for this format: {', '.join(sorted(known))}")

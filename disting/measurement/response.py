@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real, applied, complex_, frozen, optional, real, same
 from disting.model.chain import Sensor
@@ -161,13 +161,13 @@ def as_sensor(value: Sensor | str) -> Sensor:
     try:
         return Sensor(value)
     except ValueError:
-        raise InputError(f"sensor is position, velocity or acceleration, not {value!r}") from None
+        raise InputError(f"sensor is position, velocity or acceleration, not {shown(value)}") from None
 
 
 def as_sign(value: int) -> int:
     """1 or -1; raises InputError for another number."""
     if value not in (1, -1):
-        raise InputError(f"the sign of a sensor is 1 or -1, not {value!r}")
+        raise InputError(f"the sign of a sensor is 1 or -1, not {shown(value)}")
     return value
 
 

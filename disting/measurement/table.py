@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
 
 
@@ -32,7 +32,9 @@ class Table:
             return column - 1
         found = [i for i, h in enumerate(self.headers) if isinstance(column, str) and h and h == column.strip()]
         if len(found) != 1:
-            raise InputError(f"{self.origin}: {len(found) or 'no'} columns are called {column!r}; headers: {self.listed()}")
+            raise InputError(
+                f"{self.origin}: {len(found) or 'no'} columns are called {shown(column)}; headers: {self.listed()}"
+            )
         return found[0]
 
     def named(self, at: int) -> str:
@@ -40,5 +42,5 @@ class Table:
         return f"column {at + 1} ({self.headers[at]})" if self.headers[at] else f"column {at + 1}"
 
     def listed(self) -> str:
-        """The headers, for messages."""
+        """All headers, for messages."""
         return listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, listed, shown
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.column_words import FREQUENCIES, PHASES, Meaning, meaning
@@ -91,7 +91,7 @@ def _roles(table: Table, columns: Sequence[str] | None, notes: list[str]) -> lis
     if any(table.headers):
         roles = [meaning(header) for header in table.headers]
         if Meaning.HERTZ in roles and not any("hz" in h.lower() for h in table.headers):
-            notes.append(f"frequencies of column {table.headers[roles.index(Meaning.HERTZ)]!r} taken as Hz")
+            notes.append(f"frequencies of column {shown(table.headers[roles.index(Meaning.HERTZ)])} taken as Hz")
         return roles
     if len(table.headers) != 3:
         raise InputError(
@@ -162,8 +162,8 @@ def _chosen(table: Table, groups: list[_Group], column: str | int | None) -> _Gr
     at = table.at(column)
     found = next((g for g in groups if at in g.columns.values()), None)
     if found is None:
-        firsts = ", ".join(table.named(g.first) for g in groups)
-        raise InputError(f"{table.origin}: column {column!r} belongs to no response; responses begin at {firsts}")
+        firsts = listed(table.named(g.first) for g in groups)
+        raise InputError(f"{table.origin}: column {shown(column)} belongs to no response; responses begin at {firsts}")
     return found
 
 
@@ -188,7 +188,7 @@ def _phase_unit(phase: Real, role: Meaning, asked: str | None, notes: list[str])
     """The unit that the caller named, or the header, or the more likely one; what is doubtful goes to `notes`."""
     if asked is not None:
         if asked not in ("deg", "rad"):
-            raise InputError(f'phase_unit is "deg" or "rad", not {asked!r}')
+            raise InputError(f'phase_unit is "deg" or "rad", not {shown(asked)}')
         return asked
     unit = checks.likely_phase_unit(phase) if role is Meaning.PHASE else role.value
     doubt = checks.phase_unit(phase, unit, said=role is not Meaning.PHASE)

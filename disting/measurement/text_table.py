@@ -9,7 +9,7 @@ from collections import Counter
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.column_words import FREQUENCIES, meaning
 from disting.measurement.table import Table
 
@@ -100,7 +100,7 @@ def _first_row(split: list[tuple[int, list[str]]], decimal: str, width: int, ori
         below_header |= len(fields) == width and not numbers
         if len(fields) == width and numbers:
             wrong = next(i for i, f in enumerate(fields, 1) if not _count([f], decimal))
-            raise InputError(f"{origin}, line {n}, column {wrong}: {fields[wrong - 1][:40]!r} is no number")
+            raise InputError(f"{origin}, line {n}, column {wrong}: {shown(fields[wrong - 1])} is no number")
     raise InputError(f"{origin} holds no line of {width} numbers")
 
 
@@ -131,6 +131,6 @@ def _numbers(n: int, fields: list[str], headers: tuple[str, ...], decimal: str, 
         text = _with_point(field, decimal)
         if not NUMBER.fullmatch(text):
             named = f" ({headers[column - 1]})" if headers[column - 1] else ""
-            raise InputError(f"{origin}, line {n}, column {column}{named}: {field[:40]!r} is no number")
+            raise InputError(f"{origin}, line {n}, column {column}{named}: {shown(field)} is no number")
         numbers.append(float(re.sub("[dD]", "e", text)))
     return numbers

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
 from disting.model.chain import Sensor
 
@@ -38,8 +38,8 @@ def read_uff(path: Path, *, record: int | None = None, sensor: Sensor | str | No
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
     number = 1 if record is None else record
     if not 1 <= number <= len(responses):
-        listed = "; ".join(f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)) or "none"
-        raise InputError(f"{path.name} has no frequency response number {number}; there are: {listed}")
+        there = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
+        raise InputError(f"{path.name} has no frequency response number {number}; there are: {there}")
     chosen = responses[number - 1]
     quantity, note = _quantity(chosen, sensor)
     try:

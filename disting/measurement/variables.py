@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
 from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
 from disting.measurement.table_series import rate_of
@@ -57,7 +57,7 @@ def from_variables(
         origin=f"{origin}, {chosen}",
     )
     assumed = 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
-    taken = f"frequencies of {name!r} taken as {unit}"
+    taken = f"frequencies of {shown(name)} taken as {unit}"
     return found.noted(None if sensor else assumed, None if frequency_unit else taken)
 
 
@@ -108,7 +108,7 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
             raise InputError(f"{origin}: which variable is the {role}? give {role}=; variables: {_listed(arrays)}")
         return found
     if asked not in arrays:
-        raise InputError(f"{origin} has no variable {asked!r}; variables: {_listed(arrays)}")
+        raise InputError(f"{origin} has no variable {shown(asked)}; variables: {_listed(arrays)}")
     return asked
 
 
@@ -117,7 +117,7 @@ def _frequency(arrays: Arrays, asked: str | None, unit: str | None, origin: str)
     name = _name(arrays, asked, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
     found = unit or ("rad/s" if name in OMEGA_NAMES else "Hz")
     if found not in UNIT:
-        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {found!r}')
+        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {shown(found)}')
     return name, found
 
 
@@ -168,4 +168,4 @@ def _scalar(arrays: Arrays, name: str, origin: str) -> float:
 
 
 def _listed(arrays: Arrays) -> str:
-    return listed(sorted(arrays))
+    return listed(sorted(arrays)) or "none"

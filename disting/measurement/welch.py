@@ -11,7 +11,7 @@ imaginary part, so sqrt 2 times that for the complex number). 1/36 is the square
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Real
 from disting.measurement.periodic import Estimated
 
@@ -43,7 +43,7 @@ def estimate(u: Real, y: Real, rate: float, segment: int, band: tuple[float, flo
 
 def _segments(length: int, segment: int) -> int:
     if isinstance(segment, bool) or not isinstance(segment, int | np.integer) or segment < 8:
-        raise InputError(f"segment is a whole number of at least 8 samples, not {segment!r}")
+        raise InputError(f"segment is a whole number of at least 8 samples, not {shown(segment)}")
     count = (length - segment // 2) // (segment - segment // 2)
     if count < FEWEST_SEGMENTS:
         raise InputError(

@@ -10,7 +10,7 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from disting.errors import ConstraintViolation, InputError
+from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.constraints import Indices, violated
 from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
 
@@ -119,7 +119,7 @@ def _sensor(value: str) -> Sensor:
     try:
         return Sensor(value)
     except ValueError:
-        raise InputError(f"sensor is position, velocity or acceleration, not {value!r}") from None
+        raise InputError(f"sensor is position, velocity or acceleration, not {shown(value)}") from None
 
 
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 
@@ -28,7 +28,7 @@ class Family:
 
     def __post_init__(self) -> None:
         if isinstance(self.n_masses, bool) or not isinstance(self.n_masses, int) or self.n_masses < 1:
-            raise InputError(f"a family has at least one mass, not {self.n_masses!r}")
+            raise InputError(f"a family has at least one mass, not {shown(self.n_masses)}")
 
     @cached_property
     def models(self) -> tuple[Chain, ...]:
@@ -43,7 +43,7 @@ class Family:
 
     def __getitem__(self, number: int) -> Chain:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(self):
-            raise InputError(f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {number!r}")
+            raise InputError(f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)}")
         return self.models[number - 1]
 
     def number(self, chain: Chain) -> int:

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from disting.errors import InputError
-from disting.parametric.expression import Power, Product, Sum, Tree, names, tree
+from disting.parametric.expression import tree
+from disting.parametric.trees import Power, Product, Sum, Tree, names
 
 Matrix = list[list[Tree]]
 

@@ -5,11 +5,12 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 from disting.conditions.explicit import Explicit, Formula, NoEquivalent
 from disting.domain import Domain
 from disting.parametric.between import End, Path
-from disting.parametric.expression import names as symbols_of
-from disting.parametric.expression import tree, value
+from disting.parametric.expansion import Expansion
+from disting.parametric.expression import tree
 from disting.parametric.model import Model, Terms
 from disting.parametric.ratio import Ratio
 from disting.parametric.sections import Section
+from disting.parametric.trees import names as symbols_of
 from disting.parametric.ways import Way, way
 from disting.parametric.words import polynomial_text, text_of
 
@@ -80,14 +81,15 @@ def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
     _, _, values, root = formula
     names = [*root[:1], *given.parameters]
     ring = dict(zip(names, _ring(names), strict=True))
-    one = next(iter(ring.values())) ** 0
+    expansion = Expansion(ring, next(iter(ring.values())) ** 0)
+    one = expansion.one
     trees = [tree(text) for _, text in values]
     if tuple(name for name, _ in values) != other.parameters or not {n for t in trees for n in symbols_of(t)} <= ring.keys():
         return False
-    point = [value(t, ring, one) for t in trees]
+    point = [expansion.value(t) for t in trees]
     here = [value_of(c, [Ratio(ring[n], one) for n in given.parameters], one) for c in _every(given)]
     there = [value_of(c, point, one) for c in _every(other)]
-    equation = value(tree(root[1]), ring, one).num if root else one - one
+    equation = expansion.value(tree(root[1])).num if root else one - one
     rests = [b * here[-1] + Ratio(-a.num, a.den) * there[-1] for a, b in zip(here, there, strict=True)]
     sides = [side for v in (*point, there[-1]) for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))]
     return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(_is_multiple(r.num, equation) for r in rests)

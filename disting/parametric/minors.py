@@ -5,16 +5,18 @@ a minor of k rows over the columns. Of n columns at most 2^n sets are met, and f
 polynomials this is cheaper than elimination, whose exact quotients go through larger polynomials than the result.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from operator import mul
 
 from flint import fmpz_mpoly
 
+Times = Callable[[fmpz_mpoly, fmpz_mpoly], fmpz_mpoly]
 Minors = dict[int, fmpz_mpoly]
 """Minors of the first rows by their columns, as a bit mask; those that are not there are zero."""
 
 
-def minors(rows: Sequence[Sequence[fmpz_mpoly]], start: Minors) -> Minors:
-    """The minors of more rows, from those of the rows above; {0: 1} stands for no row.
+def minors(rows: Sequence[Sequence[fmpz_mpoly]], start: Minors, times: Times = mul) -> Minors:
+    """The minors of more rows, from those of the rows above; {0: 1} stands for no row. `times` multiplies, or refuses to.
 
     >>> from disting.algebra.symbols import symbols
     >>> a, b = symbols(["a", "b"]).values()
@@ -23,17 +25,17 @@ def minors(rows: Sequence[Sequence[fmpz_mpoly]], start: Minors) -> Minors:
     """
     found = start
     for row in rows:
-        found = _with_row(found, [(j, entry) for j, entry in enumerate(row) if not entry.is_zero()])
+        found = _with_row(found, [(j, entry) for j, entry in enumerate(row) if not entry.is_zero()], times)
     return found
 
 
-def _with_row(above: Minors, entries: list[tuple[int, fmpz_mpoly]]) -> Minors:
+def _with_row(above: Minors, entries: list[tuple[int, fmpz_mpoly]], times: Times) -> Minors:
     grown: Minors = {}
     for used, minor in above.items():
         for j, entry in entries:
             if used >> j & 1:
                 continue
-            term = entry * minor if (used >> j).bit_count() % 2 == 0 else -entry * minor
+            term = times(entry if (used >> j).bit_count() % 2 == 0 else -entry, minor)
             key = used | 1 << j
             grown[key] = grown[key] + term if key in grown else term
     return grown

@@ -13,16 +13,18 @@ from dataclasses import dataclass, field
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.symbols import renamed, symbols
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
 from disting.parametric.entries import polynomial, state_space
-from disting.parametric.expression import Tree, names, tree, value
+from disting.parametric.expansion import Expansion
+from disting.parametric.expression import tree
 from disting.parametric.ratio import Ratio
 from disting.parametric.response import response
+from disting.parametric.trees import LONGEST_NUMBER, Tree, names
 from disting.parametric.written import written
 
-LONGEST = 12_000  # bits of a number: longer ones are not written as text by Python
+MOST_SYMBOLS = 300
 Terms = tuple[tuple[tuple[int, ...], int], ...]
 """A polynomial in the parameters: exponents and coefficient of each term, in falling lexicographic order."""
 
@@ -59,7 +61,7 @@ class Model:
         if variable in parameters:
             raise InputError(f"the matrices contain the frequency variable {variable}; name another one with s=..")
         ring = symbols([variable, *parameters])
-        return _model(response(space, ring, ring[variable]), parameters, name)
+        return _model(response(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters, name)
 
     @staticmethod
     def from_transfer_function(num: object, den: object, *, s: object = "s", name: str = "model") -> "Model":
@@ -74,11 +76,11 @@ class Model:
         top, bottom = (polynomial(side, variable) for side in (num, den))
         parameters = tuple(name for name in _parameters([top, bottom]) if name != variable)
         ring = symbols([variable, *parameters])
-        one = ring[variable] ** 0
-        denominator = value(bottom, ring, one)
+        expansion = Expansion(ring, ring[variable] ** 0)
+        denominator = expansion.value(bottom)
         if denominator.num.is_zero():
             raise InputError("the denominator of the transfer function is zero")
-        return _model(value(top, ring, one) / denominator, parameters, name)
+        return _model(expansion.quotient(expansion.value(top), denominator), parameters, name)
 
     @staticmethod
     def from_chain(chain: Chain, *, name: str = "") -> "Model":
@@ -133,8 +135,8 @@ def _model(ratio: Ratio, parameters: tuple[str, ...], name: str) -> Model:
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
     top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))
-    if any(abs(number).bit_length() > LONGEST for terms in (*top, *bottom) for _, number in terms):
-        raise InputError(f"numbers of a model have {LONGEST} bits at most in lowest terms")
+    if any(abs(number).bit_length() > LONGEST_NUMBER for terms in (*top, *bottom) for _, number in terms):
+        raise InputError(f"numbers of a model have {LONGEST_NUMBER} bits at most in lowest terms")
     if len(top) > len(bottom):
         raise InputError(f"the transfer function is not proper: degree {len(top) - 1} over degree {len(bottom) - 1}")
     return Model(parameters, top, bottom, name)
@@ -150,14 +152,16 @@ def _coefficients(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
 
 def _parameters(entries: Iterable[Tree]) -> tuple[str, ...]:
     found = tuple(sorted({name for entry in entries for name in names(entry)}))
+    if len(found) > MOST_SYMBOLS:
+        raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(found)}")
     foreign = [name for name in found if not (name.isascii() and name.isprintable() and name)]
     if foreign:
-        raise InputError(f"names of parameters are ASCII, not {foreign[0]!r}")
+        raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
     return found
 
 
 def _variable(s: object) -> str:
     name = tree(s)
     if not isinstance(name, str):
-        raise InputError(f"the frequency variable is a symbol or its name, not {s}")
+        raise InputError(f"the frequency variable is a symbol or its name, not {shown(s)}")
     return name

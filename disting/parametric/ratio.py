@@ -42,8 +42,3 @@ class Ratio:
         if exponent < 0:
             return Ratio(self.den, self.num) ** -exponent
         return Ratio(self.num**exponent, self.den**exponent)
-
-
-def least_common_multiple(first: fmpz_mpoly, second: fmpz_mpoly) -> fmpz_mpoly:
-    """A polynomial of smallest degree that both divide."""
-    return first if first == second else first // first.gcd(second) * second

@@ -13,28 +13,29 @@ from functools import reduce
 from flint import fmpz_mpoly
 
 from disting.parametric.entries import StateSpace
-from disting.parametric.expression import Tree, value
+from disting.parametric.expansion import Expansion
 from disting.parametric.minors import minors
-from disting.parametric.ratio import Ratio, least_common_multiple
+from disting.parametric.ratio import Ratio
+from disting.parametric.trees import Tree
 
 
-def response(space: StateSpace, ring: dict[str, fmpz_mpoly], s: fmpz_mpoly) -> Ratio:
-    """G(s) in lowest terms; the ring holds the parameters."""
-    one = s**0
-    dynamics = [_cleared([*row, force], ring, one) for row, force in zip(space.a, space.b, strict=True)]
-    output, scale = _cleared([*space.c, space.d], ring, one)
+def response(space: StateSpace, expansion: Expansion, s: fmpz_mpoly) -> Ratio:
+    """G(s) in lowest terms; the ring of the expansion holds s and the parameters. Raises InputError if it grows too large."""
+    one = expansion.one
+    dynamics = [_cleared([*row, force], expansion) for row, force in zip(space.a, space.b, strict=True)]
+    output, scale = _cleared([*space.c, space.d], expansion)
     rows = [[-entry for entry in row[:-1]] + [row[-1]] for row, _ in dynamics]
     for i, (_, common) in enumerate(dynamics):
-        rows[i][i] += common * s
-    above = minors(rows, {0: one})
-    whole = minors([[*(-entry for entry in output[:-1]), output[-1]]], above)
+        rows[i][i] += expansion.times(common, s)
+    above = minors(rows, {0: one}, expansion.times)
+    whole = minors([[*(-entry for entry in output[:-1]), output[-1]]], above, expansion.times)
     n = len(rows)
     zero = one - one
-    return Ratio(whole.get((2 << n) - 1, zero), scale * above.get((1 << n) - 1, zero))
+    return expansion.ratio(whole.get((2 << n) - 1, zero), expansion.times(scale, above.get((1 << n) - 1, zero)))
 
 
-def _cleared(entries: list[Tree], ring: dict[str, fmpz_mpoly], one: fmpz_mpoly) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
+def _cleared(entries: list[Tree], expansion: Expansion) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
     """A row of entries times their common denominator, and this denominator."""
-    values = [value(entry, ring, one) for entry in entries]
-    common = reduce(least_common_multiple, (v.den for v in values), one)
-    return [v.num * (common // v.den) for v in values], common
+    values = [expansion.value(entry) for entry in entries]
+    common = reduce(expansion.common, (v.den for v in values), expansion.one)
+    return [expansion.times(v.num, common // v.den) for v in values], common

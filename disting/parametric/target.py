@@ -13,9 +13,11 @@ from math import lcm
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
 
-from disting.errors import InputError
-from disting.parametric.expression import names, tree, value
+from disting.errors import InputError, listed, shown
+from disting.parametric.expansion import Expansion
+from disting.parametric.expression import tree
 from disting.parametric.model import Model, Terms
+from disting.parametric.trees import names
 
 Polynomial = dict[tuple[int, ...], int]
 """A polynomial in t and the parameters of the searched model: exponents (that of t first) and integer coefficients."""
@@ -38,7 +40,7 @@ def rational_values(model: Model, values: Mapping[str, object]) -> tuple[tuple[s
     missing = [name for name in model.parameters if name not in values]
     foreign = [str(name) for name in values if name not in model.parameters]
     if missing or foreign:
-        said = [f"{what} {', '.join(which)}" for what, which in (("no value for", missing), ("no parameter", foreign)) if which]
+        said = [f"{what} {listed(which)}" for what, which in (("no value for", missing), ("no parameter", foreign)) if which]
         raise InputError(f"{model.name}: {'; '.join(said)}")
     return tuple((name, _number(name, values[name])) for name in model.parameters)
 
@@ -77,8 +79,8 @@ def _fmpq(number: Fraction) -> fmpq:
 def _number(name: str, entry: object) -> Fraction:
     written = tree(entry)
     if any(names(written)):
-        raise InputError(f"the value of {name} is a number, not {entry}")
-    found = value(written, {}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1))
+        raise InputError(f"the value of {name} is a number, not {shown(entry)}")
+    found = Expansion({}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1)).value(written)
     return Fraction(
         int(found.num.leading_coefficient()) if not found.num.is_zero() else 0, int(found.den.leading_coefficient())
     )

@@ -18,7 +18,8 @@ from fractions import Fraction
 from flint import arb, fmpq
 
 from disting.certainty import Certainty, Grade, graded
-from disting.errors import InputError
+from disting.errors import InputError, shown
+from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical, forms
 from disting.positivity.evidence import BoxMap, Excluded, Points
@@ -217,10 +218,13 @@ def _known(chain: Chain, side: Mapping[str, Range]) -> None:
 
 
 def _range(name: str, low: Bound, high: Bound) -> Range:
+    if any(isinstance(edge, str) and is_too_long(edge) for edge in (low, high)):
+        limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as a power of ten"
+        raise InputError(f"the range of {name}, {shown(low)} to {shown(high)}: a bound has {limits}; choose other units")
     try:
         exact = Fraction(low), Fraction(high)
     except (ValueError, TypeError, OverflowError, ZeroDivisionError):
-        raise InputError(f"the range of {name} has two numbers, not {low!r} and {high!r}") from None
+        raise InputError(f"the range of {name} has two numbers, not {shown(low)} and {shown(high)}") from None
     if not 0 <= exact[0] <= exact[1] or not exact[1]:
         raise InputError(f"the range of {name} is positive and not empty, not {low} to {high}")
     return exact

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Real
 
 
@@ -37,7 +37,7 @@ class Excitation:
         try:
             object.__setattr__(self, "kind", Kind(self.kind))
         except ValueError:
-            raise InputError(f"the excitation is one of {', '.join(Kind)}, not {self.kind!r}") from None
+            raise InputError(f"the excitation is one of {', '.join(Kind)}, not {shown(self.kind)}") from None
 
     def lines(self, samples: int, rate: float) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """Numbers of the lines within the band, multiples of rate/samples [Hz]."""

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.structure import POWER, Element, Structure
@@ -37,7 +37,7 @@ def checked(model: Chain | Structure, values: Mapping[str, float]) -> dict[str, 
         raise InputError(f"parameters {', '.join(names)} are needed, given are {', '.join(values) or 'none'}")
     for name, value in values.items():
         if not 0 <= value < np.inf or (name[0] == "m" and value == 0):
-            raise InputError(f"{name} = {value!r} is no {'positive' if name[0] == 'm' else 'non-negative'} number")
+            raise InputError(f"{name} = {shown(value)} is no {'positive' if name[0] == 'm' else 'non-negative'} number")
     return {name: float(values[name]) for name in names}
 
 

@@ -1,0 +1,45 @@
+"""Data at the ends of what floating point holds: fitted without a warning, or refused in a sentence."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from disting import Chain, InputError
+from disting.fit import select
+from disting.measurement import FrequencyResponse
+
+OMEGA = np.linspace(10.0, 100.0, 30)
+RESPONSE = 1 / (1 - (OMEGA / 50) ** 2 + 0.05j)
+REFUSED = {
+    "huge": (OMEGA, RESPONSE * 1e306),
+    "denormal": (OMEGA, RESPONSE * 1e-318),
+    "slow": (OMEGA * 1e-301, RESPONSE),
+    "fast": (OMEGA * 1e298, RESPONSE),
+    "wide": (OMEGA, RESPONSE * np.logspace(-150, 150, 30)),
+}
+TAKEN = {
+    "large": (OMEGA, RESPONSE * 1e26),
+    "small": (OMEGA, RESPONSE * 1e-26),
+    "constant": (OMEGA, np.ones(30, complex)),
+    "wide": (OMEGA, RESPONSE * np.logspace(-25, 25, 30)),
+    "slow": (OMEGA * 1e-28, RESPONSE),
+    "fast": (OMEGA * 1e26, RESPONSE),
+}
+
+
+def fitted(omega, response):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return select(FrequencyResponse(omega, response), [Chain(1), Chain(2, damped=True)])
+
+
+@pytest.mark.parametrize("data", REFUSED.values(), ids=REFUSED)
+def test_numbers_that_floating_point_cannot_square_are_refused(data):
+    with pytest.raises(InputError, match="choose other units"):
+        fitted(*data)
+
+
+@pytest.mark.parametrize("data", TAKEN.values(), ids=TAKEN)
+def test_other_numbers_are_fitted_without_a_warning(data):
+    assert all(np.isfinite(c.estimate.j) for c in fitted(*data).candidates)
