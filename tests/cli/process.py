@@ -3,6 +3,7 @@
 import csv
 import io
 import os
+import signal
 import subprocess
 import sys
 
@@ -13,6 +14,12 @@ def disting(*arguments, cache="off", cwd=None):
     environment = os.environ | {"DISTING_CACHE": str(cache), "COLUMNS": "100"}
     command = [*COMMAND, *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
+
+
+def heed_signals():
+    """Background jobs and nohup leave signals ignored, which children inherit."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def marked(folder):
