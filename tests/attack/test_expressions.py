@@ -22,6 +22,7 @@ HOSTILE = (
 )  # fmt: skip
 OPERATORS = {ast.Add: op.add, ast.Sub: op.sub, ast.Mult: op.mul, ast.Div: op.truediv, ast.Pow: op.pow}
 HUNG = 300  # seconds
+DEEPEST = 500  # sums of more are read by disting, but not by the reading here
 LONGEST = 2000  # characters of an error
 
 
@@ -92,7 +93,8 @@ def test_texts(counts):
         finally:
             faulthandler.cancel_dump_traceback_later()
         counts["accepted"] += 1
-        if set(model.parameters) <= set(NAMES):
+        if set(model.parameters) <= set(NAMES) and whole.count("+") < DEEPEST:
             found = at(model.numerator_terms, model.parameters) / at(model.denominator_terms, model.parameters)
+            counts["compared"] += 1
             counts["wrong"] += found != exactly(whole)
     assert counts["accepted"] and not counts["wrong"] + counts["long sentences"]
