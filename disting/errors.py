@@ -50,8 +50,8 @@ def shown(value: object) -> str:
 def listed(names: Iterable[str], separator: str = ", ") -> str:
     """Names in a row, the first of them if there are many.
 
-    >>> listed(map(str, range(10**6)))[-50:]
-    '25, 26, 27, 28, 29 and 999970 more'
+    >>> listed(map(str, range(10**6)))[-30:]
+    '26, 27, 28, 29 and 999970 more'
     """
     rest = iter(names)
     first = [name if len(name) <= LONGEST_ECHO else f"{name[: LONGEST_ECHO // 2]}…" for name in islice(rest, MOST_LISTED)]

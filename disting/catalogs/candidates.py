@@ -19,6 +19,7 @@ from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
+from disting.packaged import intact_text
 from disting.verdict import RULE_NAMES, Query, Relation, View
 from disting.written import write_whole
 
@@ -113,7 +114,7 @@ def read(folder: Path) -> Matrix:
     path = folder / FILE
     remedy = f"make it with '{COMMAND}'"
     try:
-        records = tuple(json.loads(line) for line in path.read_text(encoding="utf-8").splitlines())
+        records = tuple(json.loads(line) for line in intact_text(path).splitlines())
         n = records[0]["models"]
         whole = records[0]["schema"] == SCHEMA and [len(r["relation"]) for r in records[1 + n :]] == list(range(n - 1, 0, -1))
     except FileNotFoundError:

@@ -20,6 +20,7 @@ from disting.catalogs.files import Record, lines, shipped_folder
 from disting.engine.classes import Classes
 from disting.errors import CatalogError
 from disting.model.family import Family
+from disting.packaged import intact_text
 from disting.settings import Settings
 from disting.written import write_whole
 
@@ -68,7 +69,7 @@ def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
     path = folder / f"{name_of(n_masses, damped)}.jsonl"
     remedy = f"make it with '{COMMAND} {n_masses}'"
     try:
-        header, *models = (json.loads(line) for line in path.read_text(encoding="utf-8").splitlines())
+        header, *models = (json.loads(line) for line in intact_text(path).splitlines())
         if header["schema"] != SCHEMA:
             raise ValueError("another schema")
         return _family(Family(n_masses, damped), header, models)

@@ -14,6 +14,7 @@ from disting.conditions.subject import Subject
 from disting.engine import Engine
 from disting.engine.engine import question_key
 from disting.model.chain import Chain
+from disting.packaged import intact_text
 
 FILE = "settled-dampers.jsonl"
 Settled = dict[tuple[str, str], Finding]
@@ -23,7 +24,7 @@ Settled = dict[tuple[str, str], Finding]
 def read_settled(folder: Path) -> Settled:
     """What the folder's file holds; nothing if there is none."""
     path = folder / FILE
-    records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] if path.is_file() else []
+    records = [json.loads(line) for line in intact_text(path).splitlines()] if path.is_file() else []
     return {(r["left"], r["right"]): finding_from_json(json.dumps(r["finding"])) for r in records}
 
 

@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import CatalogError
+from disting.packaged import PROVENANCE as PROVENANCE
+from disting.packaged import intact_text
 from disting.packaged import shipped_folder as shipped_folder
 
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
-PROVENANCE = "provenance.json"
 LEFT_POSITIVE, RIGHT_POSITIVE = "left_positive", "right_positive"  # of a pair's record
 INCLUSIONS = "inclusions"
 Record = dict[str, Any]
@@ -35,7 +36,7 @@ def lines(records: list[Record]) -> str:
 def read_records(path: Path) -> list[Record]:
     """Records of a catalogue file; raises CatalogError where it is missing, damaged or of another schema."""
     try:
-        records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+        records = [json.loads(line) for line in intact_text(path).splitlines()]
         header = records[0]
         complete = _numbers(records) == [*range(1, header["models"] + 1), *combinations(range(1, header["models"] + 1), 2)]
     except FileNotFoundError:

@@ -14,7 +14,7 @@ from disting.cli.paths import written_file, written_folder
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.domain import Domain
-from disting.errors import LONGEST_ECHO, brief, shown
+from disting.errors import LONGEST_ECHO, shown
 from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 
@@ -236,7 +236,7 @@ class _Parser(argparse.ArgumentParser):
 
 def _short(message: str) -> str:
     """argparse echoes what it does not know as it is."""
-    return brief(" ".join(word if len(word) <= 2 * LONGEST_ECHO else f"{word[:LONGEST_ECHO]}…" for word in message.split(" ")))
+    return " ".join(word if len(word) <= 2 * LONGEST_ECHO else f"{word[:LONGEST_ECHO]}…" for word in message.split(" "))
 
 
 def _command(groups: Groups, name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:

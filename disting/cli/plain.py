@@ -36,8 +36,8 @@ def in_ascii(text: str) -> str:
 
 
 def complain(message: object) -> None:
-    """Write one line to standard error; what files and arguments hold steers no terminal there and is not quoted at length."""
-    print(brief(f"disting: {message}").replace("\n", " "), file=sys.stderr)
+    """Write one line to standard error, printable, and shortened in its middle where somebody gave very much to quote."""
+    print(f"disting: {brief(str(message))}".replace("\n", " "), file=sys.stderr)
 
 
 def _without_marks(character: str) -> str:

@@ -45,8 +45,8 @@ def _together(options: argparse.Namespace, choices: Sequence[bool]) -> Iterator[
     """Write the pages of several sizes, and yield their paths."""
     from disting.report.sizes import write_sizes
 
-    sizes = sorted({n for n in options.masses if n <= MOST_TOGETHER})
-    for damped in choices if len(sizes) > 1 else []:
+    sizes = range(1, MOST_TOGETHER + 1)  # whichever are asked for: the pages are the same in every run
+    for damped in choices if len(set(options.masses).intersection(sizes)) > 1 else []:
         with engine_for(options) as (engine, pool, progress):
             decided = combined(sizes, damped=damped, engine=engine, executor=pool, progress=progress)
         yield write_sizes(decided, options.out)

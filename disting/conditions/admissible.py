@@ -14,6 +14,7 @@ number of points of a generic fibre of a dominant map, all of them simple in cha
 the conjugate of a solution is a solution, so an odd n leaves at least one that is its own conjugate. A unique solution (n = 1)
 is real for that reason."""
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -26,7 +27,7 @@ from disting.conditions.ways import BothWays, OddFibres, weakest
 from disting.errors import ContradictionError, InputError
 from disting.identifiability import Identifiability
 from disting.model.chain import Chain
-from disting.positivity import PositiveFinding, Share, always_real, positive_finding, real_witness
+from disting.positivity import PositiveFinding, Share, Values, always_real, positive_finding, real_witness
 from disting.question import Question
 from disting.settings import Settings
 
@@ -41,9 +42,12 @@ RATIONAL = ("symmetry", "duality")  # theorems whose maps are rational, so that 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """Who answers what the real finding rests on: positive equivalents of the one in the other, and counts of solutions."""
+    """Who answers what the real finding rests on: positive equivalents of the one in the other, real models of the one without
+    any, and counts of solutions.
+    """
 
     positive: Callable[[Chain, Chain], PositiveFinding]
+    lacking: Callable[[Chain, Chain], Values]
     counted: Callable[[Chain], Identifiability]
 
 
@@ -55,6 +59,16 @@ def positive_share(given: Chain, other: Chain, settings: Settings) -> PositiveFi
         return PositiveFinding(Share.UNKNOWN, reason=str(reason))
 
 
+def lacking_real(given: Chain, other: Chain, settings: Settings) -> Values:
+    """A point of one canonical chain in an open set of real models without real equivalents in another; () if none is found."""
+    return real_witness(given, other, settings.seed)
+
+
+def _values(text: str) -> Values:
+    return tuple((name, value) for name, value in json.loads(text))
+
+
+LACKING = Question("real models without equivalents", lacking_real, json.dumps, _values)
 POSITIVELY = Question("positive equivalents", positive_share, PositiveFinding.to_json, PositiveFinding.from_json)
 
 
@@ -90,21 +104,28 @@ def needs_counts(left: Chain, right: Chain) -> bool:
     return bool(left.damped or left.ground_dampers) and not rational_map(left, right)
 
 
-def real_finding(left: Chain, right: Chain, asked: Asked, settings: Settings) -> Finding:
+def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
+    """The orders in which a real model without real equivalents is looked for, the second one only if the first has none."""
+    if rational_map(left, right) or real_factors(left, right):
+        return ()
+    return tuple(sorted(((left, right), (right, left)), key=lambda pair: pair[0].indices))
+
+
+def real_finding(left: Chain, right: Chain, asked: Asked) -> Finding:
     """Over real parameters, for pairs of canonical chains that are equal over C."""
     named = rational_map(left, right)
     if named:
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
     if real_factors(left, right):
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
-    found = _by_witnesses(left, right, asked, settings)
+    found = _by_witnesses(left, right, asked)
     return by_counts(asked.counted(left), asked.counted(right)) if found is None else found
 
 
-def _by_witnesses(left: Chain, right: Chain, asked: Asked, settings: Settings) -> Finding | None:
+def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
     """An open set of real models without real equivalents, and positive ones with a positive equivalent."""
-    pairs = sorted(((left, right), (right, left)), key=lambda pair: pair[0].indices)
-    found = ((given is left, real_witness(given, other, settings.seed)) for given, other in pairs)
+    pairs = witness_ways(left, right)
+    found = ((given is left, asked.lacking(given, other)) for given, other in pairs)
     left_given, without = next((x for x in found if x[1]), (False, ()))
     for given, other in pairs if without else ():
         with_one = asked.positive(given, other)

@@ -6,7 +6,7 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
-from disting.conditions.admissible import POSITIVELY, Asked, positive_ways, real_finding
+from disting.conditions.admissible import LACKING, POSITIVELY, Asked, positive_ways, real_finding
 from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.exact import EXACT, exact_finding, mirrored, resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
@@ -17,7 +17,7 @@ from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
-from disting.positivity import PositiveFinding
+from disting.positivity import PositiveFinding, Values
 from disting.question import Answerer, Question, computed
 from disting.settings import Settings
 
@@ -34,10 +34,14 @@ class Subject:
     settings: Settings = field(default_factory=Settings)
     source: ProfileSource = profile
     answerer: Answerer = computed
+    _known: dict[tuple[Representation, int], Profile] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def profile(self, representation: Representation, count: int) -> Profile:
         """Profile of the canonical form, which all symmetric chains share."""
-        return self.source(self.canonical.chain.structure, representation, count, self.settings)
+        if (representation, count) not in self._known:
+            found = self.source(self.canonical.chain.structure, representation, count, self.settings)
+            self._known[representation, count] = found
+        return self._known[representation, count]
 
     @property
     def rank(self) -> int:
@@ -55,8 +59,8 @@ class Subject:
         """Whether two models that are indistinguishable over complex parameters are so over this domain."""
         if domain is Domain.POSITIVE:
             return positive_ways(self.positive(other), other.positive(self))
-        asked = Asked(self._positive, self._identifiability)
-        return real_finding(self.canonical.chain, other.canonical.chain, asked, self.settings)
+        asked = Asked(self._positive, self._lacking, self._identifiability)
+        return real_finding(self.canonical.chain, other.canonical.chain, asked)
 
     def positive(self, other: "Subject") -> PositiveFinding:
         """Which positive models of the one have a positive equivalent in the other; evidence in canonical names."""
@@ -64,6 +68,9 @@ class Subject:
 
     def _positive(self, given: Chain, other: Chain) -> PositiveFinding:
         return self.answerer(POSITIVELY, (given, other), self.settings)
+
+    def _lacking(self, given: Chain, other: Chain) -> Values:
+        return self.answerer(LACKING, (given, other), self.settings)
 
     def _identifiability(self, canonical_chain: Chain) -> Identifiability:
         return self.answerer(IDENTIFIABILITY, (canonical_chain,), self.settings)

@@ -6,6 +6,7 @@ only pairs that share all buckets are looked at one by one. Evidence is made whe
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.admissible import ADMISSIBLE, POSITIVELY, needs_counts, resting_on
+from disting.conditions.admissible import ADMISSIBLE, LACKING, POSITIVELY, needs_counts, resting_on, witness_ways
 from disting.conditions.exact import EXACT
 from disting.conditions.finding import Finding
 from disting.conditions.subject import EXACTLY, Subject
@@ -72,7 +73,11 @@ class Decisions:
     def profile(self, representation: str, i: int) -> Profile:
         """The profile by which pairs of model i were decided in a representation."""
         r = Representation(representation)
-        return self.subjects[i].profile(r, _count(r, self.query, self.subjects))
+        return self.subjects[i].profile(r, 0 if r is Representation.TF else self._markov)
+
+    @cached_property
+    def _markov(self) -> int:
+        return _count(Representation.MARKOV, self.query, self.subjects)
 
     def relation(self, i: int, j: int) -> Relation:
         """Relation of subjects i and j (counted from 0, in any order)."""
@@ -220,6 +225,7 @@ def _admissible(result: Decisions, ask: Ask) -> None:
     if domain is Domain.REAL:
         pairs = [pair for pair in _pairs(result, same) if needs_counts(*(s.canonical.chain for s in pair))]
         ask(IDENTIFIABILITY, [(s.canonical.chain,) for pair in pairs for s in pair])
+        _lacking(_pairs(result, same), ask)
     for i, j in zip(*np.nonzero(same), strict=True):
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
         found = result.subjects[i].admissible(result.subjects[j], domain)
@@ -229,6 +235,16 @@ def _admissible(result: Decisions, ask: Ask) -> None:
             result.steps[int(i), int(j)] = step
         result.decided_by[i, j] = step.finding.number if known else 0
         result.representation[i, j] = REPRESENTATIONS.index(PARAMETERS if known else "")
+
+
+def _lacking(pairs: Sequence[tuple[Subject, Subject]], ask: Ask) -> None:
+    """Real models without real equivalents, the second way where the first finds none."""
+    ways = [(pair[0], witness_ways(*(s.canonical.chain for s in pair))) for pair in pairs]
+    for k in range(2):
+        asked = [(s, way[k]) for s, way in ways if len(way) > k]
+        ask(LACKING, [chains for _, chains in asked])
+        none = {chains for s, chains in asked if not s.answerer(LACKING, chains, s.settings)}
+        ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
 
 
 def _necessary(result: Decisions, open_pairs: NDArray[np.bool_], r: Representation, active: NDArray[np.intp]) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 from disting.algebra.symbols import coefficients, symbols
 from disting.equivalence.expression import Expression
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 from disting.model.structure import Ports, Structure
 
@@ -87,8 +87,8 @@ def _seen(given: Chain, ports: Ports, *, wall: bool) -> Ladder:
     structure: Structure = replace(given.structure, ports=ports)
     ring = _ring(given)
     one = ring["s"] ** 0
-    raw = receptance(structure, ring, ring["s"], one)
-    num, den = ([Expression(c, one) for c in coefficients(p, "s")[::2]] for p in (raw.num, raw.den))
+    found = plain_receptance(structure, ring, ring["s"], one)
+    num, den = ([Expression(c, one) for c in coefficients(p, "s")[::2]] for p in found)
     return ladder(num, den, wall=wall)
 
 

@@ -17,7 +17,7 @@ from flint import fmpq
 from disting.algebra.symbols import symbols
 from disting.equivalence.expression import Expression, variables
 from disting.equivalence.residual import exactly_equal
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 
 BITS = 256  # of a random coordinate
@@ -28,9 +28,9 @@ def is_identity(given: Chain, other: Chain, formulas: Mapping[str, Expression]) 
     ring = symbols(["s", *given.parameters])
     names = variables(["s", *given.parameters])
     one = names["s"] / names["s"]
-    plain = receptance(given.structure, ring, ring["s"], ring["s"] ** 0)
-    ours = receptance(other.structure, formulas, names["s"], one)
-    return bool((ours.num / ours.den) == Expression(plain.num, plain.den))
+    plain = plain_receptance(given.structure, ring, ring["s"], ring["s"] ** 0)
+    num, den = plain_receptance(other.structure, formulas, names["s"], one)
+    return bool((num / den) == Expression(*plain))
 
 
 def holds_at_random(given: Chain, other: Chain, formulas: Mapping[str, Expression], seed: str) -> bool:

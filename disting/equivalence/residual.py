@@ -6,7 +6,7 @@ from typing import Any
 
 from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 
 Number = Any  # fmpq or acb
@@ -16,11 +16,11 @@ BITS = 320  # of the evaluation; inputs of 15 digits leave far more than enough
 def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, fmpq]) -> bool:
     """Whether two models at rational points have the same transfer function: exact, common factors do not matter."""
     one, s = fmpq_poly([1]), fmpq_poly([0, 1])
-    f, g = (
-        receptance(chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, one)
+    (f_num, f_den), (g_num, g_den) = (
+        plain_receptance(chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, one)
         for chain, values in ((left, a), (right, b))
     )
-    return bool(f.num * g.den == g.num * f.den)
+    return bool(f_num * g_den == g_num * f_den)
 
 
 def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, Number]) -> float:
@@ -36,10 +36,10 @@ def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str,
 def _coefficients(chain: Chain, values: Mapping[str, Number]) -> Iterator[list[acb]]:
     """Numerator and denominator, coefficients from low to high."""
     lifted = {name: acb_poly([acb(value)]) for name, value in values.items()}
-    raw = receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))
-    lead = raw.den[raw.den.degree()]
-    for p in (raw.num, raw.den):
-        yield [p[i] / lead for i in range(raw.den.degree() + 1)]
+    num, den = plain_receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))
+    lead = den[den.degree()]
+    for p in (num, den):
+        yield [p[i] / lead for i in range(den.degree() + 1)]
 
 
 def _relative(given: list[acb], ours: list[acb]) -> float:

@@ -13,6 +13,7 @@ too, and a q with elements that are zero still shows that y lies in the image of
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from flint import nmod_mat
 
@@ -20,6 +21,7 @@ from disting.algebra.sampling import about, prime, residues
 from disting.ideals.system import CoefficientMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
+REMEMBERED = 512  # ranks: a part of a chain is asked for in many pairs
 BITS = 64  # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
 
 
@@ -62,6 +64,7 @@ def drawn(given: CoefficientMap, label: str, bits: int = BITS) -> tuple[int, tup
     return modulus, tuple(residues(f"{name}:{label}", 1, modulus)[0] for name in given.parameters)
 
 
+@lru_cache(maxsize=REMEMBERED)
 def generic_rank(model: CoefficientMap, label: str) -> int:
     """Rank of the Jacobian matrix at a random point: a lower bound of the generic rank, and equal to it but for bad luck."""
     modulus, point = drawn(model, about(label, model.content))
@@ -92,8 +95,24 @@ def derivative(terms: Terms, at: int) -> Terms:
 
 def jacobian(model: CoefficientMap, point: Sequence[int], modulus: int) -> nmod_mat:
     """Jacobian matrix (coordinates x parameters) at a point modulo a prime."""
-    rows = [[evaluated(derivative(c, j), point, modulus) for j in range(len(point))] for c in model.coordinates]
+    rows = [_gradient(c, point, modulus) for c in model.coordinates]
     return nmod_mat(len(rows), len(point), [x for row in rows for x in row], modulus)
+
+
+def _gradient(terms: Terms, point: Sequence[int], modulus: int) -> list[int]:
+    """All first derivatives of a polynomial: of each term the products of what stands before and behind each factor."""
+    total = [0] * len(point)
+    for exponents, number in terms:
+        factors = [(j, e, point[j]) for j, e in enumerate(exponents) if e]
+        behind = [1]
+        for _, e, x in reversed(factors):
+            behind.append(behind[-1] * (x if e == 1 else pow(x, e, modulus)) % modulus)
+        before = number
+        for k, (j, e, x) in enumerate(factors, 1):
+            lowered = 1 if e == 1 else e * pow(x, e - 1, modulus)
+            total[j] += before * lowered * behind[-1 - k] % modulus
+            before = before * (x if e == 1 else pow(x, e, modulus)) % modulus
+    return [x % modulus for x in total]
 
 
 def pivots(echelon: nmod_mat, rank: int) -> list[int]:

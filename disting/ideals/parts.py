@@ -21,12 +21,14 @@ they are all equal, against 2. The same with E and F.
 So there are three splits at most: (R, F); (F - c/x^q, R + c/x^q), c the residue of F at the double zero; (H - c/x^q, c/x^q).
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.ideals.system import CoefficientMap, receptance_of_row, rows, separated
 from disting.model.structure import Structure
+
+REMEMBERED = 256  # structures whose parts are kept: each is asked for in many pairs
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +68,7 @@ def gap(structure: Structure) -> int:
     return structure.blocks[0][1] if len(structure.blocks) == 2 else 0
 
 
+@lru_cache(maxsize=REMEMBERED)
 def parts(structure: Structure) -> Parts:
     """The parts of a plain chain.
 
@@ -90,15 +93,18 @@ def relative_degree(model: CoefficientMap) -> int:
     return denominator - numerator
 
 
-def splits(given: Structure, h: int) -> Iterator[Split]:
+@lru_cache(maxsize=REMEMBERED)
+def splits(given: Structure, h: int) -> tuple[Split, ...]:
     """The splits of a generic receptance of `given` for a chain of as many masses with a gap h > 0, if the theorem applies."""
     n, g = given.n_masses, gap(given)
+    found = list[Split]()
     if h == g:
-        yield Split("same", parts(given))
+        found.append(Split("same", parts(given)))
     if g and h == n - 1 - g:
-        yield Split("exchanged", Parts(_without_rigid_body(given), _with_rigid_body(given)))
+        found.append(Split("exchanged", Parts(_without_rigid_body(given), _with_rigid_body(given))))
     if h == n - 1 and h != g:
-        yield Split("rigid", Parts(_without_rigid_body(given, whole=True), _rigid_body()))
+        found.append(Split("rigid", Parts(_without_rigid_body(given, whole=True), _rigid_body())))
+    return tuple(found)
 
 
 def _without_rigid_body(structure: Structure, whole: bool = False) -> CoefficientMap:

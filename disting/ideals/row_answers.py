@@ -15,7 +15,7 @@ from pathlib import Path
 from disting.errors import CatalogError
 from disting.ideals.rows import DampedRow
 from disting.ideals.zeros import Branched, confirms_branches
-from disting.packaged import shipped_folder
+from disting.packaged import intact_text, shipped_folder
 
 ROWS = "rows.jsonl"
 Answers = dict[frozenset[DampedRow], Branched]
@@ -24,7 +24,7 @@ Answers = dict[frozenset[DampedRow], Branched]
 def rows_text(folder: Path | None = None) -> str:
     """The text of the folder's file, the shipped one by default; nothing if there is none."""
     path = (folder or shipped_folder()) / ROWS
-    return path.read_text(encoding="utf-8") if path.is_file() else ""
+    return intact_text(path) if path.is_file() else ""
 
 
 def read_answers(folder: Path | None = None) -> Answers:

@@ -76,6 +76,9 @@ class CoefficientMap:
         """A digest of all that tells two maps apart, for the labels of their points and primes."""
         return digest(self.parameters, self.degrees, self.coordinates)
 
+    def __hash__(self) -> int:
+        return hash(self.content)
+
     def with_scale(self) -> "CoefficientMap":
         """All coefficients times one more parameter: then equal functions have equal coefficients, monic or not."""
         ring = symbols([*self.parameters, SCALE])

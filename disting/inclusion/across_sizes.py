@@ -27,10 +27,11 @@ from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, 
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.limit_fibre import contained
 from disting.inclusion.limits import follows, reached
-from disting.inclusion.meeting import degrees, room
+from disting.inclusion.meeting import room
 from disting.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.inclusion.profiles import ordered
 from disting.inclusion.rows import Row, rows_of
+from disting.invariants.powers import degrees
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -78,7 +79,7 @@ def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meetin
     if parts is not None:
         return Limit(left_is_larger, parts)
     whole = room(rational_part(small), rational_part(large))
-    if whole is not None and whole.suffices:
+    if whole.suffices:
         return Meeting(left_is_larger, *astuple(whole))
     return next(_indirect(small, large, left_is_larger), None)
 
@@ -151,6 +152,6 @@ def _part(given: str, row: Row, wanted: str, target: Row, counting: bool) -> Par
         return PartLimit(given, wanted, ways[target])
     for below, steps in ways.items() if counting else ():
         found = room(target.structure, below.structure)
-        if found is not None and found.suffices and below in follows(row, steps):
+        if found.suffices and below in follows(row, steps):
             return PartLimit(given, wanted, steps, tuple(map(int, astuple(found))))
     return None

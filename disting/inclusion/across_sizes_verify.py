@@ -71,4 +71,4 @@ def _leads(part: PartLimit, row: Row, target: Row) -> bool:
     if not part.room:
         return target in ends
     counts = (room(target.structure, below.structure, "verify") for below in ends)
-    return any(c is not None and c.suffices and tuple(map(int, astuple(c))) == part.room for c in counts)
+    return any(c.suffices and tuple(map(int, astuple(c))) == part.room for c in counts)

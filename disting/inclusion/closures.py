@@ -27,6 +27,7 @@ the larger chain's parts can be, their sum is a limit of its models. So `of_clos
 * RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error bound."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from disting.algebra.sampling import about, prime, residues
 from disting.certainty import LEAST_SAFETY, joint_safety
@@ -37,14 +38,16 @@ from disting.ideals.parts import gap, has_relation, is_plain, parts, power, spli
 from disting.ideals.system import terms
 from disting.inclusion.end_rows import end_resultant
 from disting.inclusion.inner_rows import inner_resultant
-from disting.inclusion.meeting import powers
 from disting.inclusion.outside_evidence import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
 from disting.inclusion.row_equations import equation_safety, row_equation
 from disting.inclusion.rows import FREE, Row, rows_of
+from disting.invariants.powers import powers
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
 
 LARGEST_ROW = 3  # masses of a row whose equations are looked for: those of larger ones have too many monomials
+RANKS = "ranks of rows"  # label of the points where ranks are seen: they prove what they show, so all pairs may share them
+REMEMBERED = 256  # rows whose rank is kept
 TRIALS = 3  # primes and points at which an equation must not vanish
 Support = tuple[frozenset[int], frozenset[int]]
 
@@ -149,14 +152,14 @@ def _coefficient(piece: Piece, label: str) -> tuple[Why, str] | None:
 def _full(piece: Piece, label: str) -> tuple[Why, str] | None:
     if _coefficient(piece, label) is not None:
         return None
-    missing = _coordinates(piece.there) - generic_rank(piece.there, label)
+    missing = _coordinates(piece.there) - generic_rank(piece.there, RANKS)
     if missing == 0:
         return Why.FULL, ""
     return (Why.MOMENTUM, "") if missing == 1 and _keeps_momentum(piece) else None
 
 
 def _rank(piece: Piece, label: str) -> tuple[Why, str] | None:
-    here, most = _rank_of_function(piece.wanted, label), min(len(piece.there.parameters), _coordinates(piece.there))
+    here, most = _rank_of_function(piece.wanted), min(len(piece.there.parameters), _coordinates(piece.there))
     return (Why.RANK, f"{here} > {most}") if here > most else None
 
 
@@ -208,9 +211,10 @@ def _keeps_momentum(piece: Piece) -> bool:
     return {0, 1} <= num and {2, 3} <= den
 
 
-def _rank_of_function(model: CoefficientMap, label: str) -> int:
+@lru_cache(maxsize=REMEMBERED)
+def _rank_of_function(model: CoefficientMap) -> int:
     """Rank of the coefficients up to a common factor."""
-    return generic_rank(model.with_scale(), label) - 1
+    return generic_rank(model.with_scale(), RANKS) - 1
 
 
 def _at(model: CoefficientMap, label: str, modulus: int) -> tuple[list[int], list[int]]:

@@ -20,8 +20,8 @@ from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
 from disting.ideals import Limits, Refuted, decide, normalised, refuted_by_parts
 from disting.inclusion.finding import Inclusion, InclusionFinding
-from disting.inclusion.meeting import powers
 from disting.inclusion.profiles import by_relative_degrees
+from disting.invariants.powers import powers
 from disting.model.chain import Chain
 from disting.settings import Settings
 from disting.synthesis.decide import DRAWS, Exact, Grounds, Membership, member, point_bits, safety_of_point

@@ -13,15 +13,16 @@ from dataclasses import dataclass, replace
 from itertools import combinations, islice, product
 from math import ceil, log2
 
+from disting.certainty import LEAST_SAFETY
 from disting.ideals import Decision, Limits, Membership, Solved, coefficient_map, confirms, decide
 from disting.inclusion.limits import Step, follows, reached
-from disting.inclusion.meeting import least_rank, most_rank, powers
+from disting.inclusion.meeting import least_rank, most_rank
 from disting.inclusion.rows import Row, rows_of
+from disting.invariants.powers import powers
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
 
 LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre
-LEAST = 100  # bits of an error bound that are asked for
 MODELS = 12  # that are tried for a pair
 RowSteps = tuple[tuple[str, tuple[Step, ...]], ...]
 
@@ -44,7 +45,7 @@ def contained(small: Chain, large: Chain, seed: str) -> Contained | None:
         found = _decided(target, joined(rows), seed)
         safety = found.safety - ceil(log2(MODELS))  # any of the models tried may mislead
         solved = found.evidence
-        if found.membership is not Membership.MEMBER or not isinstance(solved, Solved) or safety < LEAST:
+        if found.membership is not Membership.MEMBER or not isinstance(solved, Solved) or safety < LEAST_SAFETY:
             continue
         if tells(solved, target, joined(rows), seed) and _follow(steps, rows, rows_of(large)):
             return Contained(steps, solved, safety)

@@ -21,7 +21,7 @@ from typing import Any
 
 from disting.algebra.symbols import coefficients, symbols
 from disting.inclusion.rows import Row
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring
 
 INFINITE, ZERO = "∞", "0"
@@ -125,8 +125,7 @@ def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> It
 
 def _written(row: Row, values: dict[str, Any]) -> tuple[Any, Any]:
     """Numerator and denominator of the receptance for these elements and s of a ring."""
-    found = receptance(row.structure, values, values["s"], values["s"] ** 0)
-    return found.num, found.den
+    return plain_receptance(row.structure, values, values["s"], values["s"] ** 0)
 
 
 def _part(polynomial: Any, name: str, limit: str) -> Any:

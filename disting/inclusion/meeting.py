@@ -20,17 +20,12 @@ subspace of the two equations a_0 = m b_0 and a_1 = m b_1. So one dimension less
 from dataclasses import dataclass
 from functools import lru_cache
 
-from disting.algebra.quotient import constant, variable
-from disting.algebra.sampling import prime
+from disting.invariants.powers import Powers, powers
 from disting.invariants.sample import Representation, drawn, seen_at
-from disting.invariants.transfer import receptance
 from disting.model.structure import Structure
 
 POINTS = 2  # at which a rank is looked at; what is seen at one is a lower bound
-LARGEST = 20  # masses whose coefficients at unit parameters, at most 8 * 6^N, are below a prime of 61 bits
 REMEMBERED = 4096
-Powers = tuple[frozenset[int], frozenset[int]]
-"""The powers of s in numerator and denominator, common ones cancelled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,48 +43,11 @@ class Room:
         return self.factors > 0 and self.rank + self.factors + self.same_mass >= self.coordinates
 
 
-def room(small: Structure, large: Structure, seed: str = "meeting") -> Room | None:
-    """The numbers for two structures with the same sensor, without dead time; None where there are too many masses.
-
-    The rank is seen at points that the seed determines.
-    """
-    if max(small.n_masses, large.n_masses) > LARGEST:
-        return None
+def room(small: Structure, large: Structure, seed: str = "meeting") -> Room:
+    """The numbers for two structures with the same sensor, without dead time; the rank is seen at points of the seed."""
     wanted, given = powers(small), powers(large)
     factors = sum(_fits(c, wanted, given) for c in range(max(given[1]) + 1))
     return Room(least_rank(large, seed), sum(map(len, given)), factors, _same_mass(small, large))
-
-
-def powers(structure: Structure) -> Powers:
-    """The powers of s in the transfer function."""
-    return _powers(structure)[0]
-
-
-def common_power(structure: Structure) -> int:
-    """The power of s that numerator (times that of the sensor) and denominator have in common before it is cancelled."""
-    return _powers(structure)[1]
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _powers(structure: Structure) -> tuple[Powers, int]:
-    """The powers of s and the common one.
-
-    The coefficients are sums of products of parameters with positive signs (matrix-tree theorem), so exactly those vanish
-    identically that vanish for unit parameters.
-    """
-    modulus = prime("powers")
-    one, s = constant(1, modulus), variable(modulus)
-    found = receptance(structure, dict.fromkeys(structure.parameters, one), s, one)
-    num, den = ({i for i, c in enumerate(p.coeffs()) if int(c)} for p in (found.num, found.den))
-    num = {i + structure.sensor_order for i in num}
-    common = min(num | den)
-    return (frozenset(i - common for i in num), frozenset(i - common for i in den)), common
-
-
-def degrees(structure: Structure) -> tuple[int, int]:
-    """Degrees of numerator and denominator."""
-    num, den = powers(structure)
-    return max(num), max(den)
 
 
 def _fits(c: int, wanted: Powers, given: Powers) -> bool:

@@ -29,7 +29,6 @@ from itertools import islice, product
 
 from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import prime
-from disting.inclusion.meeting import powers
 from disting.inclusion.profiles import part_falls
 from disting.inclusion.row_equations import RowEquation, equation_safety, row_equation
 from disting.inclusion.rows import GROUNDED, rows_of
@@ -43,6 +42,7 @@ from disting.inclusion.split_poles import (
     split_model,
     step_of,
 )
+from disting.invariants.powers import powers
 from disting.model.chain import Chain
 
 TRIALS = 3  # points and primes, where an equation of the grounded row is used

@@ -14,12 +14,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
 from math import ceil, comb, log2
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from disting.algebra.quotient import constant, matrix, variable
-from disting.algebra.sampling import Size, prime, residues, safety
-from disting.inclusion.meeting import common_power, powers
+from disting.algebra.sampling import SEARCH_BITS, Size, prime, residues, safety
 from disting.inclusion.rows import Row
-from disting.invariants.transfer import receptance, values_at
+from disting.invariants.powers import common_power, powers
+from disting.invariants.transfer import plain_receptance, values_at
 
 DEGREES = range(2, 9)
 MONOMIALS = 120  # of a block, at most
@@ -48,7 +52,7 @@ class RowEquation:
 def row_equation(row: Row, label: str) -> RowEquation | None:
     """An equation of the lowest degree that has one, modulo the prime of the label; None up to the largest block."""
     block, modulus = _block(row), prime(label)
-    found = _kernel_vector(block, _models(row, len(block), label), modulus) if block else None
+    found = _kernel_vector(block, _models(row, len(block), label, modulus), modulus) if block else None
     return None if found is None else RowEquation(block, found, modulus)
 
 
@@ -67,12 +71,23 @@ def equation_safety(row: Row) -> int:
 
 @lru_cache(maxsize=REMEMBERED)
 def _block(row: Row) -> Block:
-    """The first block with an equation, modulo one prime; () if there is none."""
+    """The first block with an equation, modulo one short prime; () if there is none."""
     weights = [(first, i) for first, p in zip((1, 0), powers(row.structure), strict=True) for i in sorted(p)]
-    models = _models(row, MONOMIALS, SEARCH)
+    modulus = prime(SEARCH, SEARCH_BITS)
+    models = np.array(_models(row, MONOMIALS, SEARCH, modulus), dtype=np.uint64)
     degrees = (d for d in DEGREES if comb(len(weights) + d - 1, d) <= ALL_MONOMIALS)
     small = (block for degree in degrees for block in _blocks(weights, degree) if len(block) <= MONOMIALS)
-    return next((block for block in small if _kernel_vector(block, models, prime(SEARCH)) is not None), ())
+    return next((block for block in small if _nullspace(_values(block, models, modulus), modulus)[1]), ())
+
+
+def _values(block: Block, models: NDArray[np.uint64], modulus: int) -> list[list[int]]:
+    """The monomials (columns) in a few models more than there are of them (rows), modulo a prime of SEARCH_BITS."""
+    factors = models[: len(block) + MORE, np.array(block)]
+    found = factors[:, :, 0]
+    for k in range(1, factors.shape[2]):
+        found = found * factors[:, :, k] % np.uint64(modulus)
+    rows: list[list[int]] = found.tolist()
+    return rows
 
 
 def _blocks(weights: list[tuple[int, int]], degree: int) -> list[Block]:
@@ -85,14 +100,19 @@ def _blocks(weights: list[tuple[int, int]], degree: int) -> list[Block]:
 
 def _kernel_vector(block: Block, models: list[tuple[int, ...]], modulus: int) -> tuple[int, ...] | None:
     """Numbers with which the monomials sum to zero in all models; None if there are none."""
-    rows = [[_product(m, model, modulus) for m in block] for model in models[: len(block) + MORE]]
-    basis, nullity = matrix(rows, len(block), modulus).nullspace()
+    basis, nullity = _nullspace([[_product(m, model, modulus) for m in block] for model in models], modulus)
     return tuple(int(basis[i, 0]) for i in range(len(block))) if nullity else None
 
 
-def _models(row: Row, count: int, label: str) -> list[tuple[int, ...]]:
+def _nullspace(rows: list[list[int]], modulus: int) -> tuple[Any, int]:
+    """Columns that span the kernel of a matrix modulo a prime, and how many they are."""
+    found: tuple[Any, int] = matrix(rows, len(rows[0]), modulus).nullspace()
+    return found
+
+
+def _models(row: Row, count: int, label: str, modulus: int) -> list[tuple[int, ...]]:
     """More random models than there are monomials."""
-    return [_model(row, f"{label}:{k}", prime(label)) for k in range(count + MORE)]
+    return [_model(row, f"{label}:{k}", modulus) for k in range(count + MORE)]
 
 
 def _model(row: Row, label: str, modulus: int) -> tuple[int, ...]:
@@ -103,10 +123,10 @@ def _model(row: Row, label: str, modulus: int) -> tuple[int, ...]:
 def model_at(row: Row, point: Sequence[int], modulus: int) -> tuple[int, ...]:
     """The coefficients of N, then D, at a point modulo a prime: polynomials in the parameters, also where the lowest vanish."""
     values = values_at(row.structure, point, lambda number: constant(number, modulus))
-    found = receptance(row.structure, values, variable(modulus), constant(1, modulus))
+    found_num, found_den = plain_receptance(row.structure, values, variable(modulus), constant(1, modulus))
     shift = common_power(row.structure)
     num, den = powers(row.structure)
-    return (*(int(found.num[i + shift]) for i in sorted(num)), *(int(found.den[i + shift]) for i in sorted(den)))
+    return (*(int(found_num[i + shift]) for i in sorted(num)), *(int(found_den[i + shift]) for i in sorted(den)))
 
 
 def _product(monomial: Monomial, coefficients: tuple[int, ...], modulus: int) -> int:

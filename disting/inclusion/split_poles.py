@@ -6,7 +6,7 @@ from typing import Any
 
 from disting.algebra.quotient import constant, variable
 from disting.algebra.sampling import prime, residues
-from disting.inclusion.meeting import degrees
+from disting.invariants.powers import degrees
 from disting.invariants.sample import quotient
 from disting.model.chain import Chain, Sensor
 

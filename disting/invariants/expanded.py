@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from flint import fmpz_mpoly
 
 from disting.algebra.symbols import coefficients, renamed, symbols
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 
@@ -31,12 +31,17 @@ def expanded(structure: Structure) -> Expanded:
     >>> str(r.num), str(r.den)
     ('1', 'm1')
     """
-    ring = symbols(["s", *structure.parameters])
-    s, one = ring["s"], ring["s"] ** 0
-    r = receptance(structure, ring, s, one)
-    num, den = r.num * s**structure.sensor_order, r.den
+    num, den = written_out(structure)
+    s = num.context().gens()[0]
     power = min(_valuation(num), _valuation(den))
     return Expanded(num // s**power, den // s**power)
+
+
+def written_out(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """Numerator (times s to the sensor's order) and denominator, common powers of s not cancelled; s is the first symbol."""
+    ring = symbols(["s", *structure.parameters])
+    num, den = plain_receptance(structure, ring, ring["s"], ring["s"] ** 0)
+    return num * ring["s"] ** structure.sensor_order, den
 
 
 def transfer_function(chain: Chain) -> Expanded:

@@ -11,8 +11,8 @@ from functools import lru_cache
 from flint import fmpz_poly
 
 from disting.algebra.symbols import coefficients
-from disting.invariants.expanded import expanded
-from disting.invariants.transfer import receptance
+from disting.invariants.expanded import written_out
+from disting.invariants.transfer import plain_receptance
 from disting.model.structure import Structure
 
 REMEMBERED = 4096
@@ -20,7 +20,6 @@ Powers = tuple[frozenset[int], frozenset[int]]
 """The powers of s in numerator and denominator, common ones cancelled."""
 
 
-@lru_cache(maxsize=REMEMBERED)
 def powers(structure: Structure) -> Powers:
     """The powers of s whose coefficients do not vanish identically, of the transfer function without dead time.
 
@@ -28,10 +27,20 @@ def powers(structure: Structure) -> Powers:
     >>> [sorted(p) for p in powers(Chain(2, meas_plus=2).structure)]
     [[0], [0, 2]]
     """
+    return _powers(structure)[0]
+
+
+def common_power(structure: Structure) -> int:
+    """The power of s that numerator (times that of the sensor) and denominator have in common before it is cancelled."""
+    return _powers(structure)[1]
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _powers(structure: Structure) -> tuple[Powers, int]:
     sides = _at_ones(structure) if is_sign_free(structure) else _written_out(structure)
     num, den = ({i for i, known in enumerate(side) if known} for side in sides)
     common = min(num | den)
-    return frozenset(i - common for i in num), frozenset(i - common for i in den)
+    return (frozenset(i - common for i in num), frozenset(i - common for i in den)), common
 
 
 def degrees(structure: Structure) -> tuple[int, int]:
@@ -56,12 +65,11 @@ def is_sign_free(structure: Structure) -> bool:
 def _at_ones(structure: Structure) -> tuple[list[bool], list[bool]]:
     """Which coefficients are not zero at all parameters = 1, over the integers."""
     ones = {name: fmpz_poly([1]) for name in structure.parameters}
-    r = receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
-    return [False] * structure.sensor_order + [bool(c) for c in r.num.coeffs()], [bool(c) for c in r.den.coeffs()]
+    num, den = plain_receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
+    return [False] * structure.sensor_order + [bool(c) for c in num.coeffs()], [bool(c) for c in den.coeffs()]
 
 
 def _written_out(structure: Structure) -> tuple[list[bool], list[bool]]:
     """Which coefficients are not the polynomial 0."""
-    whole = expanded(structure)
-    num, den = ([not c.is_zero() for c in coefficients(p, "s")] for p in (whole.num, whole.den))
+    num, den = ([not c.is_zero() for c in coefficients(p, "s")] for p in written_out(structure))
     return num, den

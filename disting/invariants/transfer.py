@@ -11,6 +11,7 @@ so one pair of adjugate columns gives the whole gradient.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from disting.algebra.tridiagonal import Ring, Tridiagonal
@@ -27,14 +28,27 @@ class Rational:
     den_gradient: dict[str, Ring]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Block:
     first: int
     matrix: Tridiagonal
-    act: list[Ring]  # adj(A_c) e_act
-    meas: list[Ring]  # adj(A_c) e_meas
-    num: Ring
+    ports: tuple[int, int, int, int]  # act_plus, act_minus, meas_plus, meas_minus, counted from the block's first mass
     elements: tuple[Element, ...]
+
+    @cached_property
+    def act(self) -> list[Ring]:
+        """adj(A_c) e_act."""
+        return _response(self.matrix, *self.ports[:2])
+
+    @cached_property
+    def meas(self) -> list[Ring]:
+        """adj(A_c) e_meas."""
+        return self.act if self.ports[:2] == self.ports[2:] else _response(self.matrix, *self.ports[2:])
+
+    @cached_property
+    def num(self) -> Ring:
+        """P_c."""
+        return _difference(self.act, *self.ports[2:])
 
 
 def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> Rational:
@@ -42,14 +56,12 @@ def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: R
 
     Blocks without a port do not contribute and are left out, so their parameters have zero gradients.
     """
-    blocks = [_block(structure, span, values, s, one) for span in structure.blocks if _touched(structure, span)]
-    num, den = one - one, one
-    for block in blocks:
-        num, den = num * block.matrix.determinant + block.num * den, den * block.matrix.determinant
+    blocks = _blocks(structure, values, s, one)
+    den, num = _sum(blocks, one)
     zero = one - one
     num_gradient, den_gradient = ({p: zero for p in structure.parameters if p != "Td"} for _ in range(2))
     for block in blocks:
-        others, rest = _complement(blocks, block, one)
+        others, rest = _sum([other for other in blocks if other is not block], one)
         for element in block.elements:
             d_num, d_den = _gradient(block, element, s)
             num_gradient[element.parameter] = d_num * others + d_den * rest
@@ -58,9 +70,19 @@ def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: R
     return _lagged(plain, values["T1"], s, one) if structure.lag else plain
 
 
+def plain_receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> tuple[Ring, Ring]:
+    """num and den of `receptance` without the gradients, which are most of its work."""
+    den, num = _sum(_blocks(structure, values, s, one), one)
+    return num, den * (one + values["T1"] * s) if structure.lag else den
+
+
 def values_at(structure: Structure, numbers: Sequence[int], lift: Callable[[int], Any]) -> dict[str, Any]:
     """Parameter values from numbers, in the structure's order, lifted into the ring."""
     return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
+
+
+def _blocks(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> list[_Block]:
+    return [_block(structure, span, values, s, one) for span in structure.blocks if _touched(structure, span)]
 
 
 def _touched(structure: Structure, span: tuple[int, int]) -> bool:
@@ -82,11 +104,9 @@ def _block(structure: Structure, span: tuple[int, int], values: Mapping[str, Rin
         if e.kind in "kd" and e.at >= first:
             off[e.at - first] = off[e.at - first] + term
     matrix = Tridiagonal(tuple(diagonal), tuple(off), one)
-    ports = structure.ports
-    act = _response(matrix, ports.act_plus - first, ports.act_minus - first)
-    meas = act if ports[:2] == ports[2:] else _response(matrix, ports.meas_plus - first, ports.meas_minus - first)
-    num = _difference(act, ports.meas_plus - first, ports.meas_minus - first)
-    return _Block(first, matrix, act, meas, num, elements)
+    p = structure.ports
+    ports = (p.act_plus - first, p.act_minus - first, p.meas_plus - first, p.meas_minus - first)
+    return _Block(first, matrix, ports, elements)
 
 
 def _response(matrix: Tridiagonal, plus: int, minus: int) -> list[Ring]:
@@ -121,12 +141,11 @@ def _gradient(block: _Block, element: Element, s: Ring) -> tuple[Ring, Ring]:
     return d_num, square
 
 
-def _complement(blocks: list[_Block], block: _Block, one: Ring) -> tuple[Ring, Ring]:
-    """Product of the other blocks' determinants, and the numerator of the sum of the other blocks over it."""
+def _sum(blocks: Sequence[_Block], one: Ring) -> tuple[Ring, Ring]:
+    """Product of the blocks' determinants, and the numerator of the sum of the blocks over it."""
     num, den = one - one, one
-    for other in blocks:
-        if other is not block:
-            num, den = num * other.matrix.determinant + other.num * den, den * other.matrix.determinant
+    for block in blocks:
+        num, den = num * block.matrix.determinant + block.num * den, den * block.matrix.determinant
     return den, num
 
 

@@ -1,6 +1,7 @@
 """Positive equivalents: which positive models of one chain have the behaviour of a positive model of another one."""
 
 from disting.positivity.evidence import Evidence as Evidence
+from disting.positivity.evidence import Values as Values
 from disting.positivity.finding import positive_finding as positive_finding
 from disting.positivity.ranges import Ranges as Ranges
 from disting.positivity.ranges import confirms_within as confirms_within

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from math import frexp, ldexp
 
 from flint import fmpq
 
@@ -17,7 +18,7 @@ from disting.synthesis.target import Target, fraction, target
 
 Range = tuple[Fraction, Fraction]
 LIKELY = (Fraction(1, 8), Fraction(8))  # where parameters without a range are drawn
-_BITS = 24  # of a drawn value
+_BITS = 25  # of a drawn value
 
 
 def random_point(chain: Chain, label: str, ranges: Mapping[str, Range] | None = None) -> Point:
@@ -82,7 +83,8 @@ def _all(answers: Iterable[Answer]) -> Answer:
 def _drawn(low: Fraction, high: Fraction, share: float) -> fmpq:
     """low (high/low)^share, cut to few bits and kept inside; from a range that begins at 0 its upper three decades."""
     low = low or high / 1000
-    value = Fraction(float(low) * (float(high) / float(low)) ** share)
-    scale = Fraction(2) ** (value.numerator.bit_length() - value.denominator.bit_length() - _BITS)
-    kept = min(max(round(value / scale) * scale, low), high)
-    return fmpq(kept.numerator, kept.denominator)
+    mantissa, exponent = frexp(float(low) * (float(high) / float(low)) ** share)
+    number, places = round(ldexp(mantissa, _BITS)), _BITS - exponent
+    kept = fmpq(number, 1 << places) if places > 0 else fmpq(number << -places)
+    bounds = (fmpq(end.numerator, end.denominator) for end in (low, high))
+    return max(next(bounds), min(kept, next(bounds)))

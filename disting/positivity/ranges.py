@@ -17,7 +17,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from disting.certainty import Certainty, Grade, graded
+from disting.certainty import LEAST_SAFETY, Certainty, Grade, graded
 from disting.errors import InputError, shown
 from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
@@ -27,7 +27,7 @@ from disting.positivity.finding import is_plain, positive_finding, refuse
 from disting.positivity.parts import Obstacle, Point
 from disting.positivity.points import Range, equivalent, random_point, read, spelled
 from disting.positivity.result import Empirical, PositiveFinding, Share
-from disting.positivity.witness import DRAWS, FLOOR, bits, drawn_near, is_long
+from disting.positivity.witness import DRAWS, bits, drawn_near, is_long
 from disting.settings import Settings
 from disting.synthesis.construction import is_untested
 from disting.synthesis.duality import are_dual, dual
@@ -140,7 +140,7 @@ def _lacks_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> Gr
     """Whether, and how surely, an open part of the box near the point has none: words are exact, listed solutions bounded."""
     if equivalent_within(given, point, other, limits.other) is not Answer.NO:
         return None
-    return graded(not other.damped and equivalent(given, point, other) is Answer.NO, FLOOR)
+    return graded(not other.damped and equivalent(given, point, other) is Answer.NO, LEAST_SAFETY)
 
 
 def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:

@@ -69,7 +69,8 @@ def always_real(given: Chain, other: Chain) -> bool:
 
 def real_witness(given: Chain, other: Chain, seed: str) -> Values:
     """A rational point of `given` in an open set of real models without real equivalents in `other`; () if none is found."""
-    if always_real(given, other):
+    plain = is_plain(given) and is_plain(other) and given.n_masses == other.n_masses
+    if not plain or always_real(given, other):
         return ()
     label = f"real:{seed}:{given!r}:{other!r}"
     points = (_signed(random_point(given, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES))

@@ -38,19 +38,19 @@ from math import ceil, log2
 from flint import fmpq
 
 from disting.algebra.sampling import residues
+from disting.certainty import LEAST_SAFETY
 from disting.model.chain import Chain
 from disting.positivity.parts import Point
 from disting.positivity.points import Range
 
-FLOOR = 100  # bits of the error bound, at least
 DRAWS = 3  # of each kind of witness, at most
 _NEAR = fmpq(1, 1024)  # relative distance from the place that the search found
 
 
 def bits(other: Chain) -> int:
-    """Bits a coordinate, so that the bound of a piece without equivalents in `other` is 2^-FLOOR over all draws."""
+    """Bits a coordinate, so that the bound of a piece without equivalents in `other` is 2^-LEAST_SAFETY over all draws."""
     n = len(other.parameters)
-    return FLOOR + ceil((n + 1) * log2(max(3 * other.n_masses + 2, n + 1)) + log2(DRAWS))
+    return LEAST_SAFETY + ceil((n + 1) * log2(max(3 * other.n_masses + 2, n + 1)) + log2(DRAWS))
 
 
 def drawn_near(place: Point, ranges: Mapping[str, Range], length: int, label: str) -> Point:
@@ -63,9 +63,9 @@ def drawn_near(place: Point, ranges: Mapping[str, Range], length: int, label: st
 
 
 def is_long(point: Point, ranges: Mapping[str, Range]) -> bool:
-    """Whether every coordinate that a range leaves free has FLOOR bits or more: a shorter one was not drawn to testify."""
+    """Whether every coordinate that a range leaves free has LEAST_SAFETY bits: a shorter one was not drawn to testify."""
     free = (value for name, value in point.items() if name not in ranges or ranges[name][0] < ranges[name][1])
-    return all(max(abs(int(v.p)), int(v.q)).bit_length() >= FLOOR for v in free)
+    return all(max(abs(int(v.p)), int(v.q)).bit_length() >= LEAST_SAFETY for v in free)
 
 
 def _between(value: fmpq, bounds: Range | None, share: fmpq) -> fmpq:

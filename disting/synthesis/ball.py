@@ -75,6 +75,8 @@ def roots(p: Poly, degree: int) -> list[Ball]:
         return []
     if is_boundary(p[degree]):
         raise Imprecise("a leading coefficient cannot be told from zero")
+    if degree == 1:
+        return [-p[0] / p[1]]
     found = _isolated(p, None)
     if not found:
         raise Imprecise("roots could not be isolated")

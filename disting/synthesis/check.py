@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from flint import acb, acb_poly
 
-from disting.invariants.transfer import Rational, receptance
+from disting.invariants.transfer import Rational, plain_receptance, receptance
 from disting.model.chain import Chain
 from disting.synthesis.ball import TOLERANCE, Ball, Imprecise
 from disting.synthesis.leaves import NONZERO, Dead
@@ -22,23 +22,23 @@ class Checked:
 
 def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational:
     """Receptance and gradients over balls."""
-    lifted = {name: acb_poly([value]) for name, value in values.items()}
-    return receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))
+    return receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
 
 
 def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) -> Checked | Dead:
     """Compare every coefficient, the denominator made monic; a ball without the given coefficient refutes the candidate."""
-    raw = evaluated(chain, values)
-    lead = raw.den[raw.den.degree()]
+    num, den = plain_receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
+    lead = den[den.degree()]
     width = 0.0
-    for ours, given in ((raw.num, target.numerator), (raw.den, target.denominator)):
+    for ours, given in ((num, target.numerator), (den, target.denominator)):
+        largest = max(abs(c) for c in given.coeffs())
         for i, coefficient in enumerate(_padded(given, ours.degree())):
             gap = ours[i] / lead - acb(coefficient)
             if not gap.is_finite():
                 raise Imprecise("a coefficient is not finite")
             if not gap.contains(0):
                 return NONZERO
-            width = max(width, float(gap.abs_upper() / acb(coefficient or _largest(given)).abs_lower()))
+            width = max(width, float(gap.abs_upper() / acb(coefficient or largest).abs_lower()))
     if width > TOLERANCE:
         raise Imprecise("a solution is not sharp enough")
     return Checked(values, gauges, width)
@@ -48,5 +48,5 @@ def _padded(given: Exact, degree: int) -> list[Exact]:
     return [given[i] for i in range(max(degree, given.degree()) + 1)]
 
 
-def _largest(given: Exact) -> Exact:
-    return max(abs(c) for c in given.coeffs())
+def _lifted(values: dict[str, Ball]) -> dict[str, acb_poly]:
+    return {name: acb_poly([value]) for name, value in values.items()}

@@ -1,55 +1,70 @@
-"""Whether the zeros of a polynomial over Q are conjugate under all permutations: then one way to share them out speaks for all.
+"""Which zeros of a polynomial over Q are conjugate: of ways to share them out that are conjugate, one speaks for all.
 
 Equations with coefficients in Q(z_1, .., z_m), z_i the zeros of N in Q[s], have a complex solution exactly if they have an
-algebraic one, and an automorphism over Q carries the solutions of one way to share out the zeros to those of another. If the
-Galois group of N over Q is the symmetric group, it carries each way to every other with as many zeros in each place: all have
-solutions or none has.
+algebraic one, and an automorphism over Q carries the solutions of one way to share out the zeros to those of another. Let N
+be a product of irreducible factors N_1, .., N_r over Q, each one once. If the Galois group of N over Q is the product of the
+symmetric groups of all N_i, it carries each way to every other that puts as many zeros of each N_i in each place: all such
+ways have solutions or none has.
 
 The group is seen modulo primes. Where N is squarefree modulo a prime that divides no denominator and not the leading
 coefficient, the group holds an element whose cycles are as long as its irreducible factors (Dedekind; B. L. van der Waerden,
-Algebra I, section 61). N irreducible makes it transitive; a linear and one other factor, doubly transitive; one factor of
-degree 2 and otherwise odd degrees gives an element of which an odd power is a transposition. Its conjugates are all
-transpositions, which generate the symmetric group. What is found holds without any chance.
+Algebra I, section 61), sorted by the N_i. N_i irreducible makes the group transitive on its zeros; a linear and one other
+factor, doubly transitive. If N_i has one factor of degree 2 and otherwise odd degrees, and all other N_j have odd degrees only,
+an odd power is a transposition of two zeros of N_i that moves nothing else. Its conjugates are all transpositions of zeros of
+N_i, which generate the symmetric group. What is found holds without any chance.
 """
 
 from functools import cache
+from itertools import chain
 from typing import Any
 
-from flint import fmpz, nmod_poly
+from flint import fmpz, fmpz_poly, nmod_poly
 
-PRIMES = 200  # tried; a degree m needs about m of them
+PRIMES = 400  # tried; a degree m needs about m of them, and r factors about 2^r times as many
 FIRST = 1 << 20
+Shown = set[tuple[int, str]]  # number of the factor, and what is known of its zeros
 
 
-def zeros_are_conjugate(numerator: Any) -> bool:
-    """Whether it is proven, of a polynomial with rational coefficients (fmpq_poly).
+def conjugate_factors(numerator: Any) -> tuple[fmpz_poly, ...]:
+    """The N_i of a polynomial with rational coefficients (fmpq_poly), if the group is proven to be the product; else ().
 
     >>> from flint import fmpq_poly
-    >>> zeros_are_conjugate(fmpq_poly([-2, 0, 0, 1])), zeros_are_conjugate(fmpq_poly([1, 0, 0, 0, 1]))
-    (True, False)
+    >>> conjugate_factors(fmpq_poly([-2, 0, 0, 1]))
+    (x^3 + (-2),)
+    >>> conjugate_factors(fmpq_poly([-2, 0, 0, 1]) * fmpq_poly([1, 1]))
+    (x + 1, x^3 + (-2))
+    >>> conjugate_factors(fmpq_poly([1, 0, 0, 0, 1]))
+    ()
     """
-    whole = [int(c) for c in numerator.numer().coeffs()]
-    wanted = {"transitive", "doubly", "transposition"} if len(whole) > 3 else {"transitive"} if len(whole) == 3 else set()
+    _, found = numerator.numer().factor()
+    factors = tuple(sorted((f for f, _ in found), key=lambda f: (f.degree(), str(f))))
+    wanted = {(i, what) for i, f in enumerate(factors) for what in _WANTED[min(f.degree(), 3)]}
+    if any(e > 1 for _, e in found):
+        return ()
     for modulus in _primes():
         if not wanted:
             break
-        if whole[-1] % modulus:
-            wanted -= _shown(nmod_poly([c % modulus for c in whole], modulus))
-    return not wanted
+        wanted -= _shown(factors, modulus)
+    return () if wanted else factors
 
 
-def _shown(polynomial: nmod_poly) -> set[str]:
-    """What the factors of a polynomial modulo a prime show of the group; nothing if one is multiple."""
-    _, factors = polynomial.factor()
-    if any(e > 1 for _, e in factors):
+_WANTED = ((), (), ("transposition",), ("transitive", "doubly", "transposition"))
+
+
+def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Shown:
+    """What the factors modulo a prime show of the group; nothing if one is multiple or a degree falls."""
+    reduced = [nmod_poly([int(c) % modulus for c in f.coeffs()], modulus) for f in factors]
+    split = [r.factor()[1] for r in reduced]
+    all_factors = [f for f, _ in chain.from_iterable(split)]
+    multiple = any(e > 1 for _, e in chain.from_iterable(split)) or len(set(map(str, all_factors))) < len(all_factors)
+    if multiple or any(r.degree() < f.degree() for r, f in zip(reduced, factors, strict=True)):
         return set()
-    degrees = sorted(f.degree() for f, _ in factors)
-    shown = {
-        "transitive": len(degrees) == 1,
-        "doubly": len(degrees) == 2 and degrees[0] == 1,
-        "transposition": [d for d in degrees if d % 2 == 0] == [2],
-    }
-    return {name for name, holds in shown.items() if holds}
+    degrees = [sorted(f.degree() for f, _ in some) for some in split]
+    even = [[d for d in some if d % 2 == 0] for some in degrees]
+    alone = [i for i, some in enumerate(even) if some == [2]] if sum(map(len, even)) == 1 else []
+    shown = {(i, "transitive") for i, some in enumerate(degrees) if len(some) == 1}
+    shown |= {(i, "doubly") for i, some in enumerate(degrees) if len(some) == 2 and some[0] == 1}
+    return shown | {(i, "transposition") for i in alone}
 
 
 @cache

@@ -23,7 +23,6 @@ from disting.model.structure import Damper, GroundDamper, Mass, Spring
 from disting.model.symmetry import canonical
 from disting.synthesis.ball import Ball, Imprecise
 from disting.synthesis.check import Checked, checked
-from disting.synthesis.conjugate import zeros_are_conjugate
 from disting.synthesis.family import shared
 from disting.synthesis.lag import lag_poles, lagged, without_lag
 from disting.synthesis.leaves import BOUNDARY, Dead, Leaf, Part, Reason, combined
@@ -115,7 +114,7 @@ def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
     """Every leaf, the parts multiplied out."""
     grounded, free = segments(chain)
     folded, low = target.folded(free.q), poles_at_zero(target.folded(free.q))
-    whole = replace(folded.balls, conjugate=grounded is None and zeros_are_conjugate(folded.numerator))
+    whole = replace(folded.balls, exact=folded.numerator if grounded is None else None)
     for data, time in lag_poles(folded.balls, low) if chain.lag else [(whole, {})]:
         for leaf in _leaves(data, low, grounded, free):
             yield _multiplied(chain, leaf, time, target) if isinstance(leaf, Part) else leaf

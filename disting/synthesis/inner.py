@@ -15,6 +15,7 @@ all candidates for d. What depends on d and rho only is computed once for all wa
 Dampers to the ground on the left side alone change nothing but that D has a simple root at 0, so that L = 0.
 """
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, partial, reduce
@@ -22,17 +23,19 @@ from itertools import combinations
 from math import comb, inf, log2
 from operator import mul
 
-from flint import acb, acb_mat, ctx, fmpq
+from flint import acb, acb_mat, acb_poly, ctx, fmpq
 
 from disting.synthesis import friction
 from disting.synthesis.ball import Ball, Imprecise, Poly, cut, enclosed, is_boundary, poly, product, roots, shifted, vanishes
+from disting.synthesis.conjugate import conjugate_factors
 from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part, combined
 from disting.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.synthesis.segment import Data, Segment, splits
+from disting.synthesis.segment import Data, Segment
 
 DEGREE_LIMIT = 40  # of E(d): the time grows with its square
 ALONE_LIMIT = 60  # where it is done once: the poles need not be shared out between two parts
 QUICK_BITS = 128  # tried first where a candidate for d is to be refuted
+Way = tuple[int, tuple[int, ...], tuple[int, ...]]  # which zero is -rho, which are those of A and of B
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,27 +76,47 @@ def degree_of(segment: Segment) -> int:
 
 
 def inner_neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every damped segment with b = a + 1 and this receptance."""
-    zeros, gain = roots(data.numerator, segment.numerator_degree), data.gain(segment)
-    if data.conjugate and not is_boundary(zeros[0]):
-        size = 1 + 2 * (segment.a - 1)
-        first = list(_branches([Branch(segment, data, -zeros[0], zeros[1:size], zeros[size:], gain)]))
-        if first and all(leaf == NONZERO for leaf in first):  # and so in all branches
-            yield NONZERO
-            return
-    for (z,), others in splits(zeros, 1):
-        shared_out = splits(others, 2 * (segment.a - 1))
-        branches = [Branch(segment, data, -z, left, right, gain) for left, right in shared_out]
-        yield from [BOUNDARY] * len(branches) if is_boundary(z) else _branches(branches)
+    """Yield every damped segment with b = a + 1 and this receptance; a way that is refuted speaks for all its conjugates."""
+    zeros, gain = _zeros(data, segment.numerator_degree), data.gain(segment)
+    seen: dict[int, list[Seen]] = {}
+    for same in _conjugate_ways([kind for kind, _ in zeros], 2 * (segment.a - 1)):
+        for way in same:
+            (rho,), left, right = ([zeros[i][1] for i in some] for some in ((way[0],), *way[1:]))
+            leaves = list(_branch(Branch(segment, data, -rho, left, right, gain), seen.setdefault(way[0], [])))
+            yield from leaves
+            if way is same[0] and leaves and all(leaf == NONZERO for leaf in leaves):
+                break
 
 
-def _branches(branches: list[Branch]) -> Iterator[Leaf]:
-    """All branches with one rho."""
-    degree, radius = degree_of(branches[0].segment), _radius(branches[0])
-    seen = [_seen(branches[0], d) for d in circle(degree, radius)]
-    for branch in branches:
-        for d in roots(through([at.product(branch.sigma) for at in seen], radius), degree):
-            yield from [BOUNDARY] if is_boundary(d) else _quickly(branch, d)
+def _zeros(data: Data, degree: int) -> list[tuple[int, Ball]]:
+    """The zeros of N, each with the number of its kind; those of one kind are proven conjugate."""
+    factors = () if data.exact is None else conjugate_factors(data.exact)
+    if not factors:
+        return list(enumerate(roots(data.numerator, degree)))
+    return [(kind, z) for kind, f in enumerate(factors) for z in roots(acb_poly(f), f.degree())]
+
+
+def _conjugate_ways(kinds: list[int], size: int) -> Iterable[list[Way]]:
+    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in each place stand together."""
+    found = defaultdict[tuple[int, ...], list[Way]](list)
+    for rho in range(len(kinds)):
+        others = [i for i in range(len(kinds)) if i != rho]
+        for left in combinations(others, size):
+            right = tuple(i for i in others if i not in left)
+            found[kinds[rho], *sorted(kinds[i] for i in left)].append((rho, left, right))
+    return found.values()
+
+
+def _branch(branch: Branch, seen: list["Seen"]) -> Iterator[Leaf]:
+    """Every candidate for d; `seen` is filled once for all ways with this rho."""
+    if is_boundary(branch.rho):
+        yield BOUNDARY
+        return
+    degree, radius = degree_of(branch.segment), _radius(branch)
+    if not seen:
+        seen += [_seen(branch, d) for d in circle(degree, radius)]
+    for d in roots(through([at.product(branch.sigma) for at in seen], radius), degree):
+        yield from [BOUNDARY] if is_boundary(d) else _quickly(branch, d)
 
 
 def _quickly(branch: Branch, d: Ball) -> Iterable[Leaf]:

@@ -57,12 +57,12 @@ class Segment:
 class Data:
     """Receptance of a segment: numerator over monic denominator, in s (damped) or x = s^2 (undamped).
 
-    `conjugate`: both have rational coefficients, and the zeros are conjugate under all permutations (see `conjugate`).
+    `exact`: the numerator as fmpq_poly, if the coefficients of both are rational and known.
     """
 
     numerator: Poly
     denominator: Poly
-    conjugate: bool = False
+    exact: Poly | None = None
 
     def gain(self, segment: Segment) -> Ball:
         """Leading coefficient of the numerator."""

@@ -6,7 +6,7 @@ from typing import Any
 
 from flint import acb_poly, fmpq, fmpq_poly
 
-from disting.invariants.transfer import receptance
+from disting.invariants.transfer import plain_receptance
 from disting.model.structure import Structure
 from disting.synthesis.segment import Data, Segment
 
@@ -45,9 +45,9 @@ def target(structure: Structure, point: Mapping[str, fmpq]) -> Target:
     """
     one = fmpq_poly([1])
     values = {name: fmpq_poly([value]) for name, value in point.items()}
-    raw = receptance(structure, values, fmpq_poly([0, 1]), one)
-    common = raw.num.gcd(raw.den)
-    num, den = raw.num // common, raw.den // common
+    num, den = plain_receptance(structure, values, fmpq_poly([0, 1]), one)
+    common = num.gcd(den)
+    num, den = num // common, den // common
     return Target(num / den[den.degree()], den / den[den.degree()])
 
 
