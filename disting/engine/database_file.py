@@ -24,6 +24,7 @@ NOWHERE: Final = ""
 MEMORY: Final = ":memory:"
 MISSING: Final = (0, 0)
 IN_MEMORY: Final = (-1, -1)
+LOCK: Final = ".lock"
 SIDES: Final = ("-wal", "-shm", "-journal")  # what SQLite appends to the name for its other files
 MOST_SET_ASIDE: Final = 99  # bounds the disk space taken by damaged files
 PAUSE_SECONDS: Final = 0.01
@@ -98,12 +99,28 @@ def _set_aside(path: str) -> str:
 def replace(path: str, suspect: Identity, wait: float) -> str:
     """Put an empty database in place of `suspect`; "" if there was nothing to set aside."""
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    with FileLock(path + ".lock").acquire(wait, PAUSE_SECONDS):
+    if suspect != MISSING and not _was_ours(path):
+        raise OSError("it is no cache of disting and is left as it is; name another file with DISTING_CACHE")
+    with FileLock(path + LOCK).acquire(wait, PAUSE_SECONDS):
         if identity(path) != suspect:
             return ""
         name = "" if suspect == MISSING else _set_aside(path)
         _build(path)
     return name
+
+
+def _was_ours(path: str) -> bool:
+    """Whether what the path holds is a damaged cache, and not some file of the user's that was named by mistake.
+
+    Our caches bear a stamp, and have a lock beside them from the moment they are made. The file is read only here, where it
+    could not be used: to close it would drop the locks on one that is in use.
+    """
+    if os.path.lexists(path + LOCK) or Path(path).parent == platformdirs.user_cache_path("disting"):
+        return True
+    with contextlib.suppress(OSError), open(path, "rb") as file:
+        head = file.read(100)
+        return not head or head[68:72] == APPLICATION_ID.to_bytes(4, "big")
+    return False
 
 
 def _check_kind(path: str) -> None:

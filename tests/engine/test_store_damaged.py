@@ -108,6 +108,7 @@ def test_a_file_that_cannot_be_trusted_is_set_aside(damage: Callable[[Path], Non
 
 
 def test_damaged_files_are_numbered(path: Path) -> None:
+    Store.open(path).close()
     for _ in range(3):
         path.write_bytes(b"no database")
         with cache_warnings(1):

@@ -1,6 +1,8 @@
 """Caches that cannot be used: without permission, on a full disk, where no file can be."""
 
+import contextlib
 import os
+import sqlite3
 import stat
 import tempfile
 from collections.abc import Callable, Iterator
@@ -41,20 +43,48 @@ def a_folder_in_use(tmp_path: Path) -> Path:
     return tmp_path / "folder"
 
 
+def a_text(tmp_path: Path) -> Path:
+    (tmp_path / "thesis.tex").write_text("precious" * 1000)
+    return tmp_path / "thesis.tex"
+
+
+def an_empty_folder(tmp_path: Path) -> Path:
+    (tmp_path / "folder").mkdir()
+    return tmp_path / "folder"
+
+
+def another_database(tmp_path: Path) -> Path:
+    with contextlib.closing(sqlite3.connect(tmp_path / "bookmarks.sqlite")) as connection:
+        connection.execute("PRAGMA application_id = 7")
+        connection.execute("CREATE TABLE entry (key, checksum, value)")
+        connection.execute("INSERT INTO entry VALUES ('a', 'b', 'c')")
+        connection.commit()
+    return tmp_path / "bookmarks.sqlite"
+
+
 def a_name_too_long(tmp_path: Path) -> Path:
     return tmp_path / ("x" * 300)
 
 
-@pytest.mark.parametrize("place", [below_a_file, in_proc, a_pipe, a_device, a_folder_in_use, a_name_too_long])
+PLACES = [
+    below_a_file, in_proc, a_pipe, a_device, a_folder_in_use, a_name_too_long, a_text, an_empty_folder, another_database,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("place", PLACES)
 def test_a_cache_that_cannot_be_made_is_done_without(place: Callable[[Path], Path], tmp_path: Path) -> None:
     path = place(tmp_path)
-    before = sorted(tmp_path.rglob("*"))
+    before = contents(tmp_path)
     with cache_warnings(1) as messages, Store.open(path) as store:
         store.put_many(TEN)
         assert store.get_many(TEN) == {}
     assert "going on without cache" in messages[0]
     assert keeps_nothing(store)
-    assert sorted(tmp_path.rglob("*")) == before
+    assert contents(tmp_path) == before
+
+
+def contents(folder: Path) -> dict[Path, bytes]:
+    return {p: p.read_bytes() if p.is_file() else b"" for p in folder.rglob("*")}
 
 
 @pytest.fixture
