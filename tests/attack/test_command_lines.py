@@ -47,7 +47,7 @@ def place(tmp_path, monkeypatch):
 def carried_out(words):
     """Status, output and error of one line in this process, interrupted after a second."""
     out, error = io.StringIO(), io.StringIO()
-    before = signal.signal(signal.SIGPROF, lambda *_: signal.raise_signal(signal.SIGINT))
+    before = signal.signal(signal.SIGPROF, signal.default_int_handler)  # a background job would ignore SIGINT itself
     faulthandler.dump_traceback_later(HUNG, exit=True)
     signal.setitimer(signal.ITIMER_PROF, PATIENCE, AGAIN)
     try:
