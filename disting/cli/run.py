@@ -8,7 +8,7 @@ from contextlib import redirect_stderr, redirect_stdout
 
 from disting.cli.parser import parser
 from disting.cli.plain import complain, say_what_can_be_said
-from disting.errors import DistingError, listed
+from disting.errors import DistingError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -42,7 +42,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         complain(reason)
         return 2
     except OSError as reason:
-        complain(f"{reason.strerror or reason}: {listed([str(reason.filename or '')])}".rstrip(": "))
+        complain(f"{reason.strerror or reason}: {reason.filename or ''}".rstrip(": "))
         return 2
     except MemoryError as reason:
         complain(f"there is not enough memory ({reason or 'no more can be had'}); ask for less")
