@@ -14,7 +14,7 @@ def written_file(text: str) -> str:
     path = Path(text)
     if text == "-":
         return text
-    if not text or path.is_dir():
+    if not text or "\0" in text or path.is_dir():
         raise argparse.ArgumentTypeError(f"{text or 'an empty name'} is no file; name a file, or - for standard output")
     if not path.parent.is_dir():
         raise argparse.ArgumentTypeError(f"there is no folder {path.parent}; make it first, or name another file")

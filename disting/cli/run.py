@@ -4,20 +4,30 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
-from contextlib import redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout
 
 from disting.cli.parser import parser
 from disting.cli.plain import complain, say_what_can_be_said
-from disting.errors import DistingError, listed
+from disting.errors import DistingError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
+    _fill_closed_streams()
     say_what_can_be_said()
     with open(os.devnull, "w", encoding="utf-8") as nowhere, warnings.catch_warnings():
         warnings.showwarning = _warned
-        with redirect_stdout(sys.stdout or nowhere):  # there is none where the shell closed it
+        with redirect_stdout(sys.stdout or nowhere), redirect_stderr(sys.stderr or nowhere):  # the shell may have closed them
             return _run(arguments)
+
+
+def _fill_closed_streams() -> None:
+    """A file that is opened, such as the cache, must not get the number of a stream that libraries write to."""
+    for number in (0, 1, 2):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # gets the lowest free number, which is this one
 
 
 def _run(arguments: Sequence[str] | None) -> int:
@@ -32,7 +42,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         complain(reason)
         return 2
     except OSError as reason:
-        complain(f"{reason.strerror or reason}: {listed([str(reason.filename or '')])}".rstrip(": "))
+        complain(f"{reason.strerror or reason}: {reason.filename or ''}".rstrip(": "))
         return 2
     except MemoryError as reason:
         complain(f"there is not enough memory ({reason or 'no more can be had'}); ask for less")

@@ -143,7 +143,7 @@ def open_database(path: str, wait: float) -> sqlite3.Connection:
     if path != MEMORY:
         _check_kind(path)
     target = path if path == MEMORY else Path(path).as_uri() + "?mode=rw"  # rw: never creates a file
-    connection = sqlite3.connect(target, wait, isolation_level=None, check_same_thread=False, uri=True)
+    connection = sqlite3.connect(target, timeout=wait, isolation_level=None, check_same_thread=False, uri=True)
     with contextlib.ExitStack() as on_failure:
         on_failure.callback(connection.close)
         connection.text_factory = bytes  # damaged text must not fail to decode before it is checked

@@ -3,6 +3,7 @@
 `given` is the model whose positive parameters are asked about, `other` the one in which equivalents are looked for.
 """
 
+from collections.abc import Container
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar, get_args
 
@@ -23,12 +24,21 @@ _OBSTACLES = {
 }
 
 
+def _known(name: str, among: Container[str]) -> None:
+    """Raise ValueError for a name from a damaged file, here and not when it is to be told."""
+    if name not in among:
+        raise ValueError(f"no evidence is called {name!r}")
+
+
 @dataclass(frozen=True, slots=True)
 class SameByTheorem:
     """ALWAYS: a theorem of that `name` maps positive parameters to positive parameters."""
 
     kind: ClassVar[str] = "theorem"
     name: str
+
+    def __post_init__(self) -> None:
+        _known(self.name, _THEOREMS)
 
     def sentence(self, given: str, other: str) -> str:
         """What the theorem says."""
@@ -47,6 +57,9 @@ class Excluded:
     kind: ClassVar[str] = "excluded"
     name: str
     point: Values = ()
+
+    def __post_init__(self) -> None:
+        _known(self.name, _OBSTACLES)
 
     def sentence(self, given: str, other: str) -> str:
         """What stands against equivalents."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.attack.counts import chance, times
-from tests.cli.process import COMMAND, disting, marked
+from tests.cli.process import COMMAND, disting, heed_signals, marked
 
 pytestmark = [pytest.mark.attack, pytest.mark.skipif(os.name != "posix", reason="signals are of POSIX")]
 ROUND = 10  # kills on one cache, then a run to the end; then a new cache
@@ -43,7 +43,12 @@ def data(tmp_path_factory):
 def started(command, cache, folder, **options):
     """The command as a leader of its own group, with a mark that its workers inherit."""
     environment = os.environ | {"DISTING_CACHE": str(cache), "MARK": str(folder)}
-    options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "start_new_session": True} | options
+    options = {
+        "stdout": subprocess.DEVNULL,
+        "stderr": subprocess.PIPE,
+        "start_new_session": True,
+        "preexec_fn": heed_signals,
+    } | options
     return subprocess.Popen([*COMMAND, *command], env=environment, **options)
 
 

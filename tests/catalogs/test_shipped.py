@@ -143,6 +143,16 @@ def test_csv_and_json_hold_every_pair():
     assert {v["relation"] for v in data["verdicts"]} == {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE}
 
 
+def test_evidence_of_an_unknown_name_is_damage_when_it_is_read(tmp_path):
+    """It was a KeyError when its sentence was asked for."""
+    name = "chains-2-undamped.jsonl"
+    text = (shipped_folder() / name).read_text(encoding="utf-8")
+    assert '"Foster"' in text
+    (tmp_path / name).write_text(text.replace('"Foster"', '"FostNer"'), encoding="utf-8")
+    with pytest.raises(CatalogError, match="cannot be read"):
+        catalog(2, folder=tmp_path).to_json()
+
+
 def test_writing_leaves_no_partial_files(tmp_path):
     paths = write([build(2, damped=False, engine=Engine())], tmp_path)
     assert [p.name for p in paths] == ["chains-2-undamped.jsonl", "provenance.json"]

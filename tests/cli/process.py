@@ -3,6 +3,7 @@
 import csv
 import io
 import os
+import signal
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
@@ -31,6 +32,12 @@ def called(*arguments, cache="off"):
         except SystemExit as end:  # argparse ends the process
             status = end.code or 0
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
+
+
+def heed_signals():
+    """Background jobs and nohup leave signals ignored, which children inherit."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def marked(folder):

@@ -2,9 +2,11 @@
 
 import os
 import random
+import shlex
 import signal
 import sqlite3
 import subprocess
+import sys
 import time
 
 import pytest
@@ -140,9 +142,27 @@ def test_a_reader_gets_the_lines_it_wants():
 
 
 @pytest.mark.parametrize("arguments", ["doctor", "verdicts 2 --csv -", *by_hand("verdicts 2", "models 2")])
-def test_without_standard_output_nothing_is_printed(arguments):
-    done = shell(arguments, ">&-")
-    assert (done.returncode, done.stderr) == (0, "")
+@pytest.mark.parametrize("closed", [">&-", "<&- >&- 2>&-", *by_hand(">&- 2>&-")])
+def test_without_standard_output_nothing_is_printed(arguments, closed):
+    done = shell(arguments, closed)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_without_standard_error_the_result_is_printed():
+    assert shell("verdicts 2 --csv -", "2>&-").stdout == shell("verdicts 2 --csv -", "").stdout != ""
+
+
+def test_no_file_gets_the_number_of_a_closed_stream(tmp_path):
+    """A cache opened as number 2 would take what libraries say there."""
+    cache = tmp_path / "c.sqlite3"
+    program = (
+        "import os; from disting.cli import main; from disting.engine.store import Store; main(['models', '1']);"
+        f"store = Store.open({str(cache)!r}); store.put_many({{'0' * 64: '1'}});"
+        "print(sorted(os.readlink(f'/proc/self/fd/{n}') for n in range(3)), file=open(3, 'w'))"
+    )
+    command = f"exec 3>&1; {sys.executable} -c {shlex.quote(program)} <&- >&- 2>&-"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
+    assert done.stdout == "['/dev/null', '/dev/null', '/dev/null']\n"
 
 
 def test_a_full_disk_is_named():
