@@ -8,7 +8,9 @@ from contextlib import redirect_stderr, redirect_stdout
 
 from disting.cli.parser import parser
 from disting.cli.plain import complain, say_what_can_be_said
-from disting.errors import DistingError
+from disting.errors import DistingError, shown
+
+LONGEST_PATH = 200  # characters of a file name in a message
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -42,7 +44,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         complain(reason)
         return 2
     except OSError as reason:
-        complain(f"{reason.strerror or reason}: {reason.filename or ''}".rstrip(": "))
+        complain(f"{reason.strerror or reason}: {_name(reason.filename)}".rstrip(": "))
         return 2
     except MemoryError as reason:
         complain(f"there is not enough memory ({reason or 'no more can be had'}); ask for less")
@@ -52,6 +54,12 @@ def _run(arguments: Sequence[str] | None) -> int:
         return 130
     finally:
         _drop_what_cannot_be_written()
+
+
+def _name(of_file: object) -> str:
+    """In full, but for one that no system would take."""
+    name = str(of_file or "")
+    return name if len(name) <= LONGEST_PATH else shown(name)
 
 
 def _drop_what_cannot_be_written() -> None:

@@ -84,7 +84,7 @@ def test_options_reach_the_fit(files):
 
 def test_the_demonstration_drive_is_recognised():
     done = called("fit", "--demo", "--masses", "2")
-    assert "damper b1, dead time" in done.stdout.split("selected:")[1].splitlines()[0]
+    assert "damper b1, dead time" in done.stdout.split("selected:")[-1].splitlines()[0]
     assert "A/(rad/s²)" in done.stdout
 
 

@@ -45,6 +45,7 @@ def test_cache_is_filled_reported_and_cleared(tmp_path):
 )
 def test_a_damaged_cache_is_set_aside_with_a_warning(tmp_path, content):
     cache = tmp_path / "cache.sqlite3"
+    assert disting("verdicts", 2, cache=cache).returncode == 0  # so it is ours: its lock stands beside it
     cache.write_bytes(content)
     done = disting("verdicts", 3, "--csv", "-", cache=cache)
     assert done.returncode == 0
