@@ -19,11 +19,13 @@ def shipped_folder() -> Path:
 def intact_text(path: Path) -> str:
     """Text of a data file; raises CatalogError if the provenance beside it names another digest, OSError if it cannot be read.
 
-    Only the file that is read is hashed. A folder without provenance, such as one that is just made, has nothing to compare.
+    Only the file that is read is hashed, as far as it went when the provenance was written if that names a length ("digest:
+    bytes"). A folder without provenance, such as one that is just made, has nothing to compare.
     """
     content = path.read_bytes()
-    wanted = _digests(path.parent).get(path.name)
-    if wanted is not None and wanted != sha256(content).hexdigest():
+    wanted, _, length = _digests(path.parent).get(path.name, "").partition(":")
+    named = content[: int(length)] if length.isdecimal() else content
+    if wanted and wanted != sha256(named).hexdigest():
         remedy = "install disting anew, or build the file again with 'disting catalog'"
         raise CatalogError(f"{path} is damaged: it is not what {PROVENANCE} beside it names; {remedy}")
     return content.decode("utf-8")

@@ -1,15 +1,12 @@
 """Builds a catalogue: every model of a family, every pair, every representation, with evidence."""
 
-import json
-import platform
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from importlib.metadata import version
 from pathlib import Path
 
-import disting
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, PROVENANCE, RIGHT_POSITIVE, SCHEMA, Record, digest, lines, name_of
+from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, SCHEMA, Record, lines, name_of
+from disting.catalogs.provenance import write_provenance
 from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
@@ -62,18 +59,7 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
     paths = [folder / f"{c.name}.jsonl" for c in catalogs]
     for c, path in zip(catalogs, paths, strict=True):
         write_whole(path, [lines(list(c.records))])
-    return [*paths, write_whole(folder / PROVENANCE, [json.dumps(provenance_of(folder), indent=1, sort_keys=True), "\n"])]
-
-
-def provenance_of(folder: Path) -> Record:
-    """Schema, software versions, command and the digest of each catalogue file in a folder."""
-    return {
-        "schema": SCHEMA,
-        "command": "disting catalog build 1 2 3 4 5",
-        "software": {"disting": disting.__version__, "python": platform.python_version()}
-        | {name: version(name) for name in ("numpy", "python-flint")},
-        "files": {p.name: digest(p) for p in sorted(folder.glob("chains-*.jsonl"))},
-    }
+    return [*paths, write_provenance(folder)]
 
 
 def _model(number: int, subject: Subject, identifiability: Identifiability) -> Record:

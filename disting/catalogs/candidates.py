@@ -13,6 +13,7 @@ from functools import cache, cached_property
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines, shipped_folder
+from disting.catalogs.provenance import write_provenance
 from disting.certainty import Certainty
 from disting.comparison import name_of
 from disting.engine import Decisions, Engine, Progress, silent
@@ -135,7 +136,9 @@ def shipped() -> Matrix:
 def write(found: Matrix, folder: Path) -> Path:
     """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    return write_whole(folder / FILE, [found.text()])
+    path = write_whole(folder / FILE, [found.text()])
+    write_provenance(folder)
+    return path
 
 
 def _model(number: int, chain: Chain, rank: int) -> Record:

@@ -17,6 +17,7 @@ import numpy as np
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets
 from disting.catalogs.files import Record, lines, shipped_folder
+from disting.catalogs.provenance import write_provenance
 from disting.engine.classes import Classes
 from disting.errors import CatalogError
 from disting.model.family import Family
@@ -89,7 +90,9 @@ def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: boo
     """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
     name = name_of(found.family.n_masses, found.family.damped)
-    return write_whole(folder / f"{name}.jsonl", [text_of(found, settings, patient=patient)])
+    path = write_whole(folder / f"{name}.jsonl", [text_of(found, settings, patient=patient)])
+    write_provenance(folder)
+    return path
 
 
 def _family(family: Family, header: Record, models: Sequence[Record]) -> DamperFamily:

@@ -2,27 +2,32 @@
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
+from disting.cli.fit_data import measured
 from disting.cli.plain import complain
 from disting.cli.work import engine_for
 from disting.errors import InputError, listed, printable
+from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import selection_to_dict, write_mat
+from disting.fit.members import Disagreement, Member
 from disting.fit.modes import Result, physical
+from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
-from disting.fit.select import Candidate, Selection, select
+from disting.fit.select import Selection, select
 from disting.fit.swarm import by_swarm
-from disting.measurement import FrequencyResponse, read
+from disting.fit.telling import commands, first_lines, suspicions
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
+from disting.report.fit.words import UNDETERMINED, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
-from disting.report.fit.words import percent, result_unit, with_error
 from disting.verdict import Relation
 
 WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
@@ -44,8 +49,9 @@ def run(options: argparse.Namespace) -> int:
             candidates,
             test=test,
             thresholds=Thresholds(*options.thresholds),
+            rule=Rule(options.rule),
             case=Case(options.case),
-            lines=WEIGHTS[options.weights],
+            lines=_weights(options),
             sign=SIGNS[options.sign],
             bounds=dict(options.bound),
             fixed=dict(options.fix),
@@ -68,6 +74,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
+    """How the lines count; coherence tells it where Welch's method made them."""
+    chosen = options.weights
+    return WEIGHTS[("coherence" if "segment" in dict(options.read) else "none") if chosen == "auto" else chosen]
+
+
 def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResponse | None]:
     """Training and test data, masked; what the readers noticed goes to standard error."""
     if options.demo == bool(options.train):
@@ -82,8 +94,8 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
 
         both = (demo(0).response("acceleration"), demo(1).response("acceleration"))
     else:
-        settings = dict(options.read) | ({"column": options.column} if options.column else {})
-        both = (read(options.train, **settings), read(options.test, **settings) if options.test else None)
+        train = measured([options.train, *options.repeat], options)
+        both = (train, measured([options.test], options) if options.test else None)
     train, test = both
     if options.band:
         train, test = train.masked(*options.band), test.masked(*options.band) if test else None
@@ -108,29 +120,67 @@ def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, .
 
 
 def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
-    """The result for people."""
-    n = len(found.candidates)
+    """The result for people: what they must know in at most five lines, then the rest."""
+    yield from first_lines(found)
+    yield ""
+    n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]
     yield f"{n} candidates fitted to {len(train)} frequency lines{_saved(found)}, validated on {found.validation}"
-    kept = [c for c in found.candidates if c.admissible]
     if found.selected is None:
         yield "none is admissible: in each, some parameters cannot be determined from this data. The best ones:"
-        yield from _table(found.candidates[:SHOWN])
-        for c in found.candidates[:SHOWN]:
-            yield f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}"
-        yield "more excitation or wider --thresholds may help"
-        if any(c.practical.unidentifiable for c in found.candidates[:SHOWN]):
-            yield "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force and sensor help"
+    else:
+        yield f"{len(kept)} have parameters that can all be determined; the best of them{_why(found)}:"
+    yield ""
+    shown = sorted(kept, key=lambda c: (c is not found.selected, c.j_test)) or found.candidates
+    yield from _table(shown[:SHOWN])
+    yield ""
+    chain = found.described.chain
+    yield f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
+    yield from (f"  {line}" for line in _parameters(found))
+    yield ""
+    yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
+    yield from _excluded(found)
+    yield from _set(found)
+    if found.selected:
+        yield ""
+        yield from _alternatives(found)
+    rest = [said for said in suspicions(found) if said not in first_lines(found)]
+    yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
+    yield from ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
+
+
+def _excluded(found: Selection) -> Iterator[str]:
+    """Where none is admissible, why, and what helps."""
+    if found.selected:
         return
-    yield f"{len(kept)} have parameters that can all be determined; the best of them{_why(found)}:"
     yield ""
-    yield from _table(sorted(kept, key=lambda c: (c is not found.selected, c.j_test))[:SHOWN])
+    yield from (f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}" for c in found.candidates[:SHOWN])
+    yield "more excitation or wider --thresholds may help"
+    if any(c.practical.unidentifiable for c in found.candidates[:SHOWN]):
+        yield "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force and sensor help"
+
+
+def _set(found: Selection) -> Iterator[str]:
+    """The structures that the data do not exclude, each with what does the same."""
+    if not found.members:
+        return
     yield ""
-    yield f"selected: {name_of(found.selected.chain)}   {text_drawing(found.selected.chain)}"
-    yield from (f"  {line}" for line in _parameters(found.selected))
-    yield ""
-    yield from (f"  {line}" for line in _results(physical(found.selected, found.task), train))
-    yield ""
-    yield from _alternatives(found)
+    yield "structures that this data does not exclude (two standard deviations of the difference of the costs):"
+    width = max(len(m.name) for m in found.members)
+    for m in found.members:
+        yield f"  {m.name:{width}}  J {m.candidate.j_test:.4g}  {text_drawing(m.candidate.chain)}{_differing(m)}"
+        for twin in m.twins:
+            values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
+            free = f" (one of a family, {twin.free_choices} free)" if twin.free_choices else ""
+            yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
+        if m.open:
+            yield f"    not decided: {', '.join(m.open)}"
+
+
+def _differing(member: Member) -> str:
+    if not member.differs:
+        return ""
+    hertz, size = member.differs[0]
+    return f"  differs most at {hertz:.3g} Hz, by {100 * size:.2g} %"
 
 
 def _saved(found: Selection) -> str:
@@ -155,10 +205,17 @@ def _index(value: float) -> str:
     return f"{value:.3g}" if isfinite(value) else "–"
 
 
-def _parameters(c: Candidate) -> Iterator[str]:
+def _parameters(found: Selection) -> Iterator[str]:
+    c = found.described
+    apart = {d.name: d for m in found.members[:1] for d in m.disagreements}
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
-        yield f"{name:4} = {value:<11.6g} {'given' if error is None else f'± {percent(error)}'}"
+        said = "given" if error is None else "not determined" if not error <= UNDETERMINED else f"± {percent(error)}"
+        yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
+
+
+def _flag(found: Disagreement) -> str:
+    return f"   test data: {found.test:.3g}, {found.distance:.2g} standard errors apart"
 
 
 def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterator[str]:
@@ -176,7 +233,7 @@ def _alternatives(found: Selection) -> Iterator[str]:
     if same:
         yield "every positive model of it is one of these too, so no data with this force and sensor tell them apart:"
         yield from (f"  {name_of(chain)}" for chain in same)
-    elif not found.alternatives:
+    elif not found.alternatives and not any(m.twins for m in found.members[:1]):
         yield "for generic positive parameters no other candidate with as many masses behaves the same: better data could tell"
     for relation, said in OTHERWISE.items():
         if relation in by_relation:

@@ -8,8 +8,10 @@ from typing import Any
 from disting.cli.paths import written_file, written_folder
 from disting.errors import shown
 
-WEIGHTS = ("none", "std", "coherence")
+WEIGHTS = ("auto", "none", "std", "coherence")
+UNITS = ("frequency", "phase", "input", "output")
 SIGNS = ("+", "-", "auto")
+RULES = ("determined", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
 
@@ -19,11 +21,19 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     data.add_argument("train", nargs="?", type=Path, metavar="TRAIN", help="measured frequency response, or time series")
     data.add_argument("--test", type=Path, metavar="TEST", help="independent data of the drive (default: cross-validation)")
     data.add_argument("--demo", action="store_true", help="simulated data of a small drive instead of files")
-    data.add_argument("--column", metavar="HEADER", help="header of the response's first column (default: the first response)")
+    text = "header of the response's first column (default: the first response); all: they are repeats of one"
+    data.add_argument("--column", metavar="HEADER", help=text)
     text = "option of the reader, such as input=iq, output=angle, sampling_rate=2500, to=acceleration; may be repeated"
     data.add_argument("--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text)
+    text = "another measurement of TRAIN; mean and scatter of all are taken; may be repeated"
+    data.add_argument("--repeat", type=Path, action="append", default=[], metavar="FILE", help=text)
+    text = "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg; may be repeated"
+    data.add_argument("--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text)
+    data.add_argument("--scale", type=float, metavar="X", help="multiply the response by X, such as the gain of the sensor")
+    text = "torque per current [Nm/A], or force per current [N/A] where the output is in m: results in SI units"
+    data.add_argument("--torque-constant", type=float, metavar="K", help=text)
     data.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
-    text = "sign of the sensor; auto takes what fits better (default: +)"
+    text = "sign of the sensor; auto takes what fits better among small and large candidates (default: +)"
     data.add_argument("--sign", choices=SIGNS, default="+", help=text)
     models = p.add_argument_group("candidates")
     models.add_argument("--masses", type=_masses, default=(1, 2, 3, 4), metavar="N", help="3, 1-4 or 1,3 (default: 1-4)")
@@ -37,9 +47,12 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     models.add_argument("--no-prune", action="store_true", help="fit indistinguishable candidates separately")
     choice = p.add_argument_group("cost and selection")
     choice.add_argument("--case", type=int, choices=[1, 2, 3], default=3, help="cost function of the paper (default: 3)")
-    choice.add_argument("--weights", choices=WEIGHTS, default="none", help="of the frequency lines (default: all alike)")
+    text = "of the frequency lines; auto: coherence for Welch's method (--read segment=..), else all alike (default: auto)"
+    choice.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
     choice.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
+    text = "admissible: what the data determine (determined), or the paper's three criteria alone (default: determined)"
+    choice.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
     text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"
     choice.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
     choice.add_argument("--seed", default="disting", help="of the few random starts")
@@ -57,8 +70,15 @@ def _option(text: str) -> tuple[str, Any]:
         raise argparse.ArgumentTypeError(f"an option is written like sampling_rate=2500, not {shown(text)}")
     if ".." in value:
         return name, _range(value)
-    parts = tuple(_number(part) for part in value.split(","))
+    parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))  # not at the comma of frf[2,1]
     return name, parts if len(parts) > 1 else parts[0]
+
+
+def _unit(text: str) -> tuple[str, str]:
+    name, equals, unit = text.partition("=")
+    if not (equals and unit) or name not in UNITS:
+        raise argparse.ArgumentTypeError(f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}")
+    return name, unit
 
 
 def _number(text: str) -> int | float | str:

@@ -12,6 +12,7 @@
 2 masses, gap 0, force 1-0, sensor 1-0, damped, ground dampers 1 500.0
 """
 
+from disting.fit.admissible import Rule as Rule
 from disting.fit.alternatives import Alternative as Alternative
 from disting.fit.candidates import chosen_ports as chosen_ports
 from disting.fit.candidates import figure_1 as figure_1
@@ -24,6 +25,8 @@ from disting.fit.cost import lines_by_deviation as lines_by_deviation
 from disting.fit.estimate import Estimate as Estimate
 from disting.fit.estimate import Task as Task
 from disting.fit.estimate import estimates as estimates
+from disting.fit.explained import Explanation as Explanation
+from disting.fit.explained import Miss as Miss
 from disting.fit.export import predicted as predicted
 from disting.fit.export import read_model as read_model
 from disting.fit.export import selection_to_dict as selection_to_dict
@@ -31,10 +34,15 @@ from disting.fit.export import state_space as state_space
 from disting.fit.export import to_control as to_control
 from disting.fit.export import to_control_transfer_function as to_control_transfer_function
 from disting.fit.export import write_mat as write_mat
+from disting.fit.judged import Candidate as Candidate
+from disting.fit.members import Disagreement as Disagreement
+from disting.fit.members import Member as Member
+from disting.fit.members import Twin as Twin
 from disting.fit.modes import Result as Result
 from disting.fit.modes import physical as physical
 from disting.fit.modes import poles as poles
 from disting.fit.modes import zeros as zeros
+from disting.fit.noise import Noise as Noise
 from disting.fit.plant import Plant as Plant
 from disting.fit.practical import Practical as Practical
 from disting.fit.practical import Thresholds as Thresholds
@@ -42,8 +50,8 @@ from disting.fit.practical import collinearity_index as collinearity_index
 from disting.fit.practical import condition_indices as condition_indices
 from disting.fit.practical import importance as importance
 from disting.fit.practical import practical as practical
-from disting.fit.repeatability import Repeatability as Repeatability
-from disting.fit.select import Candidate as Candidate
+from disting.fit.readings import Reading as Reading
+from disting.fit.scatter import Scatter as Scatter
 from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select
 from disting.fit.sweep import Profile as Profile

@@ -37,15 +37,19 @@ def chosen_ports(
 ) -> tuple[Chain, ...]:
     """Chains of several sizes with force and sensor at the same ports, with their variants.
 
-    A port is the number of a mass, the word last, or minus:plus such as 1:3; sizes in which it does not exist are left out.
-    Raises InputError where none is left.
+    A port is the number of a mass, the word last, or minus:plus such as 1:3; sizes in which it does not exist are left out, and
+    those in which the last mass is that of the other port: with one mass, force 1 and sensor last are not the two ends that
+    were asked for. Raises InputError where none is left.
 
     >>> [str(c) for c in chosen_ports([2], "1", "last")][:1]
     ['2 masses, gap 0, force 1-0, sensor 2-0, damped']
     """
     found, refused = list[Chain](), ""
     for n in sizes:
-        (act_minus, act_plus), (meas_minus, meas_plus) = (_port(text, n) for text in (actuator, shown))
+        (act_minus, act_plus), (meas_minus, meas_plus) = ports = tuple(_port(text, n) for text in (actuator, shown))
+        if (actuator == "last") != (shown == "last") and ports[0] == ports[1]:
+            refused = f"force {actuator} and sensor {shown} are the same mass"
+            continue
         try:
             found.append(Chain(n, gap, act_minus, act_plus, meas_minus, meas_plus, sensor, damped=True))
         except ConstraintViolation as reason:

@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disting.comparison import name_of
 from disting.errors import InputError, shown
+from disting.fit.judged import Candidate
+from disting.fit.members import Member
 from disting.fit.modes import poles, zeros
 from disting.fit.plant import Plant, Real
-from disting.fit.select import Candidate, Selection
+from disting.fit.select import Selection
+from disting.fit.telling import suspicions
 from disting.model.chain import Chain, Sensor
 from disting.simulation import matrices, port_vectors
 from disting.written import write_whole
@@ -109,12 +113,20 @@ def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1)
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:
-    """Plain data of a selection: `selected` (null if none), `candidates`, `alternatives`, and how it was made."""
+    """Plain data of a selection: `selected` (null if none), whether it explains the data, what else is not excluded."""
     return {
         "selected": candidate_to_dict(found.selected) if found.selected else None,
         "candidates": [candidate_to_dict(c) for c in found.candidates],
         "alternatives": [{**_named(a.chain), "relation": a.relation.value, "reason": a.sentence} for a in found.alternatives],
         "not_fitted": [{**_named(c), "same_as": _named(other)} for c, other in found.same_as.items()],
+        "explained": found.explanation.explains,
+        "chi2_per_line": found.explanation.chi2,
+        "scatter": found.explanation.scatter.typical,
+        "scatter_source": found.explanation.scatter.source,
+        "residual_correlation": found.explanation.correlation,
+        "not_excluded": [member_to_dict(m) for m in found.members],
+        "suspicions": list(suspicions(found)),
+        "rule": found.rule.value,
         "validation": found.validation,
         "repeatability": found.repeatability.typical,
         "repeatability_source": found.repeatability.source,
@@ -123,15 +135,36 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
     }
 
 
+def member_to_dict(member: Member) -> dict[str, Any]:
+    """Plain data of a structure that the data do not exclude: name, values, intervals of 95 %, and what behaves the same."""
+    return {
+        "name": member.name,
+        **_named(member.candidate.chain),
+        "parameters": member.candidate.estimate.parameters,
+        "intervals": {n: [_finite(end) for end in both] for n, both in member.intervals.items()},
+        "j_test": member.candidate.j_test,
+        "chi2_per_line": member.candidate.chi2,
+        "equivalents": [{"name": t.name, "parameters": t.parameters, "free_choices": t.free_choices} for t in member.twins],
+        "not_decided": list(member.open),
+        "disagreements": [
+            {"parameter": d.name, "train": d.train, "test": d.test, "standard_errors_apart": d.distance}
+            for d in member.disagreements
+        ],
+        "differs_at": [{"frequency": hertz, "by": size} for hertz, size in member.differs],
+    }
+
+
 def candidate_to_dict(c: Candidate) -> dict[str, Any]:
     """Plain data of one candidate; a number that is not finite is null, and so is `unidentifiable` where nothing is."""
     return {
+        "name": name_of(c.chain, short=False),
         **_named(c.chain),
         "n_parameters": c.n_parameters,
         "parameters": c.estimate.parameters,
         "standard_errors": {name: _finite(value) for name, value in c.standard_errors.items()},
         "j_train": c.j_train,
         "j_test": c.j_test,
+        "chi2_per_line": c.chi2,
         "pii_ratio": _finite(c.practical.importance_ratio),
         "collinearity": _finite(c.practical.collinearity),
         "condition_index": _finite(c.practical.condition_index),

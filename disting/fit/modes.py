@@ -7,9 +7,9 @@ import numpy as np
 from scipy.linalg import eig
 
 from disting.fit.estimate import Task
+from disting.fit.judged import Candidate
 from disting.fit.plant import Complex, Real
 from disting.fit.practical import standard_errors
-from disting.fit.select import Candidate
 from disting.model.structure import Structure
 from disting.simulation import matrices, port_vectors
 
@@ -66,7 +66,7 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
     for column, i in enumerate(np.flatnonzero(free)):
         both = [_values(chain.structure, p * np.exp(sign * STEP * (np.arange(len(p)) == i))) for sign in (1, -1)]
         slopes[:, column] = [(a.value - b.value) / (2 * STEP) for a, b in zip(*both, strict=True)]
-    errors = standard_errors(slopes, columns, candidate.j_train, candidate.practical.rank)
+    errors = standard_errors(slopes, columns, candidate.noise, candidate.practical.rank)
     return tuple(Result(r.name, r.value, float(e), r.unit) for r, e in zip(centre, errors, strict=True))
 
 

@@ -99,6 +99,8 @@ class Plant:
             if not pivot.all():  # without damping a line may meet an antiresonance exactly
                 pivot += (pivot == 0) * (ROUNDING * p[..., i, None] * self._s2)
             pivots[..., i - 1, :] -= coupling[..., i, :] ** 2 / pivot
+        if not pivots[..., 0, :].all():  # nor an undamped resonance
+            pivots[..., 0, :] += (pivots[..., 0, :] == 0) * (ROUNDING * p[..., 0, None] * self._s2)
         return coupling, pivots
 
     @cached_property

@@ -7,11 +7,12 @@ of columns changes neither collinearity nor condition indices, which see columns
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import inf, isfinite, sqrt
+from math import inf, isfinite
 
 import numpy as np
 
 from disting.errors import InputError
+from disting.fit.noise import Noise
 from disting.fit.plant import Real
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
@@ -100,14 +101,14 @@ class Practical:
         return self.condition_indices[-1] if self.condition_indices else 1.0
 
 
-def practical(columns: Real, names: Sequence[str], j: float) -> Practical:
-    """Criteria at an optimum with cost `j`; `columns` = S_j p_j, shape (n_y, n_p), those of fixed parameters left out.
+def practical(columns: Real, names: Sequence[str], noise: Noise) -> Practical:
+    """Criteria at an optimum with residuals of covariance `noise`; `columns` = S_j p_j, shape (n_y, n_p), of free parameters.
 
     Where all are fixed nothing depends on the data, so that nothing is undetermined: every index is 1.
     """
     if not names:
         return Practical((), {}, 1.0, (), {}, {})
-    deviations = np.sqrt(np.diag(covariance(columns, j)))
+    deviations = np.sqrt(np.diag(covariance(columns, noise)))
     return Practical(
         tuple(names),
         dict(zip(names, importance(columns).tolist(), strict=True)),
@@ -118,21 +119,18 @@ def practical(columns: Real, names: Sequence[str], j: float) -> Practical:
     )
 
 
-def covariance(columns: Real, j: float) -> Real:
-    """Covariance of ln p, shape (n_p, n_p): s^2 (S'S)^-1 with s^2 = J / (n_y - n_p); infinite where S is singular.
-
-    The residuals are taken as independent with equal variance: what a model leaves out counts as noise here.
-    """
+def covariance(columns: Real, noise: Noise) -> Real:
+    """Covariance of ln p, shape (n_p, n_p): H (S' C S) H, H = (S' S)^-1, with C of the residuals; infinite if S is singular."""
     n_y, n_p = columns.shape
     length = np.linalg.norm(columns, axis=0)
-    _, values, right = np.linalg.svd(unit_columns(columns), full_matrices=False)
+    left, values, right = np.linalg.svd(unit_columns(columns), full_matrices=False)
     if n_y <= n_p or values[-1] <= ROUNDING * values[0]:
         return np.full((n_p, n_p), inf)
-    half = right.T / values * sqrt(j / (n_y - n_p)) / length[:, None]
-    return np.asarray(half @ half.T)
+    half = noise.seen(left) / values @ right / length
+    return np.asarray(half.T @ half)
 
 
-def standard_errors(slopes: Real, columns: Real, j: float, rank: int) -> Real:
+def standard_errors(slopes: Real, columns: Real, noise: Noise, rank: int) -> Real:
     """Standard errors of functions of ln p with gradients `slopes`, shape (n, n_p): sqrt(g' C g), without cancellation.
 
     `rank` directions of ln p count as determined, those that the data determine best; infinite for a function that changes
@@ -142,9 +140,9 @@ def standard_errors(slopes: Real, columns: Real, j: float, rank: int) -> Real:
     length = np.linalg.norm(columns, axis=0)
     if n_y <= n_p or not length.all():
         return np.full(len(slopes), inf)
-    _, values, right = np.linalg.svd(unit_columns(columns), full_matrices=True)
+    left, values, right = np.linalg.svd(unit_columns(columns), full_matrices=False)
     parts = slopes / length @ right.T
-    known = np.linalg.norm(parts[:, :rank] / values[:rank], axis=1) * sqrt(j / (n_y - n_p))
+    known = np.linalg.norm(noise.seen(left[:, :rank]) @ (parts[:, :rank] / values[:rank]).T, axis=0)
     lost = np.linalg.norm(parts[:, rank:], axis=1) > LOST * np.linalg.norm(parts, axis=1)
     return np.asarray(np.where(lost, inf, known))
 

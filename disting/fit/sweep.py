@@ -8,8 +8,8 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.fit.descent import fine
 from disting.fit.estimate import Task
+from disting.fit.judged import Candidate
 from disting.fit.plant import Real
-from disting.fit.select import Candidate
 
 CRITERIA = ("condition_index", "importance_ratio", "collinearity")
 STEPS = 200  # thresholds from 1 to 10000

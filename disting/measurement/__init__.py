@@ -14,8 +14,11 @@ from disting.measurement.objects import from_frame as from_frame
 from disting.measurement.objects import series_from_frame as series_from_frame
 from disting.measurement.reading import read as read
 from disting.measurement.reading import read_time_series as read_time_series
+from disting.measurement.repeats import are_opposite as are_opposite
+from disting.measurement.repeats import mean_of as mean_of
 from disting.measurement.response import FrequencyResponse as FrequencyResponse
 from disting.measurement.response import Signal as Signal
 from disting.measurement.time_series import TimeSeries as TimeSeries
+from disting.measurement.units import in_si as in_si
 from disting.measurement.writing import csv_text as csv_text
 from disting.measurement.writing import write_csv as write_csv

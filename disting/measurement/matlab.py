@@ -11,24 +11,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.measurement import mat5
+from disting.measurement import mat5, mat5_objects
+from disting.measurement.stored import Stored, stored_responses
 from disting.measurement.variables import Arrays
 
 HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
 def variables(path: Path) -> Arrays:
-    """The variables of a file by name, read when called; raises InputError for what is no MATLAB file, now or then."""
+    """The variables of a file by name, read when called; raises InputError for what is no MATLAB file, now or then.
+
+    Numbers in structs are called `struct.field`.
+    """
     with path.open("rb") as stream:
         head = stream.read(520)
     if HDF5 in (head[:8], head[512:]):  # MATLAB puts 512 bytes of its own before it
         return _hdf5(path)
     content = path.read_bytes()
     if mat5.is_version_5(content):
-        return {variable.name: partial(_whole, variable, path) for variable in mat5.variables(content)}
+        found = list(mat5.variables(content))
+        fields = {name: partial(np.asarray, array) for one in found for name, array in mat5_objects.numbers_in(one).items()}
+        return fields | {variable.name: partial(_whole, variable, path) for variable in found}
     if b"\0" not in content[:4]:  # version 4 begins with a small number
         raise InputError(f"{path.name} is no MATLAB file")
     return {name: partial(_loaded, content, name, path) for name in _listed(content, path)}
+
+
+def responses(path: Path) -> dict[str, Stored]:
+    """The frequency responses that a file keeps as objects, by name."""
+    content = path.read_bytes()
+    return stored_responses(content) if mat5.is_version_5(content) else {}
 
 
 def _whole(variable: mat5.Variable, path: Path) -> NDArray[Any]:

@@ -5,13 +5,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError, shown
+from disting.errors import InputError
+from disting.measurement.grid import UNIT, known
 from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
 from disting.measurement.table import Table
 from disting.measurement.table_series import time_series
 from disting.measurement.tabular import frequency_response
 from disting.measurement.time_series import TimeSeries
-from disting.measurement.variables import UNIT, row
+from disting.measurement.variables import row
 from disting.model.chain import Sensor
 
 
@@ -26,9 +27,7 @@ def from_arrays(
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from arrays of shape (n_f,): `frequency` in "Hz", "kHz" or "rad/s", complex `response`."""
-    if frequency_unit not in UNIT:
-        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {shown(frequency_unit)}')
-    omega = _numbers(frequency, "frequency") * UNIT[frequency_unit]
+    omega = _numbers(frequency, "frequency") * UNIT[known(frequency_unit)]
     values = _numbers(response, "response") * as_sign(sign)
     return FrequencyResponse(omega, values, deviation, coherence, as_sensor(sensor), origin="arrays")
 

@@ -8,13 +8,14 @@ period p, at every excited line
     coherence = |sum_p Y_p conj(U_p)|^2 / (sum_p |U_p|^2 sum_p |Y_p|^2).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real, real
+from disting.measurement.distortion import Distortion, distortion
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
 LIKENESS = 0.9  # correlation of the input with itself, one period later, from which on it counts as periodic
@@ -33,24 +34,36 @@ class Estimated:
     deviation: Real | None
     coherence: Real | None
     notes: tuple[str, ...]
+    distortion: Distortion | None = None
 
 
 def estimate(
-    u: Real, y: Real, rate: float, period: int | None, transient: int, lines: Any, band: tuple[float, float] | None
+    u: Real,
+    y: Real,
+    rate: float,
+    period: int | None,
+    transient: int,
+    lines: Any,
+    band: tuple[float, float] | None,
+    excitation: Real,
 ) -> Estimated:
-    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz]."""
-    length = detected_period(u) if period is None else _whole(period, "period", 2)
+    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz]; `excitation` = u or a reference.
+
+    Means over periods forget the noise that a controller feeds back, so G holds in closed loop as well.
+    """
+    length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     notes = [f"period of {length} samples ({length / rate:g} s) detected in the input"] * (period is None)
-    inputs, outputs = (_spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y))
+    inputs, outputs, exciting = (_spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation))
     spacing = rate / length
-    chosen = excited(np.abs(inputs.mean(axis=0))) if lines is None else _given(lines, spacing, inputs.shape[1])
+    chosen = excited(np.abs(exciting.mean(axis=0))) if lines is None else _given(lines, spacing, inputs.shape[1])
     notes += [f"{len(chosen)} excited lines detected in the input"] * (lines is None)
+    between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
+    notes += [said] * bool(said)
     if band is not None:
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]
     notes += ["one period alone: no standard deviation and no coherence"] * (len(inputs) == 1)
-    return _estimated(
-        inputs[:, chosen], outputs[:, chosen], np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64), tuple(notes)
-    )
+    omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
+    return replace(_estimated(inputs[:, chosen], outputs[:, chosen], omega, tuple(notes)), distortion=between)
 
 
 def detected_period(u: Real) -> int:

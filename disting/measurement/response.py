@@ -9,8 +9,10 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real, applied, complex_, frozen, optional, real, same
+from disting.measurement.distortion import Distortion
 from disting.model.chain import Sensor
 
+ASSUMED_ACCELERATION = 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
 SORTED = "the frequencies were not in rising order and have been sorted"
 
 
@@ -34,7 +36,8 @@ class FrequencyResponse:
     `omega` [rad/s], shape (n_f,), positive, all different; `G`, shape (n_f,), sensor quantity per input [output unit / input
     unit]; `deviation` = standard deviation of the complex G, sqrt(var Re G + var Im G), shape (n_f,), in the unit of G, or
     None; `coherence` = ordinary coherence gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows;
-    `origin` = file and columns; `notes` = what was assumed or changed while reading.
+    `origin` = file and columns; `notes` = what was assumed or changed while reading;
+    `distortion` = what the lines without excitation of a periodic record show, or None.
     Frequencies out of order are sorted, with a note. Raises InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
@@ -52,6 +55,7 @@ class FrequencyResponse:
     output: Signal = UNNAMED
     origin: str = ""
     notes: tuple[str, ...] = ()
+    distortion: Distortion | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -144,6 +148,7 @@ class FrequencyResponse:
             G=self.G * (1j * self.omega) ** steps,
             deviation=applied(lambda d: d * self.omega**steps, self.deviation),
             sensor=wanted,
+            distortion=None if self.distortion is None else self.distortion.times(self.distortion.omega**steps),
             output=self.output._replace(unit=_differentiated(self.output.unit, steps)),
         )
 

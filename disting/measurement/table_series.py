@@ -6,9 +6,10 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.measurement.arrays import Real
-from disting.measurement.response import Signal, as_sign
+from disting.measurement.response import as_sign
 from disting.measurement.table import Table
 from disting.measurement.time_series import TimeSeries, said
+from disting.measurement.units import named
 from disting.model.chain import Sensor
 
 
@@ -17,22 +18,28 @@ def time_series(
     input: str | int,
     output: str | int,
     *,
+    reference: str | int | None = None,
     sampling_rate: float | None = None,
     time: str | int | None = None,
     sensor: Sensor | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
-    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate` [Hz] or column `time` [s]."""
+    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate` [Hz] or column `time` [s].
+
+    `reference` = the column of what a controller was asked for, where the record is of a closed loop.
+    """
     if sampling_rate is None:
-        at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if _is_time(h)), None)
+        at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if is_time(h)), None)
         if at is None:
             raise InputError(f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers: {table.listed()}")
         sampling_rate = rate_of(table.column(at), table.origin)
     u, y = table.at(input), table.at(output)
-    labels = Signal(table.headers[u]), Signal(table.headers[y])
+    labels = named(table.headers[u]), named(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
     quantity, notes = said(sensor)
-    return TimeSeries(table.column(u), table.column(y) * as_sign(sign), sampling_rate, quantity, *labels, origin, notes)
+    wanted = None if reference is None else table.column(table.at(reference))
+    samples = table.column(u), table.column(y) * as_sign(sign)
+    return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, notes, wanted)
 
 
 def rate_of(time: Real, origin: str) -> float:
@@ -43,5 +50,6 @@ def rate_of(time: Real, origin: str) -> float:
     return float(len(steps) / (time[-1] - time[0]))
 
 
-def _is_time(header: str) -> bool:
+def is_time(header: str) -> bool:
+    """Whether a column is the time."""
     return re.match(r"(t|time|zeit)\b", header.lower()) is not None

@@ -10,8 +10,11 @@ from disting.errors import InputError, listed, shown
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.column_words import FREQUENCIES, PHASES, Meaning, meaning
-from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.grid import in_omega
+from disting.measurement.repeats import mean_of
+from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
 from disting.measurement.table import Table
+from disting.measurement.units import ratio
 from disting.model.chain import Sensor
 
 SENSOR_WORDS = {
@@ -20,8 +23,9 @@ SENSOR_WORDS = {
     Sensor.ACCELERATION: re.compile(r"\b(acceleration|accelerance|inertance|beschleunigung)\b|/s(\^|\*\*)?2|/s²"),
 }
 ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backslash itself
+LINEAR = re.compile(r"abs|modulus|betrag")  # words for what is never negative; a magnitude or gain may well be in dB
+NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
 MARK = "frequency response, written by disting"
-TO_OMEGA = {Meaning.HERTZ: 2 * np.pi, Meaning.KILOHERTZ: 2e3 * np.pi, Meaning.RADIAN_PER_SECOND: 1.0}
 
 
 @dataclass(slots=True)
@@ -44,30 +48,40 @@ def frequency_response(
     sensor: Sensor | str | None = None,
     sign: int = 1,
     phase_unit: str | None = None,
+    frequency_unit: str | None = None,
 ) -> FrequencyResponse:
-    """The first response of a table, or the one that begins at `column` (header, or number from 1).
+    """The first response of a table, or the one that begins at `column` (header, or number from 1); "all": the mean of all.
 
     `columns` = the role of every column (values of `Meaning`, "-" for none) instead of the words in the headers; `sensor` and
-    `phase_unit` ("deg", "rad") where the file does not say them, or says them wrongly; `sign` = -1 for a reversed sensor.
+    `phase_unit` ("deg", "rad"), `frequency_unit` ("Hz", "kHz", "rad/s", "rpm") where the file does not say them, or says them
+    wrongly; `sign` = -1 for a reversed sensor.
     Raises InputError where columns are missing; the message lists the headers.
     """
     notes: list[str] = []
     roles = _roles(table, columns, notes)
     at = _frequency_column(table, roles)
-    group = _chosen(table, _groups(table, roles), column)
     ours = _written(table.comments)
+    said = None if roles[at] is Meaning.HERTZ and not any("hz" in h.lower() for h in table.headers) else roles[at].value
+    grid, doubt = in_omega(table.column(at), said, (said if ours else None) or frequency_unit, table.named(at))
+    notes += [doubt] if doubt else []
     quantity = _quantity(table, sensor or ours.get("sensor"), notes)
-    response = FrequencyResponse(
-        table.column(at) * TO_OMEGA[roles[at]],
-        _complex(table, group, phase_unit, notes) * as_sign(sign),
-        _beside(table, group, Meaning.DEVIATION),
-        _beside(table, group, Meaning.COHERENCE),
-        sensor=quantity,
-        input=_signal(ours, "input", ""),
-        output=_signal(ours, "output", table.headers[group.first]),
-        origin=f"{table.origin}, {table.named(group.first)}",
-    )
-    return response.noted(*notes)
+    units = ("", "") if ours else ratio((*table.headers, *table.comments)) or ("", "")
+    groups = _groups(table, roles)
+    chosen = groups if column == "all" and "all" not in table.headers else [_chosen(table, groups, column)]
+    responses = [
+        FrequencyResponse(
+            grid,
+            _complex(table, group, phase_unit, notes, guess=columns is None) * as_sign(sign),
+            _beside(table, group, Meaning.DEVIATION),
+            _beside(table, group, Meaning.COHERENCE),
+            sensor=quantity,
+            input=_signal(ours, "input", Signal("", units[1])),
+            output=_signal(ours, "output", Signal(table.headers[group.first], units[0])),
+            origin=f"{table.origin}, {table.named(group.first)}",
+        )
+        for group in chosen
+    ]
+    return mean_of(responses).noted(*notes)
 
 
 def _written(comments: Sequence[str]) -> dict[str, str]:
@@ -77,8 +91,8 @@ def _written(comments: Sequence[str]) -> dict[str, str]:
     return plain if MARK in comments else {}
 
 
-def _signal(ours: Mapping[str, str], role: str, header: str) -> Signal:
-    return Signal(ours.get(f"{role} label", ""), ours.get(f"{role} unit", "")) if ours else Signal(header)
+def _signal(ours: Mapping[str, str], role: str, foreign: Signal) -> Signal:
+    return Signal(ours.get(f"{role} label", ""), ours.get(f"{role} unit", "")) if ours else foreign
 
 
 def _beside(table: Table, group: _Group, role: Meaning) -> Real | None:
@@ -90,8 +104,6 @@ def _roles(table: Table, columns: Sequence[str] | None, notes: list[str]) -> lis
         return _given(table, columns)
     if any(table.headers):
         roles = [meaning(header) for header in table.headers]
-        if Meaning.HERTZ in roles and not any("hz" in h.lower() for h in table.headers):
-            notes.append(f"frequencies of column {shown(table.headers[roles.index(Meaning.HERTZ)])} taken as Hz")
         return roles
     if len(table.headers) != 3:
         raise InputError(
@@ -104,7 +116,7 @@ def _roles(table: Table, columns: Sequence[str] | None, notes: list[str]) -> lis
 def _given(table: Table, columns: Sequence[str]) -> list[Meaning]:
     try:
         roles = [Meaning(word) for word in columns]
-    except ValueError as error:
+    except (ValueError, TypeError) as error:
         raise InputError(f"columns are named by {', '.join(Meaning)}; {error}") from None
     if len(roles) != len(table.headers):
         raise InputError(f"{table.origin} has {len(table.headers)} columns, of which {len(roles)} are named")
@@ -167,21 +179,31 @@ def _chosen(table: Table, groups: list[_Group], column: str | int | None) -> _Gr
     return found
 
 
-def _complex(table: Table, group: _Group, phase_unit: str | None, notes: list[str]) -> Complex:
+def _complex(table: Table, group: _Group, phase_unit: str | None, notes: list[str], *, guess: bool) -> Complex:
     columns = group.columns
     if Meaning.REAL in columns:
         return np.asarray(table.column(columns[Meaning.REAL]) + 1j * table.column(columns[Meaning.IMAGINARY]))
-    if Meaning.DECIBEL in columns:
-        with np.errstate(over="ignore"):
-            size = 10.0 ** (table.column(columns[Meaning.DECIBEL]) / 20)
-    else:
-        size = table.column(columns[Meaning.MAGNITUDE])
-    if np.any(size < 0):
-        raise InputError(f"{table.origin}: a magnitude is negative; is the column in dB?")
     role = next(p for p in PHASES if p in columns)
     phase = table.column(columns[role])
     unit = _phase_unit(phase, role, phase_unit, notes)
+    size = _size(table, columns, notes, guess=guess and unit == "deg")
     return np.asarray(size * np.exp(1j * (np.deg2rad(phase) if unit == "deg" else phase)))
+
+
+def _size(table: Table, columns: Mapping[Meaning, int], notes: list[str], *, guess: bool) -> Real:
+    """Magnitudes; where a column of them has negative numbers, and may be guessed about, they are dB."""
+    if Meaning.DECIBEL in columns:
+        at, decibel = columns[Meaning.DECIBEL], True
+    else:
+        at = columns[Meaning.MAGNITUDE]
+        negative = np.mean(table.column(at) < 0) >= NEGATIVE and LINEAR.search(table.headers[at].lower()) is None
+        decibel = bool(guess and negative)
+        notes += [f"{table.named(at)} has negative magnitudes, with phases in degrees: taken as dB"] * decibel
+    size = table.column(at)
+    if np.any(size < 0) and not decibel:
+        raise InputError(f"{table.origin}: a magnitude is negative; is the column in dB?")
+    with np.errstate(over="ignore"):
+        return np.asarray(10.0 ** (size / 20) if decibel else size)
 
 
 def _phase_unit(phase: Real, role: Meaning, asked: str | None, notes: list[str]) -> str:
@@ -205,5 +227,5 @@ def _quantity(table: Table, sensor: Sensor | str | None, notes: list[str]) -> Se
     found = [quantity for quantity, words in SENSOR_WORDS.items() if words.search(text)]
     if len(found) == 1:
         return found[0]
-    notes.append('sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"')
+    notes.append(ASSUMED_ACCELERATION)
     return Sensor.ACCELERATION

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, shown
-from disting.measurement import periodic, welch
+from disting.measurement import checks, periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
+from disting.measurement.closed_loop import follows_output
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal, as_sensor
 from disting.model.chain import Sensor
 
@@ -16,8 +17,8 @@ from disting.model.chain import Sensor
 class TimeSeries:
     """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by content.
 
-    `sensor` = the quantity that `y` shows. Raises InputError for samples that are not finite, constant signals and unequal
-    lengths.
+    `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked for, or None. Raises
+    InputError for samples that are not finite, constant signals and unequal lengths.
     """
 
     u: Real
@@ -28,12 +29,15 @@ class TimeSeries:
     output: Signal = UNNAMED
     origin: str = ""
     notes: tuple[str, ...] = ()
+    reference: Real | None = None
 
     def __post_init__(self) -> None:
-        for name in ("u", "y"):
+        for name in ("u", "y", *["reference"] * (self.reference is not None)):
             object.__setattr__(self, name, frozen(_samples(getattr(self, name), name)))
         if len(self.u) != len(self.y):
             raise InputError(f"the input has {len(self.u)} samples, the output {len(self.y)}; give signals of one record")
+        if self.reference is not None and len(self.reference) != len(self.u):
+            raise InputError(f"the reference has {len(self.reference)} samples, the input {len(self.u)}; give one record")
         object.__setattr__(self, "sampling_rate", _rate(self.sampling_rate))
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "input", Signal(*self.input))
@@ -50,7 +54,8 @@ class TimeSeries:
             return NotImplemented
         mine = (self.sampling_rate, self.sensor, self.input, self.output)
         theirs = (other.sampling_rate, other.sensor, other.input, other.output)
-        return mine == theirs and same(self.u, other.u) and same(self.y, other.y)
+        pairs = ((self.u, other.u), (self.y, other.y), (self.reference, other.reference))
+        return mine == theirs and all(same(a, b) for a, b in pairs)
 
     def __hash__(self) -> int:
         return hash((self.sampling_rate, self.u.tobytes(), self.y.tobytes()))
@@ -68,21 +73,31 @@ class TimeSeries:
         lines: Any = None,
         band: tuple[float, float] | None = None,
         segment: int | None = None,
+        least_coherence: float | None = None,
     ) -> FrequencyResponse:
         """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default: that of the record).
 
         Periodic excitation (module `periodic`): `period` [samples], detected where not given; `transient` = periods dropped at
         the beginning; `lines` = excited frequencies [Hz], detected where not given. Any other excitation: `segment` [samples]
-        of Welch's method (module `welch`), which is used exactly where `segment` is given. `band` = (low, high) [Hz].
-        Raises InputError where no period is found, periods are missing, or `period` and `segment` are both given.
+        of Welch's method (module `welch`), which is used exactly where `segment` is given; lines of a coherence below
+        `least_coherence` are left out then (default: what chance gives). A reference makes both methods hold in closed loop.
+        `band` = (low, high) [Hz]. Raises InputError where no period is found, periods are missing, too few lines are left, or
+        `period` and `segment` are both given.
         """
         if segment is not None and (period is not None or lines is not None):
             raise InputError("period and lines belong to a periodic excitation, segment to any other: give one of them")
+        if segment is None and least_coherence is not None:
+            raise InputError("least_coherence belongs to Welch's method: give segment= [samples] too")
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite then is refused below
             if segment is None:
-                found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band)
+                excitation = self.u if self.reference is None else self.reference
+                found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band, excitation)
             else:
-                found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band)
+                found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band, self.reference, least_coherence)
+        if len(found.omega) < checks.FEWEST:
+            said = "; ".join((*found.notes, *([f"band {band[0]:g}..{band[1]:g} Hz"] if band else [])))
+            raise InputError(f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed: {said}")
+        doubt = follows_output(self.u, self.y) if segment is not None and self.reference is None else None
         response = FrequencyResponse(
             found.omega,
             found.G,
@@ -92,7 +107,8 @@ class TimeSeries:
             self.input,
             self.output,
             self.origin,
-            (*self.notes, *found.notes),
+            (*self.notes, *found.notes, *([doubt] if doubt else [])),
+            found.distortion,
         )
         return response if sensor is None else response.to_quantity(sensor)
 

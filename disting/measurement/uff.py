@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, listed
-from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
 from disting.model.chain import Sensor
 
 RESPONSE, COHERENCE = 4, 6
@@ -92,7 +92,7 @@ def _quantity(record: Record, asked: Sensor | str | None) -> tuple[Sensor, str |
     found = QUANTITIES.get(record.get("ordinate_spec_data_type", 0))
     if found is not None:
         return found, None
-    return Sensor.ACCELERATION, 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
+    return Sensor.ACCELERATION, ASSUMED_ACCELERATION
 
 
 def _coherence(records: Sequence[Record], response: Record) -> Any:

@@ -1,5 +1,10 @@
-"""Frequency responses and time series from named arrays, as MATLAB files and archives of arrays hold them."""
+"""Frequency responses and time series from named arrays, as MATLAB files and archives of arrays hold them.
 
+`NAME[2]` is the second signal of an array of several, `NAME[2,1]` the response from the first input to the second output:
+numbers from 1, as in MATLAB.
+"""
+
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -8,7 +13,8 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
-from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.grid import in_omega
+from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
 from disting.measurement.table_series import rate_of
 from disting.measurement.time_series import TimeSeries, said
 from disting.model.chain import Sensor
@@ -21,7 +27,8 @@ COHERENCE_NAMES = ("coh", "coherence", "Coh", "gamma2", "C")
 RATE_NAMES = ("fs", "Fs", "fsample", "sampling_rate")
 STEP_NAMES = ("Ts", "ts", "dt", "T_s")
 TIME_NAMES = ("t", "time", "Time")
-UNIT = {"Hz": 2 * np.pi, "kHz": 2e3 * np.pi, "rad/s": 1.0}
+
+INDEXED = re.compile(r"(.+?)(?:\[|\((?::,)?)([0-9]{1,9}(?:,[0-9]{1,9})*)[\])]")
 
 Arrays = Mapping[str, Callable[[], NDArray[Any]]]  # by name; called where needed, so that others may be unreadable
 
@@ -44,8 +51,12 @@ def from_variables(
     `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which response (from 0, one number for
     every other axis) of an array of several; `sensor`, `sign` as for a text file.
     """
-    name, unit = _frequency(arrays, frequency, frequency_unit, origin)
-    values = _numeric(arrays, name, origin).real.ravel() * UNIT[unit]
+    name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
+    default = "rad/s" if name in OMEGA_NAMES else "Hz"
+    grid = _numeric(arrays, name, origin).real.ravel()
+    values, taken = in_omega(grid, None, frequency_unit, shown(name), default=default)
+    response, chosen_index = indexed(response)
+    index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
     found = FrequencyResponse(
         values,
@@ -56,9 +67,17 @@ def from_variables(
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
     )
-    assumed = 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
-    taken = f"frequencies of {shown(name)} taken as {unit}"
-    return found.noted(None if sensor else assumed, None if frequency_unit else taken)
+    return found.noted(None if sensor else ASSUMED_ACCELERATION, taken)
+
+
+def holds_response(arrays: Arrays) -> bool:
+    """Whether there are variables with the usual names of frequencies and of a response."""
+    return holds_frequencies(arrays) and any(name in arrays for name in RESPONSE_NAMES)
+
+
+def holds_frequencies(arrays: Arrays) -> bool:
+    """Whether there is a variable with a usual name of frequencies."""
+    return any(name in arrays for name in (*HERTZ_NAMES, *OMEGA_NAMES))
 
 
 def series_from_variables(
@@ -67,6 +86,7 @@ def series_from_variables(
     input: str,
     output: str,
     *,
+    reference: str | None = None,
     sampling_rate: float | str | None = None,
     time: str | None = None,
     sensor: Sensor | str | None = None,
@@ -74,14 +94,24 @@ def series_from_variables(
 ) -> TimeSeries:
     """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a variable, or `time` [s] = a variable.
 
-    Without either, fs, Fs, Ts, dt, then t, time are looked for.
+    Without either, fs, Fs, Ts, dt, then t, time are looked for. A signal may be `NAME[2]`, one of an array of several.
     """
     rate = _rate(arrays, sampling_rate, time, origin)
-    u, y = (_numeric(arrays, _name(arrays, n, (), "signal", origin), origin) for n in (input, output))
     signals = Signal(input), Signal(output)
-    samples = _column(u, input), _column(y, output) * as_sign(sign)
+    samples = _signal(arrays, input, origin), _signal(arrays, output, origin) * as_sign(sign)
     quantity, notes = said(sensor)
-    return TimeSeries(*samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes)
+    wanted = None if reference is None else _signal(arrays, reference, origin)
+    return TimeSeries(*samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes, wanted)
+
+
+def indexed(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
+    """Name and numbers, from 0, of a text such as `NAME[2]`; None where there are none.
+
+    >>> indexed("data[2]"), indexed("frf.Pv[2,1]"), indexed("data(:,2)"), indexed("iq")
+    (('data', (1,)), ('frf.Pv', (1, 0)), ('data', (1,)), ('iq', None))
+    """
+    found = INDEXED.fullmatch(asked) if asked else None
+    return (found[1], tuple(int(n) - 1 for n in found[2].split(","))) if found else (asked, None)
 
 
 def row(values: NDArray[Any], size: int, index: int | Sequence[int] | None, name: str) -> NDArray[Any]:
@@ -112,15 +142,6 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
     return asked
 
 
-def _frequency(arrays: Arrays, asked: str | None, unit: str | None, origin: str) -> tuple[str, str]:
-    """The variable that holds the frequencies, and their unit: as said, else as the name tells."""
-    name = _name(arrays, asked, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
-    found = unit or ("rad/s" if name in OMEGA_NAMES else "Hz")
-    if found not in UNIT:
-        raise InputError(f'frequency_unit is "Hz", "kHz" or "rad/s", not {shown(found)}')
-    return name, found
-
-
 def _optional(
     arrays: Arrays, asked: str | None, usual: Sequence[str], size: int, index: int | Sequence[int] | None, origin: str
 ) -> Real | None:
@@ -142,11 +163,18 @@ def _numeric(arrays: Arrays, name: str, origin: str) -> NDArray[Any]:
     return array.astype(np.complex128 if array.dtype.kind == "c" else np.float64)
 
 
-def _column(values: NDArray[Any], name: str) -> NDArray[Any]:
-    array = np.squeeze(values)
-    if array.ndim != 1:
-        raise InputError(f"{name} of shape {values.shape} is no single signal")
-    return array
+def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
+    """One signal of a variable, the longest axis of which is time."""
+    name, index = (asked, None) if asked in arrays else indexed(asked)
+    values = np.squeeze(_numeric(arrays, _name(arrays, name, (), "signal", origin), origin))
+    if values.ndim == 2:
+        several = values.T if values.shape[0] >= values.shape[1] else values
+        if index is None or len(index) != 1 or not 0 <= index[0] < len(several):
+            raise InputError(f"{name} holds {len(several)} signals; choose one, from 1, as {name}[2]")
+        return np.asarray(several[index[0]])
+    if values.ndim != 1 or index is not None:
+        raise InputError(f"{asked} is no single signal: {name} is of shape {values.shape}")
+    return np.asarray(values)
 
 
 def _rate(arrays: Arrays, asked: float | str | None, time: str | None, origin: str) -> float:
@@ -156,8 +184,8 @@ def _rate(arrays: Arrays, asked: float | str | None, time: str | None, origin: s
         return _scalar(arrays, _name(arrays, asked, RATE_NAMES, "sampling_rate", origin), origin)
     if time is None and any(n in arrays for n in STEP_NAMES):
         return 1.0 / _scalar(arrays, _name(arrays, None, STEP_NAMES, "step", origin), origin)
-    name = _name(arrays, time, TIME_NAMES, "sampling_rate", origin)
-    return rate_of(_column(_numeric(arrays, name, origin).real, name), f"{origin}, {name}")
+    name = time if time is not None else _name(arrays, None, TIME_NAMES, "sampling_rate", origin)
+    return rate_of(_signal(arrays, name, origin).real, f"{origin}, {name}")
 
 
 def _scalar(arrays: Arrays, name: str, origin: str) -> float:

@@ -13,7 +13,7 @@ from disting.algebra.matroid import Component, Matroid, SearchTooLargeError, mat
 
 P = 2**31 - 1
 LIMIT = 10**6
-many = settings(max_examples=150, deadline=None)
+many = settings(max_examples=60, deadline=None)
 some = settings(max_examples=60, deadline=None)
 
 

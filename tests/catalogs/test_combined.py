@@ -60,6 +60,7 @@ def test_one_sided_inclusion_is_shown(three):
     assert found.verdict(places["2:1"], places["3:1"]).closure is Inclusion.LEFT_IN_RIGHT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("damped", "inside", "outside"), [(False, 417, 65), (True, 441, 41)])
 def test_models_of_one_to_four_masses(damped, inside, outside):
     """All 482 pairs of different size are settled."""

@@ -60,7 +60,7 @@ def test_without_dampers_as_the_shipped_catalogue_says(n, damped):
 @pytest.mark.parametrize("n", [3, 4])
 def test_at_random_as_compare_says(n):
     found, random = damper_catalog(n, damped=True), Random(n)
-    for _ in range(40):
+    for _ in range(40 if n == 3 else 10):
         i, j = random.sample(range(len(found)), 2)
         relation, rule = found.found.look_up(i, j)
         if rule != "exact":
@@ -156,9 +156,20 @@ def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
 
 
 def test_what_was_settled_once_is_in_the_file_and_holds():
+    """One of them and, by hand, every third."""
     known = read_settled(shipped_folder())
-    chains = {str(canonical(c).chain): canonical(c).chain for c in damper_catalog(5, damped=True).found.chains}
     assert len(known) > 90
     assert all(f.safety >= 100 and f.outcome is Outcome.FAILS for f in known.values())
-    for names in sorted(known)[::60]:
+    assert_settled(known, sorted(known)[60:61])
+
+
+@pytest.mark.slow
+def test_what_was_settled_once_holds():
+    known = read_settled(shipped_folder())
+    assert_settled(known, sorted(known)[::3])
+
+
+def assert_settled(known, pairs):
+    chains = {str(canonical(c).chain): canonical(c).chain for c in damper_catalog(5, damped=True).found.chains}
+    for names in pairs:
         assert Witness().confirms(known[names].evidence, "fibre", *(chains[n] for n in names))

@@ -7,6 +7,7 @@ import pytest
 
 from disting import CatalogError, catalog
 from disting.catalogs.files import shipped_folder
+from disting.packaged import intact_text
 
 
 def damaged(folder, source):
@@ -32,6 +33,18 @@ def test_an_intact_file_is_read_and_a_folder_without_provenance_too(tmp_path):
     assert catalog(3, folder=tmp_path) == catalog(3)
     shutil.copy(shipped_folder() / "provenance.json", tmp_path)
     assert catalog(3, folder=tmp_path) == catalog(3)
+
+
+@pytest.mark.parametrize("name", ["rows.jsonl", "settled-dampers.jsonl"])
+def test_a_growing_file_may_grow_but_not_change(tmp_path, name):
+    content = (shipped_folder() / name).read_bytes()
+    shutil.copy(shipped_folder() / "provenance.json", tmp_path)
+    (tmp_path / name).write_bytes(content + content[-200:])
+    assert intact_text(tmp_path / name).startswith(content.decode())
+    for damaged in (content[:-1], b"x" + content[1:]):
+        (tmp_path / name).write_bytes(damaged)
+        with pytest.raises(CatalogError, match="is damaged"):
+            intact_text(tmp_path / name)
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"files": 3}', "\0"])

@@ -92,7 +92,10 @@ def test_the_exact_decision_covers_lag_and_dead_time_on_both_sides(masses):
     assert Witness().confirms(verdict.evidence, verdict.representation, *pair)
 
 
-@pytest.mark.parametrize(("n", "damped"), [(n, damped) for n in (1, 2, 3, 4) for damped in (False, True)])
+@pytest.mark.parametrize(
+    ("n", "damped"),
+    [pytest.param(n, d, marks=[pytest.mark.slow] * (n == 4)) for n in (1, 2, 3, 4) for d in (False, True)],
+)
 def test_the_sensor_quantity_changes_no_verdict(n, damped):
     """Relations and deciding conditions of all pairs, for position, velocity and acceleration."""
     query = Query(inclusion=False)

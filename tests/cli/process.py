@@ -1,4 +1,4 @@
-"""disting as its users start it: a process with its output and exit status."""
+"""disting as its users start it, with its output and exit status."""
 
 import csv
 import io
@@ -6,11 +6,17 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
+
+import pytest
+
+from disting.cli import main
 
 COMMAND = (sys.executable, "-m", "disting")
 
 
 def disting(*arguments, cache="off", cwd=None):
+    """A process of its own."""
     environment = os.environ | {"DISTING_CACHE": str(cache), "COLUMNS": "100"}
     command = [*COMMAND, *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
@@ -20,6 +26,18 @@ def heed_signals():
     """Background jobs and nohup leave signals ignored, which children inherit."""
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
+
+
+def called(*arguments, cache="off"):
+    """The same without a process of its own, which takes a second to start: for tests of what a command says."""
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        patch.setenv("DISTING_CACHE", str(cache))
+        patch.setenv("COLUMNS", "100")
+        try:
+            status = main([*map(str, arguments)])
+        except SystemExit as end:  # argparse ends the process
+            status = end.code or 0
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
 
 
 def marked(folder):

@@ -1,23 +1,20 @@
-"""The command `equivalents` in real processes."""
+"""The command `equivalents`: what it says, and its exit status."""
 
 import json
-import os
-import subprocess
-import sys
 
 import pytest
+
+from tests.cli.process import called, disting
 
 VALUES = "m1=1,m2=2,m3=3,k12=100,k23=70"
 
 
 def equivalents(*arguments):
-    command = [sys.executable, "-m", "disting", "equivalents", *map(str, arguments)]
-    environment = os.environ | {"DISTING_CACHE": "off", "COLUMNS": "100"}
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False)
+    return called("equivalents", *arguments)
 
 
 def test_one_structure():
-    done = equivalents("3:1", "--to", "3:11", "--damped", "--set", VALUES, "--set", "d12=0.1,d23=3/10")
+    done = disting("equivalents", "3:1", "--to", "3:11", "--damped", "--set", VALUES, "--set", "d12=0.1,d23=3/10")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     assert lines[0] == "3:1  [1FS]=[2]=[3]"

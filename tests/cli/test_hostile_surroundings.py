@@ -42,7 +42,7 @@ def test_workers_end_with_their_parent(tmp_path, by):
         time.sleep(0.05)
     assert len(workers) >= 3
     parent.send_signal(by)
-    parent.wait(timeout=60)
+    assert parent.wait(timeout=60) == -by
     patience = 600  # tenths of a second; idle, they end within one
     while marked(tmp_path) and patience:
         time.sleep(0.1)

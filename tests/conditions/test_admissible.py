@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import combinations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Certainty, Chain, ContradictionError, Engine, Family, Outcome, Query, Relation, View, compare
@@ -80,6 +80,7 @@ def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
     assert Verdict.from_dict(v.to_dict()) == v and from_dict(to_dict(v.evidence)) == v.evidence
 
 
+@settings(max_examples=30, deadline=None)
 @given(st.sampled_from(PAIRS), st.booleans(), st.sampled_from((View.EXACT, View.POSITIVE, View.REAL)))
 def test_the_order_of_a_pair_swaps_what_is_said_of_the_sides(pair, damped, view):
     a, b = (Family(3, damped)[number] for number in pair)
@@ -102,8 +103,10 @@ def test_catalogues_decisions_and_single_pairs_say_the_same(small, damped):
     for view in (View.EXACT, View.POSITIVE, View.REAL):
         decided = engine.decisions(subjects, Query(view))
         assert decisions_csv(decided) == small[damped].to_csv(view)
-        for i, j, v in small[damped].pairs(view):
+        for number, (i, j, v) in enumerate(small[damped].pairs(view)):
             assert decided.verdict(i - 1, j - 1) == v
+            if number % 3:
+                continue  # a third of them alone, each without what is known of others
             one = compare(family[i], family[j], query=Query(view))
             assert (one.relation, one.evidence, shares(one)) == (v.relation, v.evidence, shares(v))
 

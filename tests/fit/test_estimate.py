@@ -71,9 +71,10 @@ def test_a_candidate_that_contains_another_is_never_worse_on_the_bench(side):
 def test_the_same_seed_gives_the_same_bytes_with_workers_or_without():
     chain = Chain(2, damped=True, dead_time=True)
     task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
-    alone = estimates(figure_1((1, 2)), task)
+    few = [c for c in figure_1((1, 2)) if not c.lag]
+    alone = estimates(few, task)
     with ThreadPoolExecutor(3) as pool:
-        together = estimates(figure_1((1, 2)), task, executor=pool)
+        together = estimates(few, task, executor=pool)
     assert {c: estimate_to_json(e) for c, e in alone.items()} == {c: estimate_to_json(e) for c, e in together.items()}
     assert estimate_from_json(chain, estimate_to_json(alone[chain])) == alone[chain]
 
@@ -82,17 +83,19 @@ def test_interrupted_work_resumes_where_it_stopped(tmp_path):
     chain = Chain(2, damped=True, dead_time=True)
     task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
 
+    few = [c for c in figure_1((1, 2)) if not c.lag]
+
     def stop(what, done, total):
         if done >= 6:
             raise KeyboardInterrupt
 
     with Store.open(tmp_path / "cache.sqlite3") as store:
         with pytest.raises(KeyboardInterrupt):
-            estimates(figure_1((1, 2)), task, store=store, progress=stop)
+            estimates(few, task, store=store, progress=stop)
         assert store.info().entries == 6
         steps = []
-        found = estimates(figure_1((1, 2)), task, store=store, progress=lambda what, done, total: steps.append(done))
-        assert found == estimates(figure_1((1, 2)), task) and steps[-1] == 24
+        found = estimates(few, task, store=store, progress=lambda what, done, total: steps.append(done))
+        assert found == estimates(few, task) and steps[-1] == len(few) == 12
         other = Task(Cost(response(chain, truth(chain, 7), noise=0.02)))
         assert estimates([chain], other, store=store)[chain] != found[chain]
 

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from disting.errors import InputError
+from disting.fit.noise import equal
 from disting.fit.practical import (
     Thresholds,
     collinearity_by_subset,
@@ -71,8 +72,8 @@ def test_subsets_are_never_more_collinear_than_the_whole():
 def test_the_covariance_is_that_of_linear_regression():
     matrix = np.random.default_rng(2).normal(size=(30, 3)) * [1.0, 100.0, 0.01]
     expected = 7.0 / 27 * np.linalg.inv(matrix.T @ matrix)
-    np.testing.assert_allclose(covariance(matrix, 7.0), expected, rtol=1e-9)
-    assert np.isinf(covariance(np.outer(np.arange(4.0), [1, 2]), 1.0)).all()
+    np.testing.assert_allclose(covariance(matrix, equal(7.0, 30, 3)), expected, rtol=1e-9)
+    assert np.isinf(covariance(np.outer(np.arange(4.0), [1, 2]), equal(1.0, 4, 2))).all()
 
 
 def test_the_worst_direction_names_the_parameters_that_trade():
@@ -85,10 +86,10 @@ def test_the_worst_direction_names_the_parameters_that_trade():
 def test_reasons_name_criterion_value_threshold_and_parameters():
     matrix = np.random.default_rng(4).normal(size=(20, 3)) * [1.0, 1.0, 1e-5]
     matrix[:, 1] = matrix[:, 0] + 1e-3 * matrix[:, 1]
-    reasons = Thresholds().reasons(practical(matrix, ["m1", "m2", "k12"], 1.0))
+    reasons = Thresholds().reasons(practical(matrix, ["m1", "m2", "k12"], equal(1.0, 20, 3)))
     assert [r.split(" exceeds")[0].rsplit(" ", 1)[0] for r in reasons] == ["condition index", "PII ratio", "collinearity index"]
     assert "exceeds 30 (m1, m2)" in reasons[0] and "exceeds 1000 (k12)" in reasons[1]
-    assert Thresholds(np.inf, np.inf, np.inf).reasons(practical(matrix, ["m1", "m2", "k12"], 1.0)) == ()
+    assert Thresholds(np.inf, np.inf, np.inf).reasons(practical(matrix, ["m1", "m2", "k12"], equal(1.0, 20, 3))) == ()
 
 
 @pytest.mark.parametrize("bad", [np.zeros((3, 0)), np.ones(3), np.array([[1.0, np.nan]])])
@@ -100,23 +101,23 @@ def test_what_is_no_matrix_is_refused(bad):
 def test_what_is_infinite_is_said_by_its_parameters_not_as_a_number():
     matrix = np.random.default_rng(5).normal(size=(20, 3))
     matrix[:, 1] = -2 * matrix[:, 0]
-    found = practical(matrix, ["m1", "m2", "k12"], 1.0)
+    found = practical(matrix, ["m1", "m2", "k12"], equal(1.0, 20, 3))
     assert Thresholds().reasons(found) == ("these data do not determine m1, m2",)
     assert Thresholds(np.inf, np.inf, np.inf).reasons(found) == () and found.rank == 2
 
 
 def test_a_value_that_is_no_number_excludes():
-    found = replace(practical(np.eye(3), ["a", "b", "c"], 1.0), collinearity=np.nan)
+    found = replace(practical(np.eye(3), ["a", "b", "c"], equal(1.0, 3, 3)), collinearity=np.nan)
     assert [reason.split(" (")[0] for reason in Thresholds().reasons(found)] == ["collinearity index nan exceeds 20"]
 
 
 def test_errors_of_results_are_those_of_the_covariance_and_infinite_across_what_is_not_determined():
     matrix, slopes = np.random.default_rng(6).normal(size=(30, 4)), np.random.default_rng(7).normal(size=(5, 4))
-    expected = np.sqrt(np.diag(slopes @ covariance(matrix, 3.0) @ slopes.T))
-    np.testing.assert_allclose(standard_errors(slopes, matrix, 3.0, 4), expected, rtol=1e-9)
+    expected = np.sqrt(np.diag(slopes @ covariance(matrix, equal(3.0, 30, 4)) @ slopes.T))
+    np.testing.assert_allclose(standard_errors(slopes, matrix, equal(3.0, 30, 4), 4), expected, rtol=1e-9)
     matrix[:, 3] = matrix[:, 2]  # only the sum of the last two is determined
-    both, one = standard_errors(np.array([[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 0.0]]), matrix, 3.0, 3)
+    both, one = standard_errors(np.array([[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 0.0]]), matrix, equal(3.0, 30, 4), 3)
     assert one == np.inf
-    alone = np.sqrt(covariance(matrix[:, :3], 3.0)[2, 2] * (30 - 3) / (30 - 4))  # one column for the sum, a freedom less
+    alone = np.sqrt(covariance(matrix[:, :3], equal(3.0, 30, 4))[2, 2])  # one column for the sum
     assert both == pytest.approx(alone, rel=1e-9)
-    assert np.isinf(standard_errors(slopes, np.zeros((30, 4)), 3.0, 4)).all()
+    assert np.isinf(standard_errors(slopes, np.zeros((30, 4)), equal(3.0, 30, 4), 4)).all()

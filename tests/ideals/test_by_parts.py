@@ -129,7 +129,7 @@ def agrees_with_the_synthesis(n, damped):
     return counts
 
 
-@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
+@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)])
 def test_parts_agree_with_the_synthesis(n, damped):
     counts = agrees_with_the_synthesis(n, damped)
     assert counts[Membership.EXCLUDED] > 0

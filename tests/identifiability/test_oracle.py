@@ -8,7 +8,7 @@ from tests.identifiability.oracle import PRIME, derivative_along, solutions, sym
 from tests.oracles.sympy_twin import summary
 
 SMALL = [(n, damped, number) for n in (2, 3) for damped in (False, True) for number in range(1, len(Family(n)) + 1)]
-LONG = {(3, True, 3), (3, True, 6)}  # a quarter of a minute and more for the Groebner basis
+LONG = {(3, True, number) for number in range(1, 12) if number not in (1, 4, 7)}  # seconds to minutes for a Groebner basis
 
 
 def marked(cases):
@@ -37,7 +37,7 @@ def test_number_of_solutions_of_four_masses(number):
 
 @pytest.mark.parametrize(("n_masses", "damped"), [(2, False), (2, True), (3, False), (3, True), (4, False)])
 def test_ranks(n_masses, damped):
-    for chain in Family(n_masses, damped):
+    for chain in list(Family(n_masses, damped))[:: 5 if n_masses == 4 else 1]:
         assert identifiability(chain).rank == summary(chain).rank, chain
 
 

@@ -62,6 +62,7 @@ def test_every_pair_is_settled(sizes, damped, inside, outside):
         assert a.name in finding.evidence.sentence(a.name, b.name) and finding.evidence.formula
 
 
+@pytest.mark.slow
 def test_damped_models_of_three_in_four_masses():
     findings = found((3, 4), True)
     counts = Counter(f.inclusion for f in findings.values())

@@ -137,7 +137,12 @@ def test_every_sensor_counts_alike(sensor):
 
 
 @pytest.mark.parametrize(
-    ("small", "large", "damped"), [(1, 7, False), (2, 11, False), (1, 9, False), (1, 7, True), (3, 4, True), (2, 6, True)]
+    ("small", "large", "damped"),
+    [
+        (1, 7, False),
+        (1, 7, True),
+        *(pytest.param(*x, marks=pytest.mark.slow) for x in ((2, 11, False), (1, 9, False), (3, 4, True), (2, 6, True))),
+    ],
 )
 def test_models_come_near_where_dimensions_add_up(small, large, damped):
     """A search over complex parameters, which knows nothing of dimensions, finds models that are nearly the same."""

@@ -18,8 +18,8 @@ PAPER = Query(View.COMBINED)  # the exact decision of ground dampers is slow: it
 WITNESS = Witness()
 BY_CONDITIONS = (View.TF, View.MARKOV, View.COMBINED)
 SMALL = [(n, damped) for n in (1, 2, 3, 4) for damped in (False, True)]
-often = settings(max_examples=100, deadline=None)
-quick = settings(max_examples=40, deadline=None)
+often = settings(max_examples=60, deadline=None)
+quick = settings(max_examples=25, deadline=None)
 
 
 def verdict(left, right, query=PAPER, engine=ENGINE):

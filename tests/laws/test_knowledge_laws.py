@@ -38,9 +38,9 @@ def assert_equal_decisions(n_masses, damped, seeds):
         assert np.array_equal(base.representation, other.representation)
 
 
-@pytest.mark.parametrize(("n_masses", "damped"), SMALL)
-def test_verdicts_do_not_depend_on_the_seed(n_masses, damped):
-    assert_equal_decisions(n_masses, damped, ["one", "two", "three"])
+@pytest.mark.parametrize("damped", [False, True])
+def test_verdicts_do_not_depend_on_the_seed(damped):
+    assert_equal_decisions(3, damped, ["one", "two"])
 
 
 @pytest.mark.slow

@@ -171,7 +171,7 @@ def test_condition_7_decides_11_and_13_and_condition_9_does_not():
     assert compare(left.chain, right.chain, query=Query(View.EXACT)).decided_by == "7"
 
 
-@pytest.mark.parametrize(("n_masses", "pairs"), [(3, 0), (4, 2), (5, 11)])
+@pytest.mark.parametrize(("n_masses", "pairs"), [(3, 0), (4, 2), pytest.param(5, 11, marks=pytest.mark.slow)])
 def test_condition_9_never_holds_in_a_family(n_masses, pairs):
     subjects = [ENGINE.subject("", chain) for chain in Family(n_masses)]
     outcomes = Counter(condition_9(*pair).outcome for pair in combinations(subjects, 2))
@@ -266,10 +266,17 @@ def test_candidates_of_fig_1_with_four_masses():
     assert relations == {Relation.DISTINGUISHABLE: 96, Relation.UNDECIDED: 24}
 
 
-@pytest.mark.parametrize("n_masses", [1, 2, 3, pytest.param(4, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("n_masses", [1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 4))])
 def test_the_exact_decision_tells_all_candidates_apart(n_masses):
     chains = with_dampers(Chain(n_masses, damped=True))
     assert {verdict(a, b).relation for a, b in combinations(chains, 2)} == {Relation.DISTINGUISHABLE}
+
+
+@pytest.mark.parametrize(("left", "right"), [((2,), (3,)), ((1, 2), (1, 3)), ((1,), (1, 2, 3))])
+def test_the_exact_decision_tells_some_candidates_of_three_masses_apart(left, right):
+    """Two of them are pairs that conditions leave open."""
+    pair = (Chain(3, damped=True, ground_dampers=masses) for masses in (left, right))
+    assert verdict(*pair).relation is Relation.DISTINGUISHABLE
 
 
 @pytest.mark.parametrize(

@@ -35,12 +35,18 @@ def disagreements(chains):
         (2, False, 1),
         (2, True, 1),
         (3, False, 14),
-        (3, True, 22),
+        pytest.param(3, True, 22, marks=pytest.mark.slow),
         pytest.param(4, False, 87, marks=pytest.mark.slow),
     ],
 )
 def test_families(n_masses, damped, number):
     assert disagreements(Family(n_masses, damped)) == ([], number)
+
+
+def test_some_pairs_of_three_damped_masses():
+    """The two of a group, and one that is told from both."""
+    family = Family(3, damped=True)
+    assert disagreements([family[i] for i in (1, 4, 11)]) == ([], 3)
 
 
 def with_dampers(chain, *sets):

@@ -20,12 +20,8 @@ from disting.report.svg import svg
 from disting.verdict import Relation, View
 from tests.report.outline import Outline
 
+pytestmark = pytest.mark.xdist_group("paper")
 NAMES = ["figures-3-4", "figures-5-6", "figures-7-8", "figure-10", "figure-11", "figure-12", "figure-13", "figure-14"]
-
-
-@pytest.fixture(scope="module")
-def findings():
-    return Findings(sizes=(1, 2))
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +116,7 @@ def test_the_same_findings_give_the_same_bytes(findings, folder):
 
 
 def test_another_computation_gives_the_same_bytes(folder):
+    """Of one drawing of each kind."""
     fresh = Findings()
     plot = refit_figure(fresh.refit)
     panels = [of_decisions("Transfer function", fresh.picture(3, False, View.TF))]

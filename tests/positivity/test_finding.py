@@ -2,7 +2,7 @@
 
 from collections import Counter
 from dataclasses import replace
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, permutations
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def agrees(given, other, found, points):
             assert {truth, equivalent(given, point, other)} != {Answer.YES, Answer.NO}
 
 
-@pytest.mark.parametrize(("n", "damped"), SHARES)
+@pytest.mark.parametrize(("n", "damped"), [p if p[0] < 5 else pytest.param(*p, marks=pytest.mark.slow) for p in SHARES])
 def test_catalogues_have_no_open_pair(n, damped):
     shares = Counter()
     for given, other in indistinguishable(n, damped):
@@ -100,21 +100,22 @@ def test_inclusions_with_a_negative_grounded_part(n, i, j):
         assert listed.status is Status.COMPLETE and all(s.values["m1"].real < 0 for s in listed.solutions)
 
 
-@pytest.mark.parametrize(("n", "damped", "points"), [(3, False, 10), (3, True, 3), (4, False, 2)])
-def test_claims_on_all_ordered_pairs(n, damped, points):
-    forms = chains(n, damped)
-    for given in forms:
-        for other in forms:
-            if given != other:
-                found = positive_finding(given, other)
-                assert found.evidence is None or confirms(found.evidence, given, other)
-                agrees(given, other, found, points)
+def assert_claims_hold(pairs, points):
+    for given, other in pairs:
+        found = positive_finding(given, other)
+        assert found.evidence is None or confirms(found.evidence, given, other)
+        agrees(given, other, found, points)
+
+
+@pytest.mark.parametrize(("n", "damped", "every"), [(3, False, 1), (3, True, 2), (4, False, 9)])
+def test_claims_on_ordered_pairs(n, damped, every):
+    assert_claims_hold(list(permutations(chains(n, damped), 2))[::every], 2)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("n", "damped", "points"), [(3, False, 300), (3, True, 100), (4, False, 60), (4, True, 10)])
 def test_claims_on_all_ordered_pairs_at_many_points(n, damped, points):
-    test_claims_on_all_ordered_pairs(n, damped, points)
+    assert_claims_hold(permutations(chains(n, damped), 2), points)
 
 
 @pytest.mark.slow

@@ -48,7 +48,7 @@ def test_proven_ranks_are_the_sampled_ones(n, damped):
         assert not rank_is_at_most(chain.structure, (), found - 1, 20.0)
 
 
-@pytest.mark.parametrize("model", [1, 3, 7, 9])
+@pytest.mark.parametrize("model", [3, *(pytest.param(i, marks=pytest.mark.slow) for i in (1, 7, 9))])
 def test_markov_ranks_are_proven_too(model):
     structure = Family(3, damped=True)[model].structure
     labels = tuple(f"G{k}" for k in range(1, 13))
@@ -89,7 +89,7 @@ def _poly(expression, ring):
     return eval(str(expression).replace("^", "**"), {}, dict(ring)) * one
 
 
-@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
+@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)])
 def test_every_rank_verdict_of_these_classes_is_proven(n, damped):
     before = decided(n, damped)
     after = prove_all(before)

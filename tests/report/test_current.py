@@ -35,6 +35,7 @@ def written_anew(folder: Path) -> dict[str, Path]:
     return {p.relative_to(folder).as_posix(): p for p in paths}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damped", [False, True])
 def test_the_page_of_several_sizes_is_current(tmp_path: Path, damped: bool) -> None:
     path = write_sizes(combined((1, 2, 3, 4), damped=damped), tmp_path)
@@ -52,6 +53,17 @@ def is_current(new: Path, stored: Path) -> bool:
     return sum(histogram[64:]) <= 0.02 * images[0].width * images[0].height
 
 
+def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
+    """Beside the other pages, to which they lead. All files: by hand."""
+    for page in REPORTS.glob("*.html"):
+        (tmp_path / page.name).touch()
+    paths = write_report([catalog(3, damped=True)], tmp_path, [damper_catalog(3, damped=True)])
+    fresh = {p.relative_to(tmp_path).as_posix(): p for p in paths if p.name != "index.html"}
+    assert len(fresh) == 18
+    assert [name for name, p in fresh.items() if not is_current(p, REPORTS / name)] == [], REMEDY
+
+
+@pytest.mark.slow
 def test_generated_files_are_current(tmp_path: Path) -> None:
     fresh = written_anew(tmp_path)
     stored = {p.relative_to(REPORTS).as_posix() for p in [*REPORTS.glob("*"), *REPORTS.glob("models/**/*")] if p.is_file()}

@@ -105,23 +105,27 @@ def _colours(tab, fields: list[tuple[int, int]]) -> list[str]:  # type: ignore[n
     return [{BLUE: "blue", ORANGE: "orange"}.get(colour, "dim") for colour in found]
 
 
-def test_every_look_up_is_pythons(visit, small: DamperFamily, undamped: DamperFamily) -> None:  # type: ignore[no-untyped-def]
-    pairs = list(permutations(range(88), 2))
+def test_look_ups_are_pythons(visit, small: DamperFamily, undamped: DamperFamily) -> None:  # type: ignore[no-untyped-def]
+    pairs = list(permutations(range(88), 2))[::5]
     for name, found in ((SMALL, small), ("dampers-3-undamped.html", undamped)):
         assert visit(name).evaluate(LOOK_UP, pairs) == _look_up(found, pairs)
 
 
 def test_look_ups_in_thousands_of_models_are_pythons(visit, large: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     random = np.random.default_rng(1)
-    pairs = [(int(i), int(j)) for i, j in random.integers(0, 2336, (6000, 2)) if i != j]
-    near = [(int(i), int(i + d)) for i, d in zip(random.integers(0, 2240, 3000), random.integers(1, 96, 3000), strict=True)]
+    pairs = [(int(i), int(j)) for i, j in random.integers(0, 2336, (1500, 2)) if i != j]
+    near = [(int(i), int(i + d)) for i, d in zip(random.integers(0, 2240, 1500), random.integers(1, 96, 1500), strict=True)]
     expected = _look_up(large, pairs + near)
     assert {rule for _, rule in expected} == {"", "exact", *"123456789"} and {code for code, _ in expected} == {0, 1, 3}
     assert visit(LARGE).evaluate(LOOK_UP, pairs + near) == expected
 
 
-def test_a_page_of_thousands_of_models_is_small_and_fluid(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
+def test_a_page_of_thousands_of_models_is_small(site: Path) -> None:
     assert (site / LARGE).stat().st_size < 500_000
+
+
+@pytest.mark.slow
+def test_a_page_of_thousands_of_models_is_fluid(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGE)
     timed = """(selector) => new Promise((done) => {
       const from = performance.now();
@@ -163,13 +167,17 @@ def test_deep_links_lead_to_pairs_models_structures_and_groups(visit) -> None:  
         ("#A2", "A2 with all sets of dampers"),
         ("#group-2", "Group 2"),
     ):
-        tab = visit(START) and visit(SMALL + fragment)
+        tab = visit(SMALL + fragment)  # the first loads the page, the others lead on from there
+        _settle(tab)
         assert tab.inner_text("#detail h3") == title, fragment
 
 
 def test_other_fragments_select_nothing(visit) -> None:  # type: ignore[no-untyped-def]
-    for fragment in ("#A12", "#2+b4", "#2/12", "#0", "#group-0", "#group-99", "#groups", "#2/3/4", "#4:2", "#2%"):
-        assert not (visit(START) and visit(SMALL + fragment)).is_visible("#detail"), fragment
+    tab = visit(SMALL + "#A12")
+    for fragment in ("", "#2+b4", "#2/12", "#0", "#group-0", "#group-99", "#groups", "#2/3/4", "#4:2", "#2%"):
+        visit(SMALL + fragment)
+        _settle(tab)
+        assert not tab.is_visible("#detail"), fragment
 
 
 def test_the_search_finds_what_compare_calls_them(visit) -> None:  # type: ignore[no-untyped-def]
@@ -292,14 +300,12 @@ def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None: 
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
-    for path in (START, SMALL, PAIR, SMALL + "#A3", LARGE):
-        tab = visit(START) and visit(path, width)
+    for path in (PAIR, LARGE, SMALL + "#A3"):  # never two fragments of one page in turn: the second would not load it
+        tab = visit(path, width)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, path
 
 
-@pytest.mark.parametrize(
-    ("path", "scheme"), [(START, "dark"), (PAIR, "light"), (PAIR, "dark"), (SMALL + "#A3", "light")], ids=str
-)
+@pytest.mark.parametrize(("path", "scheme"), [(PAIR, "dark"), (SMALL + "#A3", "light")], ids=str)
 def test_there_is_no_serious_barrier(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
     tab = visit(path, 390 if scheme == "dark" else 1280, scheme)

@@ -5,7 +5,7 @@ from itertools import product
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
@@ -15,6 +15,7 @@ from disting.report import chain_png, chain_svg, describe
 from disting.report.drawing import Layout, draw
 from disting.report.scene import Circle, Ink, Path, Text, extent
 
+few = settings(max_examples=40, deadline=None)  # of 50 and more layers each
 FAMILIES = [Family(n, damped) for n, damped in product(range(1, 6), (False, True))]
 
 
@@ -26,6 +27,7 @@ def chains(pick: st.DrawFn) -> Chain:
     return Chain(*chain.indices, sensor, chain.damped, tuple(dampers), lag, dead_time)
 
 
+@few
 @given(chains())
 def test_every_element_is_drawn_exactly_once(chain: Chain) -> None:
     names = [layer.name for layer in draw(chain).layers if layer.name != "ground"]
@@ -33,6 +35,7 @@ def test_every_element_is_drawn_exactly_once(chain: Chain) -> None:
     assert all(layer.shapes for layer in draw(chain).layers)
 
 
+@few
 @given(chains())
 def test_nothing_leaves_the_picture(chain: Chain) -> None:
     scene = draw(chain)
@@ -41,6 +44,7 @@ def test_nothing_leaves_the_picture(chain: Chain) -> None:
         assert 0 <= left <= right <= scene.width and 0 <= top <= bottom <= scene.height, shape
 
 
+@few
 @given(chains())
 def test_svg_parses_and_png_decodes(chain: Chain) -> None:
     root = ElementTree.fromstring(chain_svg(chain))
@@ -54,6 +58,7 @@ def test_distinct_chains_have_distinct_drawings_and_descriptions(family: Family)
     assert len({draw(chain).layers for chain in family}) == len({describe(chain) for chain in family}) == len(family)
 
 
+@few
 @given(chains())
 def test_letters_do_not_overlap(chain: Chain) -> None:
     boxes = [extent(shape) for shape in draw(chain).shapes if isinstance(shape, Text)]

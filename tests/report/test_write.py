@@ -12,14 +12,14 @@ ENDINGS = (".html", "-matrix.svg", "-matrix.png", ".csv", ".json")
 
 
 def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
-    catalogs = [catalog(2), catalog(3, damped=True)]
+    catalogs = [catalog(1), catalog(2, damped=True)]
     paths = write_report(catalogs, tmp_path / "new" / "folder")
     folder = tmp_path / "new" / "folder"
     names = [p.relative_to(folder).as_posix() for p in paths]
     assert [name for name in names if "/" not in name] == [f"{c.name}{ending}" for c in catalogs for ending in ENDINGS] + [
         "index.html"
     ]
-    models = [f"models/2-undamped/{i}.html" for i in range(1, 4)] + [f"models/3-damped/{i}.html" for i in range(1, 12)]
+    models = ["models/1-undamped/1.html", *(f"models/2-damped/{i}.html" for i in range(1, 4))]
     assert [name for name in names if "/" in name] == [*models, "models/style.css"]
     assert all(p.is_file() for p in paths)
     start = paths[-1].read_text(encoding="utf-8")
@@ -72,12 +72,13 @@ def test_the_index_keeps_pages_of_ground_dampers(tmp_path: Path) -> None:
 
 
 def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
-    first, second = (write_report([catalog(3)], tmp_path / name) for name in "ab")
+    first, second = (write_report([catalog(2)], tmp_path / name) for name in "ab")
     assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]
 
 
 def test_the_index_keeps_the_pages_that_are_there(tmp_path: Path) -> None:
-    write_report([catalog(2), catalog(1, damped=True)], tmp_path)
-    start = write_report([catalog(3)], tmp_path)[-1].read_text(encoding="utf-8")
+    for page in ("chains-3-undamped.html", "chains-1-damped.html"):
+        (tmp_path / page).touch()
+    start = write_report([catalog(2)], tmp_path)[-1].read_text(encoding="utf-8")
     places = [start.index(f'href="chains-{name}.html"') for name in ("2-undamped", "3-undamped", "1-damped")]
     assert places == sorted(places)  # one model has nothing to compare: last

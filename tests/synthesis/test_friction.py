@@ -223,7 +223,7 @@ def test_a_sum_of_dampers_that_is_zero_is_never_called_empty() -> None:
         assert fibre(chain, target(chain.structure, point)).status is not Status.EMPTY, chain
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.data())
 def test_a_model_is_never_proven_to_be_no_model_of_its_own_structure(data: st.DataObject) -> None:
     """Small integers of both signs, where poles, zeros and elements coincide often."""
@@ -287,8 +287,8 @@ def agreements(pairs: list[tuple[Chain, Chain]]) -> dict[Membership, int]:
 
 
 def test_both_engines_agree_on_a_sample_of_the_88_models() -> None:
-    counts = agreements(comparable(rubbed(3, True))[::13])
-    assert counts[Membership.MEMBER] and counts[Membership.EXCLUDED] > 30
+    counts = agreements(comparable(rubbed(3, True))[::40])
+    assert counts[Membership.MEMBER] and counts[Membership.EXCLUDED] > 8
 
 
 @pytest.mark.slow

@@ -80,21 +80,21 @@ def test_parts_need_the_same_gap_and_no_damping():
 def test_some_positive_models_have_an_equivalent_and_others_have_none():
     """4-mass undamped models 2 and 6: every 2 has one in 6, about a quarter of the 6 has none in 2."""
     two, six = Family(4)[2], Family(4)[6]
-    assert all(positive_equivalent(two, positive_point(two, str(k)), six) is Answer.YES for k in range(30))
-    answers = [positive_equivalent(six, positive_point(six, str(k)), two) for k in range(60)]
+    assert all(positive_equivalent(two, positive_point(two, str(k)), six) is Answer.YES for k in range(10))
+    answers = [positive_equivalent(six, positive_point(six, str(k)), two) for k in range(20)]
     assert set(answers) == {Answer.YES, Answer.NO}
 
 
 def test_a_refuted_point_has_no_member_of_the_family_that_is_positive():
     """Independent: many springs between the ports, everything else by NumPy."""
     two, six = Family(4)[2], Family(4)[6]
-    points = [positive_point(six, str(k)) for k in range(20)]
+    points, couplings = [positive_point(six, str(k)) for k in range(12)], np.geomspace(1e-4, 1e4, 150)
     refuted = [p for p in points if positive_equivalent(six, p, two) is Answer.NO]
     assert refuted
     for point in refuted:
-        assert not any(_positive_member(six, point, kappa) for kappa in np.geomspace(1e-4, 1e4, 2000))
+        assert not any(_positive_member(six, point, kappa) for kappa in couplings)
     reached = next(p for p in points if positive_equivalent(six, p, two) is Answer.YES)
-    assert any(_positive_member(six, reached, kappa) for kappa in np.geomspace(1e-4, 1e4, 2000))
+    assert any(_positive_member(six, reached, kappa) for kappa in couplings)
 
 
 def _positive_member(chain, point, kappa):

@@ -9,9 +9,9 @@ import numpy as np
 
 from disting.fit.estimate import Task
 from disting.fit.export import predicted
+from disting.fit.judged import Candidate
 from disting.fit.modes import Result
 from disting.fit.plant import Complex, Real
-from disting.fit.select import Candidate
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.axes import degrees, logarithmic, spread

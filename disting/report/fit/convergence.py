@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.estimate import REACHED, Task
+from disting.fit.judged import Candidate
 from disting.fit.plant import Real
-from disting.fit.select import Candidate
 from disting.fit.sweep import Profile
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow

@@ -3,8 +3,9 @@
 from dataclasses import dataclass, fields
 from math import isfinite
 
+from disting.fit.judged import Candidate
 from disting.fit.practical import Thresholds
-from disting.fit.select import Candidate, Selection
+from disting.fit.select import Selection
 from disting.report.fit.thresholds import TITLES
 from disting.report.fit.words import readable
 

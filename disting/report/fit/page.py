@@ -8,8 +8,12 @@ from markupsafe import Markup
 import disting
 from disting.fit.alternatives import Alternative
 from disting.fit.estimate import Task
+from disting.fit.explained import LARGEST
+from disting.fit.judged import Candidate
+from disting.fit.members import Member
 from disting.fit.modes import Result
-from disting.fit.select import Candidate, Selection
+from disting.fit.select import Selection
+from disting.fit.telling import commands, first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw
@@ -77,12 +81,28 @@ def fit_page(
         cost=cost_in_words(selection.task.cost),
         data=[("Training", train)] + ([("Test", test)] if test is not None else []),
         choices=choices(selection),
+        first_lines=first_lines(selection),
+        suspicions=suspicions(selection),
+        commands=commands(selection),
+        members=[(m, drawing(m.candidate.chain), intervals(m, train)) for m in selection.members],
         first=FIRST,
         name=name,
         readable=readable,
         percent=percent,
         plural=plural,
     )
+
+
+def intervals(member: Member, measured: FrequencyResponse) -> str:
+    """Values of a member with their intervals of 95 %, those that the test data contradict marked."""
+    apart = {d.name: d for d in member.disagreements}
+    values = member.candidate.estimate.parameters
+    rows = [
+        f"{n} {readable(values[n], 4)} ({readable(low)} to {readable(high)}) {unit_of(n[0], measured)}"
+        + (f", but {readable(apart[n].test)} on test data" if n in apart else "")
+        for n, (low, high) in member.intervals.items()
+    ]
+    return "; ".join(rows)
 
 
 def drawing(chain: Chain) -> Markup:
@@ -134,7 +154,12 @@ def reasoning(selection: Selection) -> list[tuple[str, str]]:
         ("Margin", _margin(selection)),
         ("Akaike weights", _akaike(selection)),
         ("Starts", _starts(shown(selection))),
-        ("Standard errors", "They take the residuals as independent: what the model leaves out counts as noise."),
+        ("Scatter", _scatter(selection)),
+        (
+            "Standard errors",
+            "They follow from the scatter of the lines; where residuals are larger, or those of neighbouring lines hang "
+            "together, that counts as an error of the model and widens them.",
+        ),
     ]
     return [(keyword, sentence) for keyword, sentence in rows if sentence]
 
@@ -180,6 +205,15 @@ def _margin(selection: Selection) -> str:
         f"{name(best.chain)} has the lowest cost of all admissible ones, {readable(best.j_test)}; the selected candidate has "
         f"{fewer} fewer and loses {readable(chosen.j_test - best.j_test)}, less than the {readable(selection.margin)} that "
         f"noise alone may make (two standard deviations of the difference).{excluded}"
+    )
+
+
+def _scatter(selection: Selection) -> str:
+    """What the absolute check was made with."""
+    said = selection.explanation
+    return (
+        f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}. Measured by it, chi2 per line "
+        f"is {readable(said.chi2)}: 1 is noise alone, above {readable(LARGEST)} the data are not explained."
     )
 
 

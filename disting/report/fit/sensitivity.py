@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.estimate import Task
+from disting.fit.judged import Candidate
 from disting.fit.plant import Real
 from disting.fit.practical import Thresholds, collinearity_by_subset
-from disting.fit.select import Candidate
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable

@@ -145,8 +145,20 @@ def heading(figure: "Figure", text: str) -> None:
 
 
 def _file(figure: "Figure", kind: str) -> bytes:
-    buffer = BytesIO()
-    figure.savefig(buffer, format=kind, dpi=RESOLUTION if kind == "png" else "figure", metadata=METADATA[kind])
+    """What `savefig` writes, without its rehearsal: it draws all twice, the first time for a layout that is known here."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    buffer, dpi = BytesIO(), figure.dpi
+    if kind == "png":
+        figure.dpi = RESOLUTION
+        FigureCanvasAgg(figure).print_png(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
+        figure.dpi = dpi
+    elif kind == "pdf":
+        FigureCanvasPdf(figure).print_pdf(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
+    else:
+        FigureCanvasSVG(figure).print_svg(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
     return buffer.getvalue()
 
 

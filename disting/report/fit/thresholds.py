@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from disting.fit.judged import Candidate
 from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
-from disting.fit.select import Candidate
 from disting.fit.sweep import CRITERIA, Sweep, sweep
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow

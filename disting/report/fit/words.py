@@ -3,8 +3,8 @@
 from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.cost import Case, Cost
+from disting.fit.judged import Candidate
 from disting.fit.modes import Result
-from disting.fit.select import Candidate
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.report.words import plural

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from disting.fit.admissible import Rule
 from disting.fit.candidates import figure_1
 from disting.fit.export import predicted
 from disting.fit.practical import Thresholds
@@ -44,5 +45,5 @@ def selection(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
 def nothing(train: FrequencyResponse) -> Selection:
     """No candidate is admissible, no test data, one parameter fixed, one at its bound."""
     strict = Thresholds(condition_index=5.0, importance_ratio=10.0, collinearity=2.0)
-    candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag]
-    return select(train, candidates, thresholds=strict, fixed={"k12": 900.0}, bounds={"m1": (0.0, 0.009)})
+    candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag and not c.dead_time]
+    return select(train, candidates, thresholds=strict, rule=Rule.PAPER, fixed={"k12": 900.0}, bounds={"m1": (0.0, 0.009)})

@@ -10,7 +10,7 @@ from disting.measurement import FrequencyResponse
 from disting.report.fit import fit_page, waterfall
 from disting.report.fit.criteria import shown
 
-pytestmark = pytest.mark.xdist_group("browser")
+pytestmark = pytest.mark.xdist_group("fit page")  # with those that show the same selection
 
 
 @pytest.fixture(scope="module")

@@ -9,18 +9,22 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
-from disting.fit.export import read_model
+from disting.fit.export import read_model, selection_to_dict
+from disting.fit.modes import physical
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
-from disting.report.fit import fit_page, waterfall, write_fit_report
+from disting.report.fit import collinearity_dots, fit_page, importance_bars, waterfall, write_fit_report
 from disting.report.fit.criteria import limits, nearest, shown, weakest
 from disting.report.fit.page import reasoning
+from disting.report.fit.thresholds import parameters_by_threshold
+from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
 
+pytestmark = pytest.mark.xdist_group("fit page")
 FIGURES = ["bode", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
 
 
@@ -40,8 +44,10 @@ def outline(written: list[Path]) -> Outline:
 
 
 @pytest.fixture(scope="module")
-def empty(nothing: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Outline:
-    return Outline(write_fit_report(nothing, tmp_path_factory.mktemp("none"), train)[0].read_text(encoding="utf-8"))
+def empty(nothing: Selection, train: FrequencyResponse) -> Outline:
+    """With one figure: of the files of all of them, those of `written` are looked at."""
+    found = shown(nothing)
+    return Outline(fit_page(nothing, physical(found, nothing.task), [waterfall(found)], train))
 
 
 def test_all_files_are_written_and_linked(written: list[Path], outline: Outline) -> None:
@@ -52,6 +58,21 @@ def test_all_files_are_written_and_linked(written: list[Path], outline: Outline)
     assert {p.name for p in written[1:]} <= links
 
 
+def test_the_same_figures_page_and_data_again(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path]
+) -> None:
+    """Two figures, drawn and written by what draws and writes all; `disting fit` writes all twice in the slow one."""
+    found = shown(selection)
+    content = {p.name: p.read_bytes() for p in written}
+    for drawn in (importance_bars(found, selection.thresholds), waterfall(found)):
+        for kind in ("svg", "png", "pdf"):
+            assert getattr(drawn, kind) == content[f"{drawn.name}.{kind}"], (drawn.name, kind)
+        assert drawn.inline in content["fit.html"].decode()
+    assert candidates_csv(selection).encode() == content["candidates.csv"]
+    assert json.loads(content["fit.json"]) == json.loads(json.dumps(selection_to_dict(selection)))
+
+
+@pytest.mark.slow
 def test_two_runs_write_the_same_bytes(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path], tmp_path: Path
 ) -> None:
@@ -87,7 +108,7 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     assert f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are admissible: 5 parameters" in said
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
-    assert len(drawings) == 1 + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
+    assert len(drawings) == 1 + len(selection.members) + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
 
 
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
@@ -123,7 +144,7 @@ def test_data_are_the_selection_s_own(selection: Selection, written: list[Path])
 def test_nothing_admissible_is_said_with_the_nearest_and_why(nothing: Selection, empty: Outline) -> None:
     assert nothing.selected is None
     said = " ".join(empty.text.split())
-    assert said.startswith("Fit: no admissible model No model is admissible Each of the 6 fitted candidates")
+    assert said.startswith("Fit: no admissible model No model is admissible Each of the 3 fitted candidates")
     first = nearest(nothing)[0]
     assert all(reason in said for reason in first.reasons)
     assert "at its bound" in said and "fixed" in said and "J cross-validated" in said
@@ -156,12 +177,12 @@ def test_an_unknown_parameter_has_no_profile(selection: Selection, train: Freque
     assert not (tmp_path / "x").exists()
 
 
-def test_structures_that_no_data_can_tell_apart_are_named(train: FrequencyResponse, tmp_path: Path) -> None:
+def test_structures_that_no_data_can_tell_apart_are_named(train: FrequencyResponse, test: FrequencyResponse) -> None:
     loose = Thresholds(1e12, 1e12, 1e12)
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
-    found = select(train, candidates, thresholds=loose)
+    found = select(train, candidates, test=test, thresholds=loose)
     assert found.selected is not None and len(found.selected.chain.ground_dampers) == 1 and found.saved == 1
-    said = " ".join(Outline(write_fit_report(found, tmp_path, train)[0].read_text(encoding="utf-8")).text.split())
+    said = " ".join(Outline(fit_page(found, [], [waterfall(shown(found))], train)).text.split())
     assert "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
     assert "2 masses, force 1, sensor 2, dampers b1, b2." in said
     assert "1 fit saved" in said and "None: each of" not in said
@@ -174,13 +195,20 @@ def test_no_alternatives_are_said_so(outline: Outline) -> None:
     )
 
 
-def test_what_no_data_determine_is_said_in_words(train: FrequencyResponse, tmp_path: Path) -> None:
-    found = select(train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)])
-    page, *_, plain, table = write_fit_report(found, tmp_path, train)
-    said = " ".join(Outline(page.read_text(encoding="utf-8")).text.split())
+def test_what_no_data_determine_is_said_in_words(train: FrequencyResponse, test: FrequencyResponse) -> None:
+    found = select(train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)], test=test)
+    candidate = shown(found)
+    drawn = [
+        waterfall(candidate),
+        parameters_by_threshold(found.candidates, found.thresholds),
+        importance_bars(candidate, found.thresholds),
+        collinearity_dots(candidate, found.task, found.thresholds),
+    ]
+    page = fit_page(found, physical(candidate, found.task), [d for d in drawn if d], train)
+    said = " ".join(Outline(page).text.split())
     determined = "ot identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
     assert f"N{determined}. Known parameters" in said and "no, not identifiable" in said
     assert "∞" not in said and not re.search(r"\binf\b", said)
-    (candidate,) = json.loads(plain.read_text(encoding="utf-8"))["candidates"]
-    assert candidate["unidentifiable"] == f"n{determined}" and candidate["condition_index"] is None
-    assert f"n{determined}" in table.read_text(encoding="utf-8")
+    (plain,) = json.loads(json.dumps(selection_to_dict(found), allow_nan=False))["candidates"]
+    assert plain["unidentifiable"] == f"n{determined}" and plain["condition_index"] is None
+    assert f"n{determined}" in candidates_csv(found)

@@ -1,0 +1,56 @@
+"""Which fitted candidates may be selected.
+
+The paper's rule looks at the three criteria of section 2.4, which do not see the noise: a model whose every parameter is known
+within 1 % may exceed a condition index of 30. The rule `determined` accepts what the paper accepts and also a candidate that
+the data determine well in spite of a criterion: every parameter differs from zero by three standard errors, and every inertia,
+stiffness, resonance and antiresonance is known to 10 %. What no data determine is excluded by both, and so is a parameter at
+its bound.
+"""
+
+from enum import StrEnum
+
+from disting.fit.estimate import Task
+from disting.fit.judged import Candidate
+from disting.fit.modes import Result, physical
+from disting.fit.practical import Thresholds
+
+FROM_ZERO = 1 / 3  # largest relative standard error of a parameter that is known not to be zero
+KNOWN = 0.1  # and of a quantity that a machine is designed with
+DESIGNED = ("inertia", "stiffness", "resonance", "antiresonance")
+
+
+class Rule(StrEnum):
+    """What decides which candidates are admissible."""
+
+    DETERMINED = "determined"
+    PAPER = "paper"
+
+
+def reasons(candidate: Candidate, task: Task, limits: Thresholds, rule: Rule) -> tuple[str, ...]:
+    """Why a candidate is excluded; nothing if it is admissible."""
+    bound = tuple(f"{n} is at its bound" for n in candidate.at_bound)
+    exceeded = limits.reasons(candidate.practical)
+    if rule is Rule.PAPER or not exceeded or candidate.practical.unidentifiable:
+        return exceeded + bound
+    unknown = undetermined(candidate, task)
+    return (*exceeded, unknown, *bound) if unknown else bound
+
+
+def undetermined(candidate: Candidate, task: Task) -> str:
+    """What the data do not determine well, in one sentence; "" where they determine all."""
+    loose = {n: e for n, e in candidate.practical.relative_errors.items() if not e <= FROM_ZERO}
+    if not loose:
+        loose = {r.name: _share(r) for r in physical(candidate, task) if _is_designed(r) and not _share(r) <= KNOWN}
+    if not loose:
+        return ""
+    name, error = max(loose.items(), key=lambda row: row[1])
+    more = f" and {len(loose) - 1} more" if len(loose) > 1 else ""
+    return f"{name}{more} known to ± {100 * error:.0f} % only" if error < 10 else f"{name}{more} not determined"
+
+
+def _is_designed(found: Result) -> bool:
+    return any(word in DESIGNED for word in found.name.split()) and not found.name.startswith("damping")
+
+
+def _share(found: Result) -> float:
+    return found.standard_error / abs(found.value) if found.value else float("inf")

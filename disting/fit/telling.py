@@ -1,0 +1,154 @@
+"""What an engineer has to know of a selection, in sentences: the truth first, what is suspicious, the commands that lead on.
+
+Structures are named as the commands read them, such as 2:1+b2+delay.
+"""
+
+from collections.abc import Iterator
+from math import isfinite
+
+import numpy as np
+
+from disting.comparison import name_of
+from disting.fit.admissible import KNOWN
+from disting.fit.members import Disagreement
+from disting.fit.noise import correlation
+from disting.fit.scatter import between, scatter
+from disting.fit.select import Selection
+from disting.model.drawing import text_drawing
+
+FEW = 8  # names in one line
+CHANGED = 2.0  # training and test differ by this multiple of what either scatters
+HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
+
+
+def first_lines(found: Selection) -> tuple[str, ...]:
+    """At most five lines: does anything explain the data, what is selected, what else may it be, what is suspicious."""
+    return (_verdict(found), *(_explained(found) if found.explanation.explains else _unexplained(found)))[:5]
+
+
+def suspicions(found: Selection) -> tuple[str, ...]:
+    """Sentences on what looks wrong, each with what it means; the gravest first, empty where nothing does."""
+    said = [
+        *([] if found.explanation.explains else [_verdict(found), *_unexplained(found)]),
+        *_better(found),
+        *(_disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements),
+        *_changed(found),
+        *_hanging(found),
+        *_weak(found),
+        *found.task.cost.measured.suspicions,
+    ]
+    return tuple(dict.fromkeys(said))
+
+
+def commands(found: Selection) -> tuple[str, ...]:
+    """Ready command lines for the next steps."""
+    first = found.described
+    name, rest = name_of(first.chain, short=False), [m.name for m in found.members[1:]]
+    damped = " --damped" if first.chain.damped else ""
+    if name.startswith("("):
+        return ()
+    values = ",".join(f"{n}={v:.6g}" for n, v in first.estimate.parameters.items())
+    steps = [f"disting compare {name} {rest[0]}{damped}"] if rest else []
+    return (*steps, f"disting equivalents {name}{damped} --to '{first.chain.n_masses}+b*' --set {values}")
+
+
+def _verdict(found: Selection) -> str:
+    """The first line."""
+    said, name = found.explanation, name_of(found.described.chain, short=False)
+    scattered = f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
+    size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone; {scattered}"
+    if said.explains:
+        return f"{name} explains this data ({size})"
+    if said.noisy:
+        return f"none of the candidates explains this data: it is mostly noise ({scattered}); the best one is {name}"
+    return f"none of the candidates explains this data; the best one is {name} ({size})"
+
+
+def _explained(found: Selection) -> Iterator[str]:
+    yield from _better(found)
+    if found.selected is None:
+        yield "none is admissible: in each, some parameters cannot be determined from this data; all values are printed"
+    others = [m.name for m in found.members[1:]]
+    if others:
+        yield f"not excluded by this data either: {_listed(others)}"
+    elif found.members:
+        yield f"selected: {text_drawing(found.members[0].candidate.chain)}, the only admissible structure that is not excluded"
+    for m in [m for m in found.members if m.twins][:1]:
+        same = list(dict.fromkeys(t.name for t in m.twins))
+        yield f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force and sensor can tell"
+    yield from (_disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements)
+    yield from (*_changed(found), *_hanging(found), *_weak(found))
+
+
+def _unexplained(found: Selection) -> Iterator[str]:
+    if found.explanation.misses:
+        yield f"missed most at {', at '.join(m.sentence for m in found.explanation.misses)}"
+    if found.readings:
+        yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
+    elif not found.explanation.noisy:
+        yield (
+            "no other sensor quantity or sign, no other place of force and sensor and no further mass makes it fit much "
+            "better: is the loop closed, is the machine a chain, are other forces at work?"
+        )
+    yield from _better(found)
+
+
+def _better(found: Selection) -> Iterator[str]:
+    """The excluded candidate that fits better than the selected one."""
+    if found.selected is None or not found.better:
+        return
+    best, more = found.better[0], len(found.better) - 1
+    others = f" ({more} more)" if more else ""
+    yield (
+        f"{name_of(best.chain, short=False)}{others} fits better, J = {best.j_test:.3g} for {found.selected.j_test:.3g}, "
+        f"but is excluded: {'; '.join(best.reasons)}"
+    )
+
+
+def _disagreeing(both: tuple[Disagreement, ...]) -> str:
+    """Parameters that training and test give differently."""
+    values = ", ".join(f"{d.name} ({d.train:.3g} and {d.test:.3g}, {d.distance:.2g} standard errors apart)" for d in both)
+    return (
+        f"training and test data disagree on {values}: model error, as friction that changes with the amplitude makes; "
+        "trust neither interval"
+    )
+
+
+def _changed(found: Selection) -> Iterator[str]:
+    """A machine that is not the same in both measurements."""
+    train, test = found.task.cost.measured, found.test
+    apart = between(train, test)
+    own = max(scatter(data).typical for data in (train, test))
+    if apart is not None and apart > CHANGED * own:
+        yield (
+            f"training and test data differ by {100 * apart:.2g} % a line, either scatters by {100 * own:.2g} %: the machine "
+            "changes between them, as friction does with the amplitude"
+        )
+
+
+def _hanging(found: Selection) -> Iterator[str]:
+    """Residuals that hang together: what is left is not noise."""
+    candidate, cost = found.described, found.task.cost
+    there = found.task.plant(candidate.chain)
+    values = [candidate.estimate.parameters[n] for n in candidate.chain.parameters]
+    size = correlation(cost.residual(there.response(np.array(values))))
+    if size > HANGING and found.explanation.explains:
+        yield (
+            f"residuals of neighbouring lines are correlated by {size:.2f} on the training data: the model misses something "
+            "small; the standard errors allow for it"
+        )
+
+
+def _weak(found: Selection) -> Iterator[str]:
+    """Parameters of the selected candidate that are known badly."""
+    if found.selected is None:
+        return
+    loose = {n: e for n, e in found.selected.practical.relative_errors.items() if not e <= KNOWN}
+    if loose:
+        values = ", ".join(f"{n} to ± {100 * e:.0f} %" if isfinite(e) else f"{n} not at all" for n, e in loose.items())
+        yield f"known badly: {values}"
+
+
+def _listed(names: list[str]) -> str:
+    more = len(names) - FEW
+    return ", ".join(names[:FEW]) + (f" and {more} more" if more > 0 else "")

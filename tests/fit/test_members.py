@@ -1,0 +1,89 @@
+"""The set of structures that data do not exclude: names that commands read, twins from the whole catalogue, the rules."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from disting.comparison import name_of
+from disting.equivalence import chain_of
+from disting.fit.admissible import Rule, undetermined
+from disting.fit.alternatives import limits_of
+from disting.fit.export import predicted, selection_to_dict
+from disting.fit.members import twins
+from disting.fit.practical import Thresholds
+from disting.fit.select import select
+from disting.fit.telling import commands, first_lines
+from disting.model.chain import Chain
+from disting.model.family import Family
+from tests.fit.drives import OMEGA, response
+
+ROW = Chain(3, damped=True)
+VALUES = {"m1": 1.0, "m2": 0.6, "m3": 0.4, "k12": 3e4, "k23": 2e4, "d12": 8.0, "d23": 3.0}
+
+
+@given(st.integers(1, 4), st.data())
+@settings(max_examples=30)
+def test_the_command_line_reads_the_names_that_a_fit_writes(n, data):
+    family = Family(n, damped=True)
+    chain = replace(
+        family[data.draw(st.integers(1, len(family)))],
+        ground_dampers=tuple(data.draw(st.sets(st.integers(1, n)))),
+        lag=data.draw(st.booleans()),
+        dead_time=data.draw(st.booleans()),
+    )
+    assert chain_of(name_of(chain, short=False), Family(1, damped=True)) == chain
+
+
+def test_twins_come_from_the_whole_catalogue_and_behave_the_same():
+    late = replace(ROW, dead_time=True)
+    values = VALUES | {"Td": 1e-3}
+    found, _ = twins(late, values, {})
+    assert found[0].name == "3:11+delay"
+    for twin in found:
+        same = predicted(twin.chain, twin.parameters, OMEGA) / predicted(late, values, OMEGA)
+        assert np.abs(same - 1).max() < 1e-9
+
+
+def test_twins_keep_the_limits():
+    found, _ = twins(ROW, VALUES, limits_of({}, {"m1": 1.0}))
+    assert all(t.parameters["m1"] == pytest.approx(1.0) for t in found)
+
+
+@pytest.fixture(scope="module")
+def selection():
+    train, test = (response(ROW, VALUES, noise=0.005, seed=s) for s in (1, 2))
+    return select(train, [Chain(2, damped=True), ROW, replace(ROW, dead_time=True)], test=test)
+
+
+def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
+    plain = json.loads(json.dumps(selection_to_dict(selection), allow_nan=False))
+    first = plain["not_excluded"][0]
+    assert plain["explained"] is True and first["name"] == plain["selected"]["name"] == "3:1"
+    assert first["equivalents"][0]["name"] == "3:11" and set(first["equivalents"][0]["parameters"]) >= {"k01", "m3"}
+    assert all(low < VALUES[n] < high for n, (low, high) in first["intervals"].items())
+    assert "2:1" not in [m["name"] for m in plain["not_excluded"]]
+
+
+def test_five_lines_say_that_the_machine_may_as_well_be_another(selection):
+    assert any(line.startswith("if it is 3:1, it may as well be 3:11") for line in first_lines(selection))
+    assert commands(selection)[-1].startswith("disting equivalents 3:1 --damped --to '3+b*' --set m1=")
+
+
+def test_a_well_determined_model_is_never_hidden_but_by_the_rule_of_the_paper(selection):
+    """Its condition index exceeds any threshold that is low enough, however little noise there is."""
+    strict = Thresholds(1.5, 1.5, 1.01)
+    train = response(ROW, VALUES, noise=1e-4, seed=1)
+    weighed, paper = (select(train, [ROW], thresholds=strict, rule=rule) for rule in Rule)
+    assert weighed.selected.chain == ROW and undetermined(weighed.selected, weighed.task) == ""
+    assert paper.selected is None and "condition index" in paper.candidates[0].reasons[0]
+    assert paper.candidates[0].estimate == weighed.selected.estimate
+
+
+def test_what_is_known_badly_stays_excluded_and_says_so():
+    train = response(ROW, VALUES, noise=0.3, seed=1)
+    (candidate,) = select(train, [ROW], thresholds=Thresholds(1.5, 1.5, 1.01)).candidates
+    assert not candidate.admissible and "known to ±" in candidate.reasons[-1]

@@ -1,0 +1,129 @@
+"""Records of closed loops: the reference gives what the input alone cannot; and lines that tell nothing are left out."""
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+from scipy.signal import butter, chirp, freqz, lfilter
+
+from disting.errors import InputError
+from disting.measurement import TimeSeries, read
+from disting.measurement.closed_loop import follows_output
+from tests.measurement.bench_data import measured_data
+
+RATE, N = 1000.0, 100_000
+POLE, GAIN, FEEDBACK = 0.9, 0.1, 4.0  # of y = GAIN z^-1 / (1 - POLE z^-1) u, u = r - FEEDBACK z^-1 (y + noise)
+
+
+def closed_loop(noise=0.5, seed=0):
+    """Input, measured output and reference."""
+    source = np.random.default_rng(seed)
+    r, e = source.normal(size=N), noise * source.normal(size=N)
+    opened, closed = [1, -POLE], [1, -POLE, FEEDBACK * GAIN]
+    u = lfilter(opened, closed, r - FEEDBACK * np.roll(e, 1))
+    return u, lfilter([0, GAIN], opened, u) + e, r
+
+
+def true(frequency):
+    return freqz([0, GAIN], [1, -POLE], frequency, fs=RATE)[1]
+
+
+def test_the_reference_gives_the_plant_and_its_deviation_in_closed_loop():
+    u, y, r = closed_loop()
+    alone = TimeSeries(u, y, RATE).response(segment=1000, band=(5, 100))
+    found = TimeSeries(u, y, RATE, reference=r).response(segment=1000, band=(5, 100))
+    error = np.abs(found.G - true(found.frequency)) / found.deviation
+    assert len(found) > 90 and 0.75 < np.mean(error**2) < 1.3
+    biased = np.abs(alone.G - true(alone.frequency)) / alone.deviation
+    assert np.median(biased) > 10
+    assert any("the input follows the past output" in note for note in alone.notes)
+    assert not any("follows" in note for note in found.notes)
+
+
+def test_a_reference_that_is_the_input_changes_nothing():
+    u = np.random.default_rng(1).normal(size=20_000)
+    y = lfilter([0, GAIN], [1, -POLE], u) + np.random.default_rng(2).normal(size=20_000)
+    one, other = (TimeSeries(u, y, RATE, reference=r).response(segment=500, least_coherence=0) for r in (None, u))
+    np.testing.assert_allclose(one.G, other.G, rtol=1e-12)
+    np.testing.assert_allclose(one.deviation, other.deviation, rtol=1e-9)
+    ordinary = np.abs(one.G) * np.sqrt((1 - one.coherence) / one.coherence * (1 + 2 / 36) / 79)
+    np.testing.assert_allclose(one.deviation, ordinary, rtol=1e-9)
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.1])
+@pytest.mark.parametrize("kind", ["white", "low-pass", "binary", "steps", "chirp"])
+def test_no_open_loop_is_taken_for_a_closed_one(kind, noise):
+    source, n = np.random.default_rng(3), 40_000
+    white = source.normal(size=n)
+    u = {
+        "white": lambda: white,
+        "low-pass": lambda: lfilter(*butter(3, 0.3), white),
+        "binary": lambda: np.repeat(np.sign(white[: n // 10]), 10),
+        "steps": lambda: np.repeat(white[: n // 500], 500),
+        "chirp": lambda: chirp(np.arange(n) / RATE, 1, n / RATE, 200),
+    }[kind]()
+    y = lfilter([0, 1e-3, 1e-3], [1, -1.98, 0.985], u)
+    coloured = lfilter([1], [1, -0.95], source.normal(size=n))
+    assert follows_output(u, y + noise * np.std(y) * coloured) is None
+
+
+def test_a_short_or_constant_record_has_no_such_test():
+    u, y, _ = closed_loop()
+    assert follows_output(u[:400], y[:400]) is None
+    assert follows_output(u[:5000], y[:5000]) is not None
+
+
+def test_lines_without_coherence_are_left_out_and_counted():
+    source = np.random.default_rng(4)
+    u = lfilter(*butter(4, 0.1), source.normal(size=N))
+    y = lfilter([0, GAIN], [1, -POLE], u) + 0.05 * source.normal(size=N)
+    whole = TimeSeries(u, y, RATE).response(segment=1000, least_coherence=0)
+    kept = TimeSeries(u, y, RATE).response(segment=1000)
+    assert len(whole) == 499 and 50 < len(kept) < 150 and kept.frequency[0] == 1.0
+    assert np.quantile(kept.frequency, 0.9) < 130  # the excitation ends at 50 Hz, 24 dB per octave
+    assert any(f"{499 - len(kept)} of 499 lines left out" in note and "nine tenths" in note for note in kept.notes)
+
+
+def test_too_few_lines_say_why():
+    u, y, r = closed_loop()
+    noise = np.random.default_rng(5).normal(size=N)
+    for series, options, words in (
+        (TimeSeries(u, y, RATE), {"segment": 1000, "band": (100, 102)}, r"3 frequencies are too few.*band 100..102 Hz"),
+        (TimeSeries(r, noise, RATE), {"segment": 100}, r"all 49 lines left out|of 49 lines left out"),
+        (TimeSeries(np.sin(0.1 * np.pi * np.arange(4000)), y[:4000], RATE), {}, r"1 frequencies are too few.*1 excited line"),
+        (TimeSeries(u, y, RATE), {"least_coherence": 0.5}, "belongs to Welch"),
+    ):
+        with pytest.raises(InputError, match=words):
+            series.response(**options)
+    with pytest.raises(InputError, match="reference has 10 samples"):
+        TimeSeries(u, y, RATE, reference=r[:10])
+
+
+def test_a_periodic_reference_tells_period_and_lines():
+    lines = np.arange(5, 60, 3)
+    r = np.tile(np.cos(2 * np.pi * np.outer(np.arange(1000) / 1000, lines) + lines**2).sum(axis=1), 20)
+    opened, closed = [1, -POLE], [1, -POLE, FEEDBACK * GAIN]
+    e = 2.0 * np.random.default_rng(6).normal(size=len(r))
+    u = lfilter(opened, closed, r - FEEDBACK * np.roll(e, 1))
+    y = lfilter([0, GAIN], opened, u) + e
+    found = TimeSeries(u, y, RATE, reference=r).response()
+    assert (
+        np.allclose(found.frequency, lines) and np.mean(np.abs(found.G - true(found.frequency)) ** 2 / found.deviation**2) < 3
+    )
+
+
+@pytest.mark.parametrize("segment", [4096, 8192])
+def test_the_mass_of_a_real_axis_in_closed_loop(segment):
+    """95.1 kg published; without the reference the same lines say less than 1 kg."""
+    path = measured_data("EMPS.mat")
+    options = {"input": "vir", "output": "qm", "segment": segment, "to": "acceleration"}
+    found = read(path, reference="qg", **options)
+    weight = np.sqrt(found.coherence / (1 - found.coherence))
+
+    def residual(logarithms):
+        ratio = (np.exp(logarithms[0]) + np.exp(logarithms[1]) / (1j * found.omega)) * found.G
+        return np.concatenate([weight * np.log(np.abs(ratio)), weight * np.angle(ratio)])
+
+    force = 35.15065188  # N per unit of the input
+    assert np.exp(least_squares(residual, [0.0, 0.0]).x[0]) * force == pytest.approx(95.1, rel=0.02)
+    assert any("lines left out" in note for note in found.notes)
+    assert any("the input follows the past output" in note for note in read(path, **options).notes)
