@@ -88,7 +88,7 @@ def test_a_file_that_was_written_is_read(tmp_path):
     found = damper_catalog(3, damped=True)
     path = write(found, Settings(), tmp_path)
     again = read(tmp_path, 3, True)
-    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+    assert sorted(p.name for p in tmp_path.iterdir()) == [path.name, "provenance.json"]
     assert list(again.csv_lines()) == list(found.csv_lines())
     assert again.classes() == found.classes()
 

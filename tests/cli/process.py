@@ -22,12 +22,6 @@ def disting(*arguments, cache="off", cwd=None):
     return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
 
 
-def heed_signals():
-    """Background jobs and nohup leave signals ignored, which children inherit."""
-    for number in (signal.SIGINT, signal.SIGHUP):
-        signal.signal(number, signal.SIG_DFL)
-
-
 def called(*arguments, cache="off"):
     """The same without a process of its own, which takes a second to start: for tests of what a command says."""
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
@@ -38,6 +32,12 @@ def called(*arguments, cache="off"):
         except SystemExit as end:  # argparse ends the process
             status = end.code or 0
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
+
+
+def heed_signals():
+    """Background jobs and nohup leave signals ignored, which children inherit."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def marked(folder):

@@ -53,8 +53,9 @@ def test_report_writes_the_families_with_dampers_too(tmp_path):
 
 def test_report_compares_several_sizes(tmp_path):
     assert called("report", "1", "2", "--undamped", "--out", tmp_path).returncode == 0
-    assert "2 in 1" not in (text := (tmp_path / "sizes-undamped.html").read_text(encoding="utf-8"))
-    assert "Of <strong>3</strong> pairs" in text and "1 in 2" in text
+    text = (tmp_path / "sizes-undamped.html").read_text(encoding="utf-8")
+    assert "Of <strong>482</strong> pairs" in text and "1 in 2" in text  # of 1 to 4 masses, whatever is asked
+    assert "2 in 1" not in text
     assert "sizes-undamped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
@@ -105,6 +106,9 @@ def test_catalog_build_and_verify(tmp_path):
     assert (good.returncode, good.stdout.count("every evidence holds")) == (0, 2)
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text(path.read_text().replace('"decided_by":"1"', '"decided_by":"2"'))
+    refused = called("catalog", "verify", 2, "--catalog", tmp_path)
+    assert refused.returncode == 2 and "chains-2-damped.jsonl is damaged" in refused.stderr
+    (tmp_path / "provenance.json").unlink()
     bad = called("catalog", "verify", 2, "--catalog", tmp_path)
     assert bad.returncode == 1
     assert "line 5 is not what is computed now" in bad.stdout

@@ -142,7 +142,7 @@ def test_a_reader_gets_the_lines_it_wants():
 
 
 @pytest.mark.parametrize("arguments", ["doctor", "verdicts 2 --csv -", *by_hand("verdicts 2", "models 2")])
-@pytest.mark.parametrize("closed", [">&-", *by_hand(">&- 2>&-", "<&- >&- 2>&-")])
+@pytest.mark.parametrize("closed", [">&-", "<&- >&- 2>&-", *by_hand(">&- 2>&-")])
 def test_without_standard_output_nothing_is_printed(arguments, closed):
     done = shell(arguments, closed)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
