@@ -116,7 +116,7 @@ def _roles(table: Table, columns: Sequence[str] | None, notes: list[str]) -> lis
 def _given(table: Table, columns: Sequence[str]) -> list[Meaning]:
     try:
         roles = [Meaning(word) for word in columns]
-    except ValueError as error:
+    except (ValueError, TypeError) as error:
         raise InputError(f"columns are named by {', '.join(Meaning)}; {error}") from None
     if len(roles) != len(table.headers):
         raise InputError(f"{table.origin} has {len(table.headers)} columns, of which {len(roles)} are named")

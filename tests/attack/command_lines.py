@@ -5,7 +5,7 @@ Left out are --scheduler (it would ask the network) and more than one job (each 
 
 import string
 
-SIGNS = string.ascii_letters + string.digits + "+-=:,.*$%#@~ \t\n\"'\\<>&|;(){}[]!?^_`" + "äß∞²Ω\u202e\u0000\x1b\ud800😀"
+SIGNS = string.ascii_letters + string.digits + "+-=:,.*$%#@~ \t\n\"'\\<>&|;(){}[]!?^_`" + "äß∞²Ω\u202e\u0000\x1b\udcff😀"
 WORDS = (
     "", "-", "--", "=", "0", "-1", "1e999", "nan", "inf", "9" * 400, "1" * 5000, "٣:١", "3:1" * 300, "--json=-", "-h", "--help",
     "--csv", "%s%n", "$(id)", "`id`", "{0.__class__}", "\x1b[2J", "a\nb", "../../..", ".", "/dev/full", "/dev/null", "\udcff",

@@ -21,7 +21,7 @@ FOLDER = "{folder}"
 VERDICTS = ("verdicts", "3", "--damped", "--json", f"{FOLDER}/v.json", "--csv", f"{FOLDER}/v.csv")
 FIT = ("fit", "{data}", "--masses", "1", "--json", f"{FOLDER}/f.json")
 KILLS = [
-    (VERDICTS, 90, 0.0),
+    (VERDICTS, 130, 0.0),
     ((*VERDICTS, "--jobs", "2"), 30, 0.0),
     (("catalog", "build", "2", "--out", FOLDER), 50, 0.0),
     (("catalog", "dampers", "2", "--out", FOLDER), 30, 0.0),

@@ -187,6 +187,8 @@ def test_options_that_a_format_does_not_know_are_refused(tmp_path):
     path = written(tmp_path / "a.csv", ["f,Re,Im", *lines(ROWS)])
     with pytest.raises(InputError, match="unknown option record; known for this format: column, columns"):
         read(path, record=2)
+    with pytest.raises(InputError, match="columns are named by"):
+        read(path, columns=0.5)
     with pytest.raises(InputError, match="there is no file"):
         read(tmp_path / "absent.csv")
     with pytest.raises(InputError, match="give both"):
