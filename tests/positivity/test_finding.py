@@ -211,7 +211,9 @@ def test_false_evidence_is_refused():
     negative = replace(evidence, without=(("m1", "-1"), *evidence.without[1:]))
     assert confirms(evidence, six, two)
     assert not any(confirms(e, six, two) for e in (swapped, nothing_lacking, negative, SameByTheorem("Foster")))
-    assert not confirms(SameByTheorem(""), six, two) and not confirms(Excluded("residues"), six, two)
+    assert not confirms(Excluded("residues"), six, two)
+    with pytest.raises(ValueError, match="no evidence is called"):
+        SameByTheorem("")
     assert not confirms(Points(evidence.without, evidence.with_one), six, two)
     damped = Family(3, damped=True)
     shared = positive_finding(damped[7], damped[6]).evidence
