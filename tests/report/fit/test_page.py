@@ -162,7 +162,7 @@ def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
     best = next(c for c in selection.candidates if c.admissible)
     assert ("lowest cost of all admissible ones." in said["Margin"]) == (best is selection.selected)
     assert ("that noise alone may make" in said["Margin"]) == (best is not selection.selected)
-    assert set(said) == {"Validation", "Repeatability", "Margin", "Akaike weights", "Starts", "Standard errors"}
+    assert set(said) == {"Validation", "Scatter", "Repeatability", "Margin", "Akaike weights", "Starts", "Standard errors"}
 
 
 def test_the_weakest_combination_names_its_largest_part_first(selection: Selection) -> None:
