@@ -12,7 +12,6 @@ from disting.measurement import read
 from tests.cli.process import called, disting
 from tests.measurement.bench_data import measured_data
 
-pytestmark = pytest.mark.xdist_group("cli fit")
 DRIVE = ("2:1+b2+delay", "--damped", "--set", "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4", "--output-noise", "1e-6")
 
 

@@ -66,7 +66,6 @@ FOUND = {
     "candidates-distinguishable": "all 155 pairs of sets of base dampers for 1 to 4 masses are distinguishable",
     "a3": "told apart are only no damper and any: 0; 1, 2, 3, 1+2, 1+3, 2+3, 1+2+3",
 }
-pytestmark = pytest.mark.xdist_group("paper")
 WHOLE_FIT = {"thresholds": "simulated demonstration drive: with rising thresholds N_p rises 15 times and falls 0 times"}
 DIFFERING = [
     "phase", "collinearity", "numerical", "table-1", "determinable", "all-12", "beyond", "condition-9", "eight-cases",

@@ -20,7 +20,6 @@ from disting.report.svg import svg
 from disting.verdict import Relation, View
 from tests.report.outline import Outline
 
-pytestmark = pytest.mark.xdist_group("paper")
 NAMES = ["figures-3-4", "figures-5-6", "figures-7-8", "figure-10", "figure-11", "figure-12", "figure-13", "figure-14"]
 
 

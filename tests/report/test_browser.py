@@ -11,7 +11,6 @@ from disting.report import page, write_report
 from disting.verdict import View
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-pytestmark = pytest.mark.xdist_group("browser")
 CURSOR = '[role="gridcell"]'
 SMALL, LARGE, START = "chains-3-damped.html", "chains-5-damped.html", "index.html"
 

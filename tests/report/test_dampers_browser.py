@@ -17,7 +17,6 @@ from disting.model.family import Family
 from disting.report import damper_page, write_report
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-pytestmark = pytest.mark.xdist_group("browser")
 CURSOR = '[role="gridcell"]'
 SMALL, LARGE, START = "dampers-3-damped.html", "dampers-5-undamped.html", "index.html"
 PAIR = SMALL + "#2+b1+b2/5+b1+b2+b3"

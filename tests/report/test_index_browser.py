@@ -18,7 +18,6 @@ from disting.report.index import index
 from disting.report.machine import descriptions, machines, part_name, parts
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-pytestmark = pytest.mark.xdist_group("browser")
 KINDS = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 SOME = [(n, damped) for n, damped in KINDS if n < 4 or not damped]
 CHOICES = ("masses", "dampers", "gap", "force", "sensor")

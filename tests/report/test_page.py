@@ -28,9 +28,6 @@ def shipped(request: pytest.FixtureRequest) -> Catalog:
     return catalog(request.param[0], damped=request.param[1])
 
 
-pytestmark = pytest.mark.xdist_group("page of a catalogue")
-
-
 @pytest.fixture(scope="module")
 def largest() -> str:
     return page(catalog(5, damped=True))

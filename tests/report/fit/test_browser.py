@@ -10,8 +10,6 @@ from disting.measurement import FrequencyResponse
 from disting.report.fit import fit_page, waterfall
 from disting.report.fit.criteria import shown
 
-pytestmark = pytest.mark.xdist_group("fit page")  # with those that show the same selection
-
 
 @pytest.fixture(scope="module")
 def page(selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Path:

@@ -21,8 +21,6 @@ from disting.report.fit.style import NARROW, POINTS, VARIABLES, WIDE, Drawn, Ton
 
 from .conftest import DRIVE, VALUES
 
-pytestmark = pytest.mark.xdist_group("fit page")
-
 
 @pytest.fixture(scope="module")
 def figure(selection: Selection, train: FrequencyResponse, test: FrequencyResponse) -> Drawn:

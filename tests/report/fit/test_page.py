@@ -24,7 +24,6 @@ from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
 
-pytestmark = pytest.mark.xdist_group("fit page")
 FIGURES = ["bode", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
 
 
