@@ -136,5 +136,5 @@ def test_a_file_whose_name_is_no_text_gets_its_page(files, tmp_path):
     data = os.path.join(os.fsencode(tmp_path), b"\xff.csv")
     with open(data, "wb") as file:
         file.write(files[0].read_bytes())
-    done = disting("fit", os.fsdecode(data), "--masses", "1", "--out", tmp_path / "out")
+    done = disting("fit", os.fsdecode(data), "--test", files[1], "--masses", "1", "--out", tmp_path / "out")
     assert done.returncode == 0 and "\\udcff.csv" in (tmp_path / "out" / "fit.html").read_text(encoding="utf-8")
