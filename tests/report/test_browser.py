@@ -9,6 +9,7 @@ import pytest
 from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict import View
+from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 CURSOR = '[role="gridcell"]'
@@ -174,9 +175,9 @@ def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ig
     tab = visit(SMALL + "#A5")
     assert tab.inner_text("#detail h3") == "A5"
     assert "indistinguishable from 1 (A2)" in tab.inner_text("#detail .why")
-    tab.click('#detail [data-slot="link"] a')
+    follow_link(tab, '#detail [data-slot="link"] a')
     assert tab.inner_text("h1").startswith("Model A5")
-    tab.click("text=Verdict and evidence")
+    follow_link(tab, "text=Verdict and evidence")
     assert tab.inner_text("#detail h3") == "A2 and A5"
 
 
@@ -228,13 +229,13 @@ def test_the_start_page_says_what_it_does_not_find(visit) -> None:  # type: igno
 
 def test_one_click_leads_from_the_start_to_the_reason(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(START)
-    tab.click(".example figcaption a")
+    follow_link(tab, ".example figcaption a")
     assert tab.inner_text("#detail .badge") == "indistinguishable"
 
 
 def test_links_to_undecided_pairs_open_them(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
-    tab.click(".pairlink >> nth=0")
+    follow_link(tab, ".pairlink >> nth=0")
     assert tab.inner_text("#detail .badge") == "distinguishable"
     assert "exact decision" in tab.inner_text("#detail")
     assert tab.text_content('[data-slot="in-combined"]') == "undecided"

@@ -15,6 +15,7 @@ from disting.conditions.exact import EXACT
 from disting.engine.classes import Classes
 from disting.model.family import Family
 from disting.report import damper_page, write_report
+from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 CURSOR = '[role="gridcell"]'
@@ -214,8 +215,8 @@ def test_the_start_page_and_the_catalogue_lead_here(visit) -> None:  # type: ign
     tab.fill("#models", "3:2+b4")
     tab.press("#models", "Enter")
     assert "masses 1 to 3" in tab.inner_text("#said")
-    tab.click(f'.card a[href="{SMALL}"]')
-    tab.click(".path >> text=Without")
+    follow_link(tab, f'.card a[href="{SMALL}"]')
+    follow_link(tab, ".path >> text=Without")
     assert tab.inner_text("h1") == "Chains of 3 masses, damped"
 
 
@@ -243,13 +244,13 @@ def test_one_structure_is_the_table_of_its_sets(visit, small: DamperFamily) -> N
 
 def test_one_group_holds_its_members(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
-    tab.click('#groups a[href="#group-4"]')
+    follow_link(tab, '#groups a[href="#group-4"]')
     assert tab.inner_text("#detail h3") == "Group 4" and tab.input_value("#only") == "group-4"
     size = int(tab.get_attribute('[role="grid"]', "aria-rowcount"))
     assert size == sorted(map(len, small.classes()), reverse=True)[3]
     assert _colours(tab, [(size, 1)]) == ["orange"]
     tab.select_option("#only", "all")
-    tab.click('#groups a[href="#group-4"]')  # again
+    follow_link(tab, '#groups a[href="#group-4"]')  # again
     assert tab.input_value("#only") == "group-4"
     tab.keyboard.press("Escape")
     assert not tab.is_visible("#detail") and "#" not in tab.url

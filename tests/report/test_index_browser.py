@@ -16,6 +16,7 @@ from disting.report import write_report
 from disting.report.drawing import draw
 from disting.report.index import index
 from disting.report.machine import descriptions, machines, part_name, parts
+from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 KINDS = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
@@ -136,10 +137,10 @@ def test_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
     tab.select_option('[name="masses"]', "2")
     tab.select_option('[name="sensor"]', "0,2")
     tab.wait_for_url("**/index.html#machine=2,damped,0,0,1,0,2")
-    tab.click("text=Its column in the matrix")
+    follow_link(tab, "text=Its column in the matrix")
     assert tab.inner_text("#detail h3") == "A2"
     tab.go_back()
-    tab.click("text=Model page of A2")
+    follow_link(tab, "text=Model page of A2")
     assert tab.inner_text("h1").startswith("Model A2")
 
 
