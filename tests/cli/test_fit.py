@@ -15,15 +15,27 @@ from tests.measurement.bench_data import measured_data
 DRIVE = ("2:1+b2+delay", "--damped", "--set", "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4", "--output-noise", "1e-6")
 
 
-@pytest.fixture(scope="module")
-def files(tmp_path_factory):
+ONE_MASS = ("1:1+b1+delay", "--set", "m1=0.01,b1=0.05,Td=2e-4", "--output-noise", "1e-6")
+
+
+def simulated(drive, folder):
     """Training and test responses of a simulated drive."""
-    folder = tmp_path_factory.mktemp("drive")
     paths = [folder / f"{seed}.csv" for seed in (0, 1)]
     for seed, path in enumerate(paths):
-        done = disting("simulate", *DRIVE, "--seed", seed, "--csv", path)
+        done = called("simulate", *drive, "--seed", seed, "--csv", path)
         assert done.stdout == f"241 lines from 10 to 250 Hz in {path}\n"
     return paths
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    return simulated(DRIVE, tmp_path_factory.mktemp("drive"))
+
+
+@pytest.fixture(scope="module")
+def rigid(tmp_path_factory):
+    """Of one mass: quickly fitted, and explained by it."""
+    return simulated(ONE_MASS, tmp_path_factory.mktemp("rigid"))
 
 
 @pytest.fixture(scope="module")
@@ -56,23 +68,23 @@ def test_the_printed_result_says_what_matters(fitted):
     assert "for generic positive parameters no other candidate with as many masses behaves the same" in said
 
 
-def test_an_interrupted_fit_finds_its_results_in_the_cache(files, tmp_path):
+def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
     cache = tmp_path / "cache.sqlite3"
-    arguments = ("fit", files[0], "--test", files[1], "--masses", "1", "--json", "-")
+    arguments = ("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--json", "-")
     first, again, fresh = (called(*arguments, cache=c) for c in (cache, cache, "off"))
     assert cache.stat().st_size > 10_000 and first.stdout == again.stdout == fresh.stdout
 
 
-def test_a_folder_gets_everything(files, tmp_path):
+def test_a_folder_gets_everything(rigid, tmp_path):
     done = called(
-        "fit", files[0], "--test", files[1], "--masses", "1", "--out", tmp_path / "out", "--thresholds", "1e9,1e9,1e9"
+        "fit", rigid[0], "--test", rigid[1], "--masses", "1", "--out", tmp_path / "out", "--thresholds", "1e9,1e9,1e9"
     )
     assert f"open {tmp_path / 'out' / 'fit.html'}" in done.stdout
     assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in (tmp_path / "out").iterdir()}
 
 
-def test_options_reach_the_fit(files):
-    done = called("fit", files[0], "--test", files[1], "--masses", "1", "--json", "-", "--fix", "Td=2e-4", "--band", "20..200")
+def test_options_reach_the_fit(files, rigid):
+    done = called("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--json", "-", "--fix", "Td=2e-4", "--band", "20..200")
     with_delay = [c for c in json.loads(done.stdout)["candidates"] if c["delay"]]
     assert {c["parameters"]["Td"] for c in with_delay} == {2e-4}
     assert all("Td" not in c["standard_errors"] for c in with_delay)
@@ -131,10 +143,10 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="names of other systems are Unicode")
-def test_a_file_whose_name_is_no_text_gets_its_page(files, tmp_path):
+def test_a_file_whose_name_is_no_text_gets_its_page(rigid, tmp_path):
     """The page names the file; it could not be encoded."""
     data = os.path.join(os.fsencode(tmp_path), b"\xff.csv")
     with open(data, "wb") as file:
-        file.write(files[0].read_bytes())
-    done = disting("fit", os.fsdecode(data), "--test", files[1], "--masses", "1", "--out", tmp_path / "out")
+        file.write(rigid[0].read_bytes())
+    done = disting("fit", os.fsdecode(data), "--test", rigid[1], "--masses", "1", "--out", tmp_path / "out")
     assert done.returncode == 0 and "\\udcff.csv" in (tmp_path / "out" / "fit.html").read_text(encoding="utf-8")
