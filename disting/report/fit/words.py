@@ -3,8 +3,10 @@
 from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.cost import Case, Cost
+from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
 from disting.fit.modes import Result
+from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
@@ -169,3 +171,12 @@ def cost_in_words(cost: Cost) -> str:
 def violations(candidate: Candidate) -> str:
     """The reasons why a candidate is excluded, in one text; "" if it is admissible."""
     return "; ".join(candidate.reasons)
+
+
+def fit_in_words(selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None) -> str:
+    """How much of the data the described candidate reproduces, see `fit_percent`."""
+    candidate, task = selection.described, selection.task
+    named = [("training", train), *([("test", test)] if test is not None else [])]
+    sizes = [(label, fit_percent(candidate, task, data)) for label, data in named]
+    each = [f"{size:.4g} % of the {label} data" if isfinite(size) else f"{label} data are constant" for label, size in sizes]
+    return f"fit: {', '.join(each)} (normalised root mean square of the complex response, 100 % is perfect)"

@@ -8,13 +8,12 @@ import pytest
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.fit import fit_page, waterfall
-from disting.report.fit.criteria import shown
 
 
 @pytest.fixture(scope="module")
 def page(selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("browser") / "fit.html"
-    path.write_text(fit_page(selection, [], [waterfall(shown(selection))], train), encoding="utf-8")
+    path.write_text(fit_page(selection, [], [waterfall(selection.described)], train), encoding="utf-8")
     return path
 
 

@@ -1,0 +1,85 @@
+"""What leads on from a fit: pages of the catalogues, where they lie, and ready commands for each structure."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from os.path import relpath
+from pathlib import Path
+from urllib.parse import quote
+
+from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.files import name_of as catalog_name
+from disting.comparison import name_of
+from disting.fit.members import Member, Twin
+from disting.fit.select import Selection
+from disting.fit.telling import commands
+from disting.model.chain import Chain
+
+PURPOSES = {
+    "compare": "What tells them apart, and which evidence shows it:",
+    "equivalents": "Every structure with the same response, and its parameters:",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """The pages of `disting report` in the folder `root`, as pages in `folder` lead to them."""
+
+    root: Path
+    folder: Path
+
+    def address(self, chain: Chain) -> str:
+        """Relative address of the page about a structure, "" where there is none.
+
+        With ground dampers that of its family, at the model; lag and dead time have no pages of their own.
+        """
+        found = next((page for page in _pages(chain) if (self.root / page[0]).is_file()), None)
+        if found is None:
+            return ""
+        file, fragment = found
+        target = (self.root / file).resolve()
+        try:
+            return quote(Path(relpath(target, self.folder.resolve())).as_posix()) + fragment
+        except ValueError:  # another drive
+            return target.as_uri() + fragment
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A command, and what it tells."""
+
+    purpose: str
+    command: str
+
+
+def beside(folder: Path) -> Path:
+    """Where the pages of the catalogues may lie that nobody named: in the folder itself, or in the one that holds it."""
+    return next((root for root in (folder, folder.resolve().parent) if (root / "models").is_dir()), folder)
+
+
+def _pages(chain: Chain) -> Iterator[tuple[str, str]]:
+    """File and fragment of the pages that tell of a structure, the one that tells most first."""
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
+    size, colon, number = name_of(plain, short=False).partition(":")
+    if not colon or not number.isdecimal():
+        return
+    kind = int(size), chain.damped
+    if chain.ground_dampers:
+        yield f"{damper_name(*kind)}.html", "#" + "+".join([number, *(f"b{i}" for i in chain.ground_dampers)])
+    yield f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
+
+
+def next_steps(selection: Selection) -> list[Step]:
+    """Commands that lead on from the described candidate."""
+    return [Step(PURPOSES[command.split()[1]], command) for command in commands(selection)]
+
+
+def steps_of(selection: Selection, member: Member) -> list[Step]:
+    """Commands that lead on from one structure of the set: against the first one, and to what behaves as it does."""
+    others = [m for m in selection.members[:1] if m is not member]
+    return next_steps(replace(selection, selected=member.candidate, members=(member, *others)))
+
+
+def step_to(member: Member, twin: Twin) -> Step:
+    """The command that compares a structure with one that behaves as it does."""
+    damped = " --damped" if twin.chain.damped else ""
+    return Step(PURPOSES["compare"], f"disting compare {member.name} {twin.name}{damped}")
