@@ -42,6 +42,12 @@ def beneath(panel: "Axes", s: Series, smallest: float) -> None:
         panel.set_ylim(min(floor, float(np.quantile(np.concatenate(shown), LOWEST)) / 1.4), top)
 
 
+def beneath_in_words(s: Series) -> str:
+    """Where the signs under the response come from."""
+    count = 0 if s.measured.distortion is None else len(s.measured.distortion.omega)
+    return f"Under the response, in its unit: noise and distortion, at {count} lines of the {s.label} without excitation."
+
+
 def gathered(hertz: Real, levels: Real) -> tuple[Real, Real]:
     """Where there are many lines, the root mean square of those near each other on a logarithmic axis, and their middle."""
     if len(hertz) <= MANY:

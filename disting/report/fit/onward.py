@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from os import fsencode
 from os.path import relpath
 from pathlib import Path
 from urllib.parse import quote
@@ -15,9 +16,10 @@ from disting.fit.telling import commands
 from disting.model.chain import Chain
 
 PURPOSES = {
-    "compare": "What tells them apart, and which evidence shows it:",
+    "compare": "Whether an experiment tells them apart, and why:",
     "equivalents": "Every structure with the same response, and its parameters:",
 }
+SAME = "Why nothing tells them apart, and whether that holds for all parameters:"
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +40,7 @@ class Site:
         file, fragment = found
         target = (self.root / file).resolve()
         try:
-            return quote(Path(relpath(target, self.folder.resolve())).as_posix()) + fragment
+            return quote(fsencode(Path(relpath(target, self.folder.resolve())).as_posix())) + fragment
         except ValueError:  # another drive
             return target.as_uri() + fragment
 
@@ -74,12 +76,12 @@ def next_steps(selection: Selection) -> list[Step]:
 
 
 def steps_of(selection: Selection, member: Member) -> list[Step]:
-    """Commands that lead on from one structure of the set: against the first one, and to what behaves as it does."""
-    others = [m for m in selection.members[:1] if m is not member]
-    return next_steps(replace(selection, selected=member.candidate, members=(member, *others)))
+    """Commands that lead on from a structure of the set, against the first one; of that itself `next_steps` are."""
+    first = selection.members[0]
+    return [] if member is first else next_steps(replace(selection, selected=member.candidate, members=(member, first)))
 
 
 def step_to(member: Member, twin: Twin) -> Step:
     """The command that compares a structure with one that behaves as it does."""
     damped = " --damped" if twin.chain.damped else ""
-    return Step(PURPOSES["compare"], f"disting compare {member.name} {twin.name}{damped}")
+    return Step(SAME, f"disting compare {member.name} {twin.name}{damped}")

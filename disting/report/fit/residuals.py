@@ -18,6 +18,7 @@ from disting.fit.scatter import Scatter
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.fit.axes import logarithmic
+from disting.report.fit.distorted import beneath_in_words
 from disting.report.fit.series import Series, band, points, series_of
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import name, percent, readable
@@ -97,15 +98,18 @@ def bands_in_words(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
 ) -> tuple[list[str], list[str]]:
     """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for below the residuals."""
-    candidate, task, found = selection.described, selection.task, missed(selection, train, test)
-    omega = train.omega
+    candidate, task, found, omega = selection.described, selection.task, missed(selection, train, test), train.omega
     sure = confidence(candidate, task, omega)
-    bars = [_bars(s) for s in series_of(candidate, task, train, test) if s.has_bars]
+    own = series_of(candidate, task, train, test)
+    bars = [_bars(s) for s in own if s.has_bars]
+    told = {s.label: s.scatter.source for s in own if s.has_bars}
     said = [
         f"Scatter of the {m.series.label}: {_interval(m.series.scatter.typical)} (95 %), from {m.series.scatter.source}."
         for m in found
+        if told.get(m.series.label) != m.series.scatter.source
     ]
-    return [*bars, _model_band(sure, omega)], [*said, _outside(found)]
+    under = [beneath_in_words(s) for s in own if s.measured.distortion is not None]
+    return [*bars, _model_band(sure, omega), *under[:1]], [*said, _outside(found)]
 
 
 def _bars(s: Series) -> str:
@@ -129,7 +133,9 @@ def _model_band(sure: Confidence, omega: Real) -> str:
 def _interval(error: float) -> str:
     """95 % of an amplitude whose logarithm has this standard error."""
     wide = QUANTILE * error
-    return f"± {percent(wide)}" if wide < LARGE else f"a factor {readable(float(np.exp(min(wide, LOST))), 2)} either way"
+    if wide > LARGE:
+        return f"a factor {readable(float(np.exp(min(wide, LOST))), 2)} either way"
+    return f"± {percent(wide)}".replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def _outside(found: Sequence[Missed]) -> str:

@@ -7,7 +7,7 @@ from disting.fit.judged import Candidate
 from disting.fit.members import Member
 from disting.fit.modes import Result
 from disting.measurement import FrequencyResponse
-from disting.report.fit.words import error_in_percent, readable, result_unit, unit_of, with_error
+from disting.report.fit.words import between, error_in_percent, readable, result_unit, unit_of, with_error
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +51,13 @@ def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) 
 def intervals(member: Member, measured: FrequencyResponse) -> list[Row]:
     """Values of a member with their intervals of 95 %, those that the test data contradict marked; last, what is given."""
     apart = {d.name: d for d in member.disagreements}
-    values, between = member.candidate.estimate.parameters, member.intervals
+    values, known = member.candidate.estimate.parameters, member.intervals
     return [
         Row(
             n,
-            readable(value, 4 if n in between else 6),
+            readable(value, 4 if n in known else 6),
             unit_of(n[0], measured),
-            f"{readable(between[n][0])} to {readable(between[n][1])}" if n in between else "given",
+            between(*known[n]) if n in known else "given",
             f"{readable(apart[n].test)} on test data" if n in apart else "",
         )
         for n, value in values.items()

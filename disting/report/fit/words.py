@@ -76,6 +76,19 @@ def with_error(value: float, error: float) -> str:
     return f"({both})·10{str(power).translate(RAISED)}" if power else both
 
 
+def between(low: float, high: float) -> str:
+    """An interval, its ends with two digits of its width.
+
+    >>> between(0.0099881, 0.0100433), between(0.0, 0.31), between(1.0, inf), between(2.0, 2.0)
+    ('0.009988 to 0.010043', '0 to 0.31', '1 to ∞', '2 to 2')
+    """
+    width = high - low
+    if not 0 < width < inf:
+        return f"{readable(low)} to {readable(high)}"
+    digits = [max(2 + floor(log10(abs(end) or width)) - floor(log10(width)), 2) for end in (low, high)]
+    return " to ".join(readable(end, n, all_digits=True) for end, n in zip((low, high), digits, strict=True))
+
+
 def percent(share: float) -> str:
     """A share in percent.
 
