@@ -68,9 +68,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 
 def _site(text: str) -> Path:
     if not (Path(text) / "models").is_dir():
-        raise argparse.ArgumentTypeError(
-            f"{shown(text)} holds no pages of 'disting report'; write them first, or name their folder"
-        )
+        raise argparse.ArgumentTypeError(f"{shown(text)} holds no pages that 'disting report' wrote; name their folder")
     return Path(text)
 
 

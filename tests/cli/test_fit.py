@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from disting.measurement import read
 from tests.cli.process import called, disting
 from tests.measurement.bench_data import measured_data
 
+REPORTS = Path(__file__).parents[2] / "reports"
 DRIVE = ("2:1+b2+delay", "--damped", "--set", "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4", "--output-noise", "1e-6")
 
 
@@ -28,9 +30,10 @@ def files(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def fitted(files):
-    """What a process with two workers prints, and the file that it writes."""
+    """What a process with two workers prints, and the file that it writes, beside a folder `out`."""
     path = files[0].with_name("fit.json")
-    done = disting("fit", files[0], "--test", files[1], "--masses", "2", "--json", path, "--jobs", 2)
+    written = ("--json", path, "--out", path.with_name("out"), "--site", REPORTS)
+    done = disting("fit", files[0], "--test", files[1], "--masses", "2", *written, "--jobs", 2)
     assert done.returncode == 0 and done.stderr == ""
     return done.stdout, path
 
@@ -63,12 +66,14 @@ def test_an_interrupted_fit_finds_its_results_in_the_cache(files, tmp_path):
     assert cache.stat().st_size > 10_000 and first.stdout == again.stdout == fresh.stdout
 
 
-def test_a_folder_gets_everything(files, tmp_path):
-    done = called(
-        "fit", files[0], "--test", files[1], "--masses", "1", "--out", tmp_path / "out", "--thresholds", "1e9,1e9,1e9"
-    )
-    assert f"open {tmp_path / 'out' / 'fit.html'}" in done.stdout
-    assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in (tmp_path / "out").iterdir()}
+def test_a_folder_gets_everything(fitted):
+    said, path = fitted
+    out = path.with_name("out")
+    assert f"open {out / 'fit.html'}" in said
+    assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in out.iterdir()}
+    page = (out / "fit.html").read_text(encoding="utf-8")
+    assert 'reports/models/2-damped/1.html">2:1 in the catalogue</a>' in page
+    assert json.loads((out / "fit.json").read_text(encoding="utf-8")) == json.loads(path.read_text(encoding="utf-8"))
 
 
 def test_options_reach_the_fit(files):

@@ -10,7 +10,7 @@ from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw
-from disting.report.fit.onward import Site, Step, step_to, steps_of
+from disting.report.fit.onward import Link, Site, Step, step_to, steps_of
 from disting.report.fit.rows import Row, intervals
 from disting.report.scene import PAGE_PALETTE
 from disting.report.svg import body, number
@@ -22,7 +22,7 @@ class Same:
 
     twin: Twin
     drawing: Markup
-    address: str
+    page: Link | None
     step: Step
 
 
@@ -32,7 +32,7 @@ class Shown:
 
     member: Member
     drawing: Markup
-    address: str
+    page: Link | None
     parameters: Sequence[Row]
     same: Sequence[Same]
     steps: Sequence[Step]
@@ -44,9 +44,9 @@ def shown_set(selection: Selection, measured: FrequencyResponse, site: Site | No
         Shown(
             m,
             drawing(m.candidate.chain),
-            site.address(m.candidate.chain) if site else "",
+            site.page(m.candidate.chain) if site else None,
             intervals(m, measured),
-            [Same(t, drawing(t.chain), site.address(t.chain) if site else "", step_to(m, t)) for t in m.twins],
+            [Same(t, drawing(t.chain), site.page(t.chain) if site else None, step_to(m, t)) for t in m.twins],
             steps_of(selection, m),
         )
         for m in selection.members

@@ -23,26 +23,34 @@ SAME = "Why nothing tells them apart, and whether that holds for all parameters:
 
 
 @dataclass(frozen=True, slots=True)
+class Link:
+    """The structure that a page is about, and where that is."""
+
+    name: str
+    address: str
+
+
+@dataclass(frozen=True, slots=True)
 class Site:
     """The pages of `disting report` in the folder `root`, as pages in `folder` lead to them."""
 
     root: Path
     folder: Path
 
-    def address(self, chain: Chain) -> str:
-        """Relative address of the page about a structure, "" where there is none.
+    def page(self, chain: Chain) -> Link | None:
+        """The page about a structure, or about it without its ground dampers where its family has none; None without either.
 
-        With ground dampers that of its family, at the model; lag and dead time have no pages of their own.
+        Lag and dead time have no pages of their own.
         """
-        found = next((page for page in _pages(chain) if (self.root / page[0]).is_file()), None)
-        if found is None:
-            return ""
-        file, fragment = found
+        return next((self._link(*page) for page in _pages(chain) if (self.root / page[1]).is_file()), None)
+
+    def _link(self, name: str, file: str, fragment: str) -> Link:
         target = (self.root / file).resolve()
         try:
-            return quote(fsencode(Path(relpath(target, self.folder.resolve())).as_posix())) + fragment
+            way = quote(fsencode(Path(relpath(target, self.folder.resolve())).as_posix()))
         except ValueError:  # another drive
-            return target.as_uri() + fragment
+            way = target.as_uri()
+        return Link(name, way + fragment)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,16 +66,18 @@ def beside(folder: Path) -> Path:
     return next((root for root in (folder, folder.resolve().parent) if (root / "models").is_dir()), folder)
 
 
-def _pages(chain: Chain) -> Iterator[tuple[str, str]]:
-    """File and fragment of the pages that tell of a structure, the one that tells most first."""
+def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
+    """Name, file and fragment of the pages that tell of a structure, the one that tells most first."""
     plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
-    size, colon, number = name_of(plain, short=False).partition(":")
+    name = name_of(plain, short=False)
+    size, colon, number = name.partition(":")
     if not colon or not number.isdecimal():
         return
     kind = int(size), chain.damped
     if chain.ground_dampers:
-        yield f"{damper_name(*kind)}.html", "#" + "+".join([number, *(f"b{i}" for i in chain.ground_dampers)])
-    yield f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
+        dampers = "".join(f"+b{i}" for i in chain.ground_dampers)
+        yield name + dampers, f"{damper_name(*kind)}.html", f"#{number}{dampers}"
+    yield name, f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
 
 
 def next_steps(selection: Selection) -> list[Step]:

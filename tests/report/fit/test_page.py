@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from disting.comparison import name_of
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
 from disting.fit.export import read_model, selection_to_dict
@@ -19,12 +20,13 @@ from disting.report.fit import collinearity_dots, fit_page, importance_bars, wat
 from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.page import reasoning
 from disting.report.fit.thresholds import parameters_by_threshold
+from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
 
-FIGURES = ["bode", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
+FIGURES = ["bode", "residuals", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +109,8 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     assert f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are admissible: 5 parameters" in said
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
-    assert len(drawings) == 1 + len(selection.members) + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
+    sketched = len(selection.members) + sum(len(m.twins) for m in selection.members)
+    assert len(drawings) == 1 + sketched + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
 
 
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
@@ -153,7 +156,15 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(nothing: Selection,
 def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
     excess = [max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)]
     assert excess == sorted(excess) and excess[0] > 1
-    assert nothing.described is nearest(nothing)[0]
+
+
+def test_the_page_describes_the_candidate_that_its_first_lines_are_about(nothing: Selection, empty: Outline) -> None:
+    """Where none is admissible: not the one nearest to its thresholds, which may fit worse."""
+    assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
+    said = " ".join(empty.text.split())
+    assert f"The best fit is {name(nothing.described.chain)}; what follows describes it" in said
+    assert f"the best one is {name_of(nothing.described.chain, short=False)}" in said
+    assert all(f"{n} " in said for n in nothing.described.estimate.parameters)
 
 
 def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
