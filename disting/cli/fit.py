@@ -9,7 +9,7 @@ from typing import Any
 from disting.cli.common import emitted
 from disting.cli.fit_data import measured
 from disting.cli.plain import complain
-from disting.cli.work import engine_for
+from disting.cli.work import cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
@@ -31,6 +31,7 @@ from disting.verdict import Relation
 
 WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
+FEW = 30  # candidates that are fitted sooner than workers start
 SHOWN = 8  # candidates of the printed table
 OTHERWISE = {
     Relation.SOMETIMES: "the same behaviour for some positive parameters only",
@@ -42,6 +43,7 @@ def run(options: argparse.Namespace) -> int:
     """Fit, select, print and write."""
     train, test = _data(options)
     candidates = _candidates(options, train.sensor)
+    options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
     with engine_for(options) as (engine, pool, progress):
         found = select(
             train,
@@ -127,7 +129,7 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]
     yield f"{n} candidates fitted to {len(train)} frequency lines{_saved(found)}, validated on {found.validation}"
     if found.selected is None:
-        yield "none is admissible: in each, some parameters cannot be determined from this data. The best ones:"
+        yield "none is admissible; the best ones:"
     else:
         yield f"{len(kept)} have parameters that can all be determined; the best of them{_why(found)}:"
     yield ""

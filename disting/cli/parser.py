@@ -138,7 +138,7 @@ def _add_dampers(groups: Groups) -> None:
 def _add_fit(groups: Groups) -> None:
     p = _command(groups, "fit", _fit, "the structures that explain a measured frequency response")
     fit_arguments.add_arguments(p)
-    _shared(p, work=True)
+    _shared(p, work=True, jobs=(0, "one for each core if there are many candidates"))
 
 
 def _fit(options: argparse.Namespace) -> int:
@@ -245,7 +245,14 @@ def _command(groups: Groups, name: str, run: Callable[[argparse.Namespace], int]
     return parser
 
 
-def _shared(parser: argparse.ArgumentParser, *, damped: bool = False, sensor: bool = False, work: bool = False) -> None:
+def _shared(
+    parser: argparse.ArgumentParser,
+    *,
+    damped: bool = False,
+    sensor: bool = False,
+    work: bool = False,
+    jobs: tuple[int, str] = (1, "1"),
+) -> None:
     if damped:
         parser.add_argument("--damped", action="store_true", help="a damper beside every spring")
     if sensor:
@@ -253,5 +260,7 @@ def _shared(parser: argparse.ArgumentParser, *, damped: bool = False, sensor: bo
         parser.add_argument("--sensor", choices=names, default="acceleration", help="measured quantity (default: acceleration)")
     if work:
         parser.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
-        parser.add_argument("--jobs", type=_whole(1), default=1, metavar="K", help="worker processes (default: 1)")
+        parser.add_argument(
+            "--jobs", type=_whole(1), default=jobs[0], metavar="K", help=f"worker processes (default: {jobs[1]})"
+        )
         parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="compute on a dask.distributed cluster")

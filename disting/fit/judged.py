@@ -21,7 +21,6 @@ FOLDS = 5  # of the cross-validation
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
 WITNESSES = 5  # best candidates that help to see how much the data scatter
 
-
 Scatters = tuple[Scatter, Scatter]
 """Scatter of the lines of the training data, and of those that candidates are judged by."""
 

@@ -4,7 +4,7 @@ A few candidates with a damper, a lag and a dead time, of as many masses as the 
 are compared by J on the training data, which in logarithms does not depend on the unit of the quantity.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
@@ -36,15 +36,21 @@ class Reading:
 
 
 def readings(
-    candidates: Sequence[Candidate], task: Task, *, store: Store | None = None, executor: Executor | None = None
+    candidates: Sequence[Candidate],
+    task: Task,
+    *,
+    store: Store | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Reading, ...]:
     """Readings under which the data fit much better than the best of the candidates does, small changes first."""
     lowest = min(c.j_train for c in candidates)
     small = [c for c in candidates if c.chain.n_masses <= SMALL] or candidates
     base = min(small, key=lambda c: c.j_train).chain
     largest = max((c.chain for c in candidates), key=lambda c: c.n_masses)
-    found = []
-    for words, chain, other in _views(base, largest, task):
+    found, views = list[Reading](), list(_views(base, largest, task))
+    for words, chain, other in views:
+        progress("other readings of the data", len(found), len(views))
         fitted = estimates([chain], other, store=store, executor=executor)[chain]
         found.append(Reading(words, fitted, lowest))
     limit = max(min(r.found.j for r in found) / FALLS, NOTHING)

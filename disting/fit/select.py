@@ -101,13 +101,11 @@ def select(
     """Fit `candidates` to `train` and select one, by a rule for what is admissible.
 
     `weights` of amplitude and phase, see `Cost`; `lines` gives each line's weight, such as `lines_by_deviation`; `sign` -1: the
-    sensor is reversed, 0: whichever fits better. `bounds` and `fixed` by parameter name. `prune`:
-    candidates with the same positive models, within `bounds` and `fixed`, are fitted once; `method` as in `estimates`. An
-    engine with a store resumes interrupted work. Raises InputError.
+    sensor is reversed, 0: whichever fits better. `bounds` and `fixed` by parameter name. `prune`: candidates with the same
+    positive models, within `bounds` and `fixed`, are fitted once; `method` as in `estimates`. An engine with a store resumes
+    interrupted work. Raises InputError.
     """
     _check(train, test, candidates)
-    for data in filter(None, (train, test)):
-        _check_units(data)
     engine = engine or Engine(store=Store.none())
     cost = Cost(train, case, weights, lines(train) if lines else None)
     task = Task(cost, sign or 1, bounds or {}, fixed or {}, seed)
@@ -115,35 +113,30 @@ def select(
     within = limits_of(task.bounds, task.fixed)
     first = representatives(candidates, engine, within) if prune else {c: c for c in candidates}
     wanted = [c for c in candidates if first[c] == c]
-    known = estimates(wanted, task, method=method, store=engine.store, executor=executor, progress=progress)
-    limits = thresholds or Thresholds()
+    found = estimates(wanted, task, method=method, store=engine.store, executor=executor, progress=progress)
     test_cost = replace(cost, measured=test, lines=lines(test) if lines else None) if test else None
-    fitted, known_scatter = judged({c: known[c] for c in wanted}, task, test_cost, engine.settings)
-    fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
-    fitted = _weighted(fitted, cost.n_residuals)
-    kept = [c for c in fitted if c.admissible]
-    typical = repeatability(train, test or train, (kept or fitted)[0].residual)
-    yardstick = (test_cost or cost).scatter(known_scatter.rho)
-    there = _left(kept[0] if kept else fitted[0], yardstick)
-    decisive = Noise((test_cost or cost).scatter(typical.rho)) if rule is Rule.PAPER else there
-    selected, allowed = _simplest(kept, decisive) if kept else (None, 0.0)
-    described = selected or fitted[0]
-    said = explanation(described.residual, described.missed, test_cost or cost, known_scatter)
-    chosen = _not_excluded(selected, kept, there) if selected and said.explains else []
+    fitted, seen = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
+    limits = thresholds or Thresholds()
+    fitted = _weighted([replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted], cost.n_residuals)
+    typical = repeatability(train, test or train, _best(fitted).residual)
+    choice = _choice(fitted, test_cost or cost, seen, typical, rule)
+    selected, described = choice.selected, choice.selected or fitted[0]
+    said = explanation(described.residual, described.missed, test_cost or cost, seen)
+    hopeless = not (said.explains or said.noisy)
     return Selection(
         selected,
         tuple(fitted),
         alternatives(selected.chain, candidates, engine, within) if selected else (),
         limits,
         typical,
-        allowed,
+        choice.margin,
         "test data" if test else f"{FOLDS}-fold cross-validation over the frequency lines",
         {c: other for c, other in first.items() if c != other},
         rule,
         said,
-        members(chosen, task, test_cost, within, executor),
-        () if said.explains or said.noisy else readings(fitted, task, store=engine.store, executor=executor),
-        _better(selected, fitted, yardstick) if selected else (),
+        members(choice.near if said.explains else (), task, test_cost, within, executor),
+        readings(fitted, task, store=engine.store, executor=executor, progress=progress) if hopeless else (),
+        choice.better,
         task,
         test or train,
     )
@@ -159,6 +152,8 @@ def _check(train: FrequencyResponse, test: FrequencyResponse | None, candidates:
     other = {c.sensor for c in candidates} - {train.sensor}
     if other:
         raise InputError(f"the data shows {train.sensor.value}, a candidate {other.pop().value}; choose one sensor quantity")
+    for data in filter(None, (train, test)):
+        _check_units(data)
 
 
 def _check_units(data: FrequencyResponse) -> None:
@@ -187,6 +182,35 @@ def _weighted(candidates: list[Candidate], n_y: int) -> list[Candidate]:
     return [replace(c, akaike_weight=sizes[c.chain] / total) if c.chain in sizes else c for c in candidates]
 
 
+@dataclass(frozen=True)
+class _Choice:
+    """`near`: candidates that lose to the best by no more than noise explains, the selected one first; `margin` and `better` as
+    in `Selection`.
+    """
+
+    selected: Candidate | None
+    near: tuple[Candidate, ...]
+    margin: float
+    better: tuple[Candidate, ...]
+
+
+def _choice(fitted: Sequence[Candidate], cost: Cost, seen: Scatter, typical: Scatter, rule: Rule) -> _Choice:
+    """Which candidate is selected, and what stands beside it; `fitted` in the order of J on test, `cost` that on test."""
+    kept = [c for c in fitted if c.admissible]
+    if not kept:
+        return _Choice(None, (), 0.0, ())
+    sigma = cost.scatter(seen.rho)
+    there = _left(kept[0], sigma)
+    selected, allowed = _simplest(kept, Noise(cost.scatter(typical.rho)) if rule is Rule.PAPER else there)
+    near = [c for c in kept if c.j_test <= kept[0].j_test + margin(c.residual, kept[0].residual, there)]
+    return _Choice(selected, (selected, *(c for c in near if c is not selected)), allowed, _better(selected, fitted, sigma))
+
+
+def _best(fitted: Sequence[Candidate]) -> Candidate:
+    """The admissible candidate with the lowest J on test; of all, where none is admissible."""
+    return next((c for c in fitted if c.admissible), fitted[0])
+
+
 def _simplest(kept: Sequence[Candidate], noise: Noise) -> tuple[Candidate, float]:
     """The candidate with the fewest parameters that loses to the best by no more than its margin; then the lower cost."""
     best = kept[0]
@@ -194,13 +218,6 @@ def _simplest(kept: Sequence[Candidate], noise: Noise) -> tuple[Candidate, float
     near = [c for c in kept if c is best or (c.n_parameters < best.n_parameters and c.j_test <= best.j_test + allowed[c.chain])]
     winner = min(near, key=lambda c: (c.n_parameters, c.j_test))
     return winner, allowed[winner.chain]
-
-
-def _not_excluded(selected: Candidate, kept: Sequence[Candidate], noise: Noise) -> list[Candidate]:
-    """Admissible candidates that lose to the best by no more than their margin, the selected one first."""
-    best = kept[0]
-    near = [c for c in kept if c.j_test <= best.j_test + margin(c.residual, best.residual, noise)]
-    return [selected, *(c for c in near if c is not selected)]
 
 
 def _better(selected: Candidate, fitted: Sequence[Candidate], sigma: Real) -> tuple[Candidate, ...]:

@@ -14,7 +14,6 @@ from disting.fit.members import Disagreement
 from disting.fit.noise import correlation
 from disting.fit.scatter import between, scatter
 from disting.fit.select import Selection
-from disting.model.drawing import text_drawing
 
 FEW = 8  # names in one line
 CHANGED = 2.0  # training and test differ by this multiple of what either scatters
@@ -72,7 +71,7 @@ def _explained(found: Selection) -> Iterator[str]:
     if others:
         yield f"not excluded by this data either: {_listed(others)}"
     elif found.members:
-        yield f"selected: {text_drawing(found.members[0].candidate.chain)}, the only admissible structure that is not excluded"
+        yield "this data excludes every other admissible structure"
     for m in [m for m in found.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
         yield f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force and sensor can tell"

@@ -27,7 +27,7 @@ from disting.ideals.points import free_variable, solution
 from disting.ideals.system import CoefficientMap, matched
 
 LEAST = 8  # bits of one run: with fewer, too many runs would be needed
-SPARE = 6  # draws for one solution modulo the prime: none has its coordinates there in about a third of the cases
+SPARE = 32  # draws for one solution modulo the prime: each square root that it needs halves the chance that there is one
 
 
 class Membership(StrEnum):

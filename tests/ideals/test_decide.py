@@ -113,6 +113,18 @@ def test_one_sided_inclusion_with_infinitely_many_solutions():
     assert found.membership is Membership.MEMBER and confirms(found.evidence, line, doubled)
 
 
+@pytest.mark.parametrize("seed", ["a", "b", "c", "d", "e", "f"])
+def test_solutions_that_are_rare_modulo_primes_are_drawn_until_the_bound_is_reached(seed):
+    """Half of all numbers are squares modulo a prime: one point in eight has a solution, in the direction with the roots."""
+    x, y, z = symbols(["x", "y", "z"]).values()
+    one = x**0
+    plain = CoefficientMap(("x", "y", "z"), (x, y), (z + x * y, one))
+    roots = CoefficientMap(("x", "y", "z"), (x**2, y**2), (z**2 + x**2 * y**2, one))
+    for models in ((plain, roots), (roots, plain)):
+        found = decide(*models, equal_rank=True, seed=seed)
+        assert found.membership is Membership.MEMBER and found.safety >= 100 and confirms(found.evidence, *models)
+
+
 def test_symmetry_in_the_order_of_the_models():
     first, second = model(3, 1), model(3, 6)
     there, back = decide(first, second, equal_rank=True), decide(second, first, equal_rank=True)
