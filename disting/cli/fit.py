@@ -4,7 +4,6 @@ import argparse
 import json
 from collections.abc import Callable, Iterator
 from math import isfinite
-from pathlib import Path
 from typing import Any
 
 from disting.cli.common import emitted
@@ -26,7 +25,7 @@ from disting.fit.telling import commands, first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
-from disting.report.fit.words import UNDETERMINED, percent, result_unit, with_error
+from disting.report.fit.words import UNDETERMINED, fit_in_words, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
 from disting.verdict import Relation
 
@@ -70,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json != "-":
         print(printable("\n".join(_told(found, train))))
     if options.out:
-        _write(found, options.out, train, test, profiles=options.profiles)
+        _write(found, train, test, options)
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
     return 0
@@ -90,6 +89,8 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
         raise InputError("--demo brings its own data: leave --test, --read and --column away")
     if options.profiles and not options.out:
         raise InputError("--profiles draws into the page: name its folder with --out")
+    if options.site and not options.out:
+        raise InputError("--site links the page to the catalogues: name the page's folder with --out")
     both: tuple[FrequencyResponse, FrequencyResponse | None]
     if options.demo:
         from disting.simulation import demo
@@ -137,6 +138,7 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield ""
     chain = found.described.chain
     yield f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
+    yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
     yield from (f"  {line}" for line in _parameters(found))
     yield ""
     yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
@@ -242,9 +244,10 @@ def _alternatives(found: Selection) -> Iterator[str]:
             yield f"{said}: " + "; ".join(map(name_of, by_relation[relation]))
 
 
-def _write(found: Selection, folder: Path, train: FrequencyResponse, test: FrequencyResponse | None, *, profiles: bool) -> None:
+def _write(found: Selection, train: FrequencyResponse, test: FrequencyResponse | None, options: argparse.Namespace) -> None:
     from disting.report.fit import write_fit_report
 
-    write_fit_report(found, folder, train, test, profiles=found.selected.practical.names if profiles and found.selected else ())
+    names = found.selected.practical.names if options.profiles and found.selected else ()
+    write_fit_report(found, options.out, train, test, profiles=names, site=options.site)
     if found.selected:
-        write_mat(folder / "model.mat", found.selected.chain, found.selected.estimate.parameters, found.task.sign)
+        write_mat(options.out / "model.mat", found.selected.chain, found.selected.estimate.parameters, found.task.sign)

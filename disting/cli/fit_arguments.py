@@ -61,7 +61,15 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         "--out", type=written_folder, metavar="DIR", help="write a page, figures, tables, JSON and a .mat file there"
     )
     out.add_argument("--profiles", action="store_true", help="with --out: a profile of every parameter of the selected model")
+    text = "with --out: folder that 'disting report' wrote, to which the page links its structures (default: if it lies beside)"
+    out.add_argument("--site", type=_site, metavar="DIR", help=text)
     out.add_argument("--json", type=written_file, metavar="FILE", help="write the selection as JSON; - is standard output")
+
+
+def _site(text: str) -> Path:
+    if not (Path(text) / "models").is_dir():
+        raise argparse.ArgumentTypeError(f"{shown(text)} holds no pages that 'disting report' wrote; name their folder")
+    return Path(text)
 
 
 def _option(text: str) -> tuple[str, Any]:

@@ -34,6 +34,9 @@ from disting.fit.export import state_space as state_space
 from disting.fit.export import to_control as to_control
 from disting.fit.export import to_control_transfer_function as to_control_transfer_function
 from disting.fit.export import write_mat as write_mat
+from disting.fit.fitted import Confidence as Confidence
+from disting.fit.fitted import confidence as confidence
+from disting.fit.fitted import fit_percent as fit_percent
 from disting.fit.judged import Candidate as Candidate
 from disting.fit.members import Disagreement as Disagreement
 from disting.fit.members import Member as Member

@@ -46,7 +46,7 @@ class Miss:
         """Where, and by how much."""
         where = f"{self.low:.3g} to {self.high:.3g} Hz" if self.high > self.low else f"{self.low:.3g} Hz"
         size = f"a factor {np.exp(self.factor):.2g}" if self.factor > 0.5 else f"{100 * self.factor:.2g} %"
-        return f"{where} (by up to {size} and {degrees(self.angle):.2g} degrees)"
+        return f"{where} (by up to {size} and {max(degrees(self.angle), 0.1):.{0 if self.angle > 0.1 else 1}f} degrees)"
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ import numpy as np
 
 from disting.comparison import name_of
 from disting.errors import InputError, shown
+from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
 from disting.fit.members import Member
 from disting.fit.modes import poles, zeros
@@ -124,6 +125,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "scatter": found.explanation.scatter.typical,
         "scatter_source": found.explanation.scatter.source,
         "residual_correlation": found.explanation.correlation,
+        "fit_percent": _fit_percent(found),
         "not_excluded": [member_to_dict(m) for m in found.members],
         "suspicions": list(suspicions(found)),
         "rule": found.rule.value,
@@ -132,6 +134,15 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "repeatability_source": found.repeatability.source,
         "margin": found.margin,
         "sign": found.task.sign,
+    }
+
+
+def _fit_percent(found: Selection) -> dict[str, float | None]:
+    """Of the described candidate on training and test data; null where there are none or where it is not defined."""
+    train = found.task.cost.measured
+    sizes = {"train": train, "test": None if found.test is train else found.test}
+    return {
+        key: None if data is None else _finite(fit_percent(found.described, found.task, data)) for key, data in sizes.items()
     }
 
 

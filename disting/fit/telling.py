@@ -48,7 +48,7 @@ def commands(found: Selection) -> tuple[str, ...]:
         return ()
     values = ",".join(f"{n}={v:.6g}" for n, v in first.estimate.parameters.items())
     steps = [f"disting compare {name} {rest[0]}{damped}"] if rest else []
-    return (*steps, f"disting equivalents {name}{damped} --to '{first.chain.n_masses}+b*' --set {values}")
+    return (*steps, f'disting equivalents {name}{damped} --to "{first.chain.n_masses}+b*" --set {values}')
 
 
 def _verdict(found: Selection) -> str:

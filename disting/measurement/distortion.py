@@ -23,12 +23,24 @@ FEWEST = 4  # lines of a kind that are summed up
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Distortion:
-    """Lines without excitation, shape (n,): omega [rad/s], level and noise [unit of the response], whether they are even."""
+    """Lines without excitation, shape (n,): omega [rad/s], level and noise [unit of the response], whether they are even.
+
+    `told_apart`: all excited lines are odd, so that odd and even lines show distortion of odd and of even order.
+    """
 
     omega: Real
     level: Real
     noise: Real | None
     even: NDArray[np.bool_]
+    told_apart: bool
+
+    @property
+    def kinds(self) -> tuple[tuple[str, Real, NDArray[np.bool_]], ...]:
+        """What the lines show: in words, levels of all lines, shape (n,), and the lines that show it, shape (n,)."""
+        whole = np.ones(len(self.omega), dtype=bool)
+        apart = (("odd distortion", self.level, ~self.even), ("even distortion", self.level, self.even))
+        noise = () if self.noise is None else (("noise", self.noise, whole),)
+        return (*(apart if self.told_apart else [("distortion", self.level, whole)]), *noise)
 
     def times(self, factor: Real | float) -> "Distortion":
         """The same in another unit."""
@@ -48,19 +60,16 @@ def distortion(inputs: Complex, outputs: Complex, excited: NDArray[np.intp], spa
     rest = (outputs[:, between] - response * inputs[:, between]) / np.interp(between, excited, size)
     noise = np.std(rest, axis=0, ddof=1) / np.sqrt(len(rest)) if len(rest) > 1 else None
     omega = np.multiply(between, spacing, dtype=np.float64)
-    found = Distortion(omega, np.abs(rest.mean(axis=0)), noise, between % 2 == 0)
-    return found, _said(found, np.abs(response), told_apart=bool(np.all(excited % 2)))
+    found = Distortion(omega, np.abs(rest.mean(axis=0)), noise, between % 2 == 0, bool(np.all(excited % 2)))
+    return found, _said(found, np.abs(response))
 
 
-def _said(found: Distortion, size: Real, *, told_apart: bool) -> str:
+def _said(found: Distortion, size: Real) -> str:
     """Medians in percent of the response; "" where there is nothing but rounding."""
-    whole = np.ones(len(size), dtype=bool)
-    apart = (("odd distortion", found.level, ~found.even), ("even distortion", found.level, found.even))
-    kinds = (*(apart if told_apart else [("distortion", found.level, whole)]), ("noise", found.noise, whole))
     medians = {
         name: float(np.median(values[lines] / size[lines]))
-        for name, values, lines in kinds
-        if values is not None and np.count_nonzero(lines) >= FEWEST
+        for name, values, lines in found.kinds
+        if np.count_nonzero(lines) >= FEWEST
     }
     if max(medians.values(), default=0.0) < ROUNDING:
         return ""

@@ -1,11 +1,14 @@
 """Bad usage and bad input: one sentence that names cause and remedy, exit status 2, nothing half printed."""
 
+from pathlib import Path
+
 import pytest
 
 from disting.cli import main
 from tests.cli.process import disting
 
 CHAIN = ("equivalents", "3:1", "--to", "3:11", "--set")
+REPORTS = Path(__file__).parents[2] / "reports"
 DEMO = ("fit", "--demo", "--masses", "1")
 WORDS = [
     ((), "required"),
@@ -46,6 +49,8 @@ WORDS = [
     ((*DEMO, "--test", "x.csv"), "--demo brings its own data"),
     ((*DEMO, "--read", "to=velocity"), "--demo brings its own data"),
     ((*DEMO, "--profiles"), "--out"),
+    ((*DEMO, "--site", str(REPORTS)), "--out"),
+    ((*DEMO, "--site", "no/such"), "holds no pages that 'disting report' wrote"),
     ((*DEMO, "--fix", "zz=1"), "no candidate has a parameter zz; there are T1, Td, b1, m1"),
     ((*DEMO, "--bound", "zz=1..2"), "no candidate has a parameter zz"),
     ((*DEMO, "--thresholds", "30,nan,20"), "all positive"),

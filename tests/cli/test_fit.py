@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from disting.measurement import read
 from tests.cli.process import called, disting
 from tests.measurement.bench_data import measured_data
 
+REPORTS = Path(__file__).parents[2] / "reports"
 DRIVE = ("2:1+b2+delay", "--damped", "--set", "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4", "--output-noise", "1e-6")
 
 
@@ -76,11 +78,12 @@ def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
 
 
 def test_a_folder_gets_everything(rigid, tmp_path):
-    done = called(
-        "fit", rigid[0], "--test", rigid[1], "--masses", "1", "--out", tmp_path / "out", "--thresholds", "1e9,1e9,1e9"
-    )
-    assert f"open {tmp_path / 'out' / 'fit.html'}" in done.stdout
-    assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in (tmp_path / "out").iterdir()}
+    """The page leads to the catalogue that is named."""
+    out = tmp_path / "out"
+    done = called("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--out", out, "--site", REPORTS)
+    assert f"open {out / 'fit.html'}" in done.stdout
+    assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in out.iterdir()}
+    assert 'reports/models/1-damped/1.html">1:1 in the catalogue</a>' in (out / "fit.html").read_text(encoding="utf-8")
 
 
 def test_options_reach_the_fit(files, rigid):

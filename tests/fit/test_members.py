@@ -70,7 +70,7 @@ def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
 
 def test_five_lines_say_that_the_machine_may_as_well_be_another(selection):
     assert any(line.startswith("if it is 3:1, it may as well be 3:11") for line in first_lines(selection))
-    assert commands(selection)[-1].startswith("disting equivalents 3:1 --damped --to '3+b*' --set m1=")
+    assert commands(selection)[-1].startswith('disting equivalents 3:1 --damped --to "3+b*" --set m1=')
 
 
 def test_a_well_determined_model_is_never_hidden_but_by_the_rule_of_the_paper(selection):

@@ -55,6 +55,20 @@ def test_distortion_follows_conversion_and_scale_and_copies():
     assert any("144 lines without excitation show" in note and "even" in note for note in found.notes)
 
 
+def test_odd_and_even_are_told_apart_where_all_excited_lines_are_odd():
+    """x^2 and x^3 of lines that are odd and even make distortion everywhere."""
+    odd = record(cube=0.05, noise=0.01).response().distortion
+    assert [(kind, int(chosen.sum())) for kind, _, chosen in odd.kinds] == [
+        ("odd distortion", 48),
+        ("even distortion", 96),
+        ("noise", 144),
+    ]
+    time, lines = np.arange(PERIOD) / PERIOD, np.arange(5, 200, 5)
+    u = np.cos(2 * np.pi * np.outer(time, lines) + 0.3 * lines**2).sum(axis=1) / 5
+    both = TimeSeries(u, 0.5 * u + 0.05 * u**3, 1000.0).response(period=PERIOD, transient=0).distortion
+    assert [(kind, int(chosen.sum())) for kind, _, chosen in both.kinds] == [("distortion", len(both.omega))]
+
+
 def test_no_lines_between_give_none_and_one_period_no_noise():
     time = np.arange(PERIOD) / PERIOD
     u = np.cos(2 * np.pi * np.outer(time, np.arange(1, 40)) + np.arange(39) ** 2).sum(axis=1)

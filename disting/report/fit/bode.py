@@ -1,4 +1,8 @@
-"""Bode diagram of data and model, as in Figs. 3 and 4 of the paper: asymptotes, resonances and antiresonances marked."""
+"""Bode diagram of data and model, as in Figs. 3 and 4 of the paper: asymptotes, resonances and antiresonances marked.
+
+Data that tell how much they scatter have error bars, the model has its confidence band, and what the lines without excitation
+of a multisine show lies under the response, in the same unit.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,13 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.estimate import Task
-from disting.fit.export import predicted
+from disting.fit.fitted import Confidence, confidence, response_of
 from disting.fit.judged import Candidate
+from disting.fit.members import QUANTILE
 from disting.fit.modes import Result
 from disting.fit.plant import Complex, Real
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.axes import degrees, logarithmic, spread
+from disting.report.fit.distorted import beneath
+from disting.report.fit.series import Series, band, bars, points, series_of
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import name, readable, response_unit, result_unit
 
@@ -28,7 +35,8 @@ HIGHEST = 20.0  # phases are shown below this angle and 90 for each differentiat
 EDGE = 1.02  # the diagram is this much wider than the data, on either side
 LABEL, SHORT_LABEL = 0.75, 0.48  # room of a label [inch]
 FRAME = 0.9  # of the figure's width that is not the diagram's [inch]
-MANY = 120  # lines of one measurement from which on its points are drawn smaller
+MARGIN = 0.06  # of the phases' range, above and below
+WIDEST = 10.0  # standard error from which on a band fills the panel
 CLEAN = 0.9  # coherence: if no line is below, the axis begins here
 SIGNS = {"antiresonance": "▽", "resonance": "△"}
 MARKERS = {"antiresonance": "v", "resonance": "^"}
@@ -48,22 +56,13 @@ class Mark:
 
 
 @dataclass(frozen=True, eq=False)
-class Series:
-    """Measured points beside the model's line, whose phase they follow."""
-
-    label: str
-    measured: FrequencyResponse
-    tone: Tone
-    marker: str
-
-
-@dataclass(frozen=True, eq=False)
 class Line:
-    """The model at rising angular frequencies [rad/s], its phase [degree] without jumps."""
+    """The model at rising angular frequencies [rad/s], its phase [degree] without jumps, and standard errors."""
 
     omega: Real
     G: Complex
     phase: Real
+    sure: Confidence
 
     def phase_of(self, measured: FrequencyResponse) -> Real:
         """Phase of the data [degree]: that of the model and the difference arg(G/G_model), which is free of jumps."""
@@ -75,20 +74,24 @@ def bode(
     candidate: Candidate, task: Task, results: Sequence[Result], train: FrequencyResponse, test: FrequencyResponse | None = None
 ) -> Drawn:
     """Training and test data, coherence where there is one, the model, its inertia asymptotes and its resonances."""
-    series = [Series("training data", train, Tone.FIRST, "o")]
-    series += [Series("test data", test, Tone.SECOND, "x")] if test is not None else []
+    series = series_of(candidate, task, train, test)
     line = model_line(candidate, task, [s.measured for s in series])
     strips = any(s.measured.coherence is not None for s in series)
+    under = next((s for s in series if s.measured.distortion is not None), None)
+    tall = 1.2 if under else 0.0
 
     def draw(figure: "Figure") -> None:
         """Amplitude, phase and coherence, one below the other."""
-        panels = figure.subplots(2 + strips, 1, sharex=True, height_ratios=[3, 1.8, 0.7][: 2 + strips])
+        panels = figure.subplots(2 + strips, 1, sharex=True, height_ratios=[3 + tall, 1.8, 0.7][: 2 + strips])
         low, high = line.omega[0] / (2 * pi) / EDGE, line.omega[-1] / (2 * pi) * EDGE
         panels[0].set_xscale("log")
         panels[0].set_xlim(low, high)
         logarithmic(panels[-1].xaxis, low, high)
         inertias = asymptotes(candidate.chain, results, line.omega, train)
         _amplitude(panels[0], line, series, [(_short(label) if is_narrow(figure) else label, y) for label, y in inertias])
+        if under:
+            beneath(panels[0], under, float(np.abs(line.G).min()))
+            logarithmic(panels[0].yaxis, *panels[0].get_ylim())
         _phase(panels[1], line, series)
         if strips:
             _coherence(panels[2], series)
@@ -100,7 +103,8 @@ def bode(
     found = marks(results, line.omega)
     said = ", ".join(f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}" for m in found)
     title = f"Bode diagram of {name(candidate.chain)} and the data. {said}"
-    return drawn("bode", title, (6.4 + 0.8 * strips, 5.8 + 0.8 * strips), draw)
+    more = 0.8 * strips + tall
+    return drawn("bode", title, (6.4 + more, 6.2 + more), draw)
 
 
 def _short(label: str) -> str:
@@ -112,10 +116,10 @@ def model_line(candidate: Candidate, task: Task, measured: Sequence[FrequencyRes
     """The model between the lowest and the highest measured line, at every measured line too."""
     lines = np.concatenate([m.omega for m in measured])
     omega = np.unique(np.concatenate([lines, np.geomspace(lines.min(), lines.max(), POINTS)[1:-1]]))
-    response = predicted(candidate.chain, candidate.estimate.parameters, omega, task.sign)
+    response = response_of(candidate, task, omega)
     phase = np.degrees(np.unwrap(np.angle(response)))
     highest = HIGHEST + 90 * candidate.chain.sensor.order
-    return Line(omega, response, phase - 360 * ceil((phase.max() - highest) / 360))
+    return Line(omega, response, phase - 360 * ceil((phase.max() - highest) / 360), confidence(candidate, task, omega))
 
 
 def marks(results: Sequence[Result], omega: Real) -> list[Mark]:
@@ -153,8 +157,12 @@ def _inertia(found: Result, chain: Chain, omega: Real) -> Real:
 def _amplitude(panel: "Axes", line: Line, series: Sequence[Series], inertias: Sequence[tuple[str, Real]]) -> None:
     hertz = line.omega / (2 * pi)
     for s in series:
-        _points(panel, s, np.abs(s.measured.G), label=s.label)
-    panel.semilogy(hertz, np.abs(line.G), color=Tone.INK, linewidth=1.5, label="model", zorder=3)
+        size, factor = np.abs(s.measured.G), np.exp(QUANTILE * s.scatter.rho)
+        points(panel, s, size, label=s.label + ", 95 % bars" * s.has_bars)
+        bars(panel, s, size, size / factor, size * factor)
+    panel.semilogy(hertz, np.abs(line.G), color=Tone.INK, linewidth=1.5, label="model, 95 % band", zorder=3)
+    wide = np.exp(QUANTILE * np.minimum(line.sure.amplitude, WIDEST))
+    band(panel, hertz, np.abs(line.G) / wide, np.abs(line.G) * wide)
     for (label, values), dashes in zip(inertias, ((0, (6, 3)), (0, (1.5, 2))), strict=False):
         panel.semilogy(hertz, values, color=Tone.MUTED, linestyle=dashes, linewidth=1.2, label=label, zorder=1.5)
     shown = np.concatenate([np.abs(line.G), *(np.abs(s.measured.G) for s in series)])
@@ -168,9 +176,16 @@ def _amplitude(panel: "Axes", line: Line, series: Sequence[Series], inertias: Se
 
 def _phase(panel: "Axes", line: Line, series: Sequence[Series]) -> None:
     for s in series:
-        _points(panel, s, line.phase_of(s.measured))
+        at, wide = line.phase_of(s.measured), np.degrees(QUANTILE * s.scatter.rho)
+        points(panel, s, at)
+        bars(panel, s, at, at - wide, at + wide)
+    wide = np.degrees(QUANTILE * np.minimum(line.sure.phase, WIDEST))
+    band(panel, line.omega / (2 * pi), line.phase - wide, line.phase + wide)
     panel.plot(line.omega / (2 * pi), line.phase, color=Tone.INK, linewidth=1.5, zorder=3)
-    degrees(panel.yaxis, float(line.phase.max() - line.phase.min()))
+    shown = np.concatenate([line.phase, *(line.phase_of(s.measured) for s in series)])
+    low, high = shown.min(), shown.max()
+    panel.set_ylim(low - MARGIN * (high - low) - 1.0, high + MARGIN * (high - low) + 1.0)
+    degrees(panel.yaxis, float(high - low))
     panel.grid(which="minor", axis="x", linewidth=0.35)
     panel.set_ylabel("Phase")
 
@@ -178,27 +193,12 @@ def _phase(panel: "Axes", line: Line, series: Sequence[Series]) -> None:
 def _coherence(panel: "Axes", series: Sequence[Series]) -> None:
     for s in series:
         if s.measured.coherence is not None:
-            _points(panel, s, s.measured.coherence)
+            points(panel, s, s.measured.coherence)
     lowest = min(float(s.measured.coherence.min()) for s in series if s.measured.coherence is not None)
     floor = CLEAN if lowest >= CLEAN else 0.0
     panel.set_ylim(floor, 1 + 0.1 * (1 - floor))
     panel.set_yticks([floor, (1 + floor) / 2, 1])
     panel.set_ylabel("Coherence")
-
-
-def _points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
-    panel.plot(
-        s.measured.frequency,
-        values,
-        linestyle="none",
-        marker=s.marker,
-        markersize=(3.6 if s.marker == "o" else 4.6) * (0.7 if len(values) > MANY else 1.0),
-        markerfacecolor="none",
-        markeredgecolor=s.tone,
-        markeredgewidth=0.9,
-        label=label,
-        zorder=2,
-    )
 
 
 def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark], width: float) -> None:

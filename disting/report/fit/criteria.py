@@ -18,7 +18,7 @@ MEANINGS = {
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A criterion of the shown candidate and its threshold."""
+    """A criterion of the described candidate and its threshold."""
 
     title: str
     meaning: str
@@ -34,11 +34,6 @@ class Limit:
     def said(self) -> str:
         """The value; nothing where it is infinite, which the candidate's reasons put in words."""
         return readable(self.value) if isfinite(self.value) else "–"
-
-
-def shown(selection: Selection) -> Candidate:
-    """The candidate that a report describes: the selected one, else the nearest to being admissible."""
-    return selection.selected or nearest(selection)[0]
 
 
 def nearest(selection: Selection) -> list[Candidate]:

@@ -1,33 +1,36 @@
 """A selection as one HTML page that needs nothing else: the result first, then why, then how sure."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-
-from markupsafe import Markup
 
 import disting
 from disting.fit.alternatives import Alternative
-from disting.fit.estimate import Task
 from disting.fit.explained import LARGEST
 from disting.fit.judged import Candidate
-from disting.fit.members import Member
 from disting.fit.modes import Result
 from disting.fit.select import Selection
-from disting.fit.telling import commands, first_lines, suspicions
+from disting.fit.telling import first_lines, suspicions
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.fit.convergence import hits, hits_in_words
-from disting.report.fit.criteria import limits, nearest, shown, weakest
+from disting.report.fit.criteria import limits, nearest, weakest
+from disting.report.fit.not_excluded import drawing, shown_set
+from disting.report.fit.onward import Site, next_steps
+from disting.report.fit.residuals import bands_in_words
+from disting.report.fit.rows import parameter_rows, result_row
 from disting.report.fit.style import Drawn
-from disting.report.fit.words import cost_in_words, error_in_percent, name, percent, readable, result_unit, unit_of, with_error
-from disting.report.scene import PAGE_PALETTE
-from disting.report.svg import body, number
+from disting.report.fit.words import (
+    cost_in_words,
+    fit_in_words,
+    name,
+    percent,
+    readable,
+)
 from disting.report.words import listed, plural
 from disting.verdict import Relation
 
 FIRST = 30  # rows of candidates that are shown at once
+FOLDED = 4  # equivalents of one structure that are shown at once
 NEAREST = 5  # candidates that are named where none is admissible
 SAME = (
     "Every positive model of the selected structure is a positive model of these, and the reverse. No data with this force and "
@@ -39,26 +42,19 @@ INTRODUCTIONS = {Relation.INDISTINGUISHABLE: SAME, Relation.SOMETIMES: SOME, Rel
 CERTAIN = 2  # starts that reach the best cost, at least
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """A row of a table of numbers: what, value with standard error, unit, standard error in percent, a remark."""
-
-    name: str
-    value: str
-    unit: str
-    percent: str
-    remark: str = ""
-
-
 def fit_page(
     selection: Selection,
     results: Sequence[Result],
     figures: Sequence[Drawn],
     train: FrequencyResponse,
     test: FrequencyResponse | None = None,
+    site: Site | None = None,
 ) -> str:
-    """HTML of a selection; `results` and `figures` are those of `shown(selection)`, the Bode diagram first."""
-    candidate = shown(selection)
+    """HTML of a selection; `results` and `figures` are those of the described candidate, Bode diagram and residuals first.
+
+    `site`: where the pages of the catalogues lie, to which the structures are linked.
+    """
+    candidate = selection.described
     return render(
         "fit.html",
         selection=selection,
@@ -68,8 +64,9 @@ def fit_page(
         description=draw(candidate.chain).title,
         results=[result_row(r, train) for r in results],
         parameters=parameter_rows(candidate, selection.task, train),
-        bode=figures[0],
-        figures=figures[1:],
+        response=[*zip(figures[:2], bands_in_words(selection, train, test), strict=False)],
+        fitted=fit_in_words(selection, train, test),
+        figures=figures[2:],
         limits=limits(candidate, selection.thresholds),
         limits_of=lambda c: limits(c, selection.thresholds),
         weakest=weakest(candidate),
@@ -83,61 +80,14 @@ def fit_page(
         choices=choices(selection),
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
-        commands=commands(selection),
-        members=[(m, drawing(m.candidate.chain), intervals(m, train)) for m in selection.members],
+        steps=next_steps(selection),
+        members=shown_set(selection, train, site),
+        folded=FOLDED,
         first=FIRST,
         name=name,
         readable=readable,
         percent=percent,
         plural=plural,
-    )
-
-
-def intervals(member: Member, measured: FrequencyResponse) -> str:
-    """Values of a member with their intervals of 95 %, those that the test data contradict marked."""
-    apart = {d.name: d for d in member.disagreements}
-    values = member.candidate.estimate.parameters
-    rows = [
-        f"{n} {readable(values[n], 4)} ({readable(low)} to {readable(high)}) {unit_of(n[0], measured)}"
-        + (f", but {readable(apart[n].test)} on test data" if n in apart else "")
-        for n, (low, high) in member.intervals.items()
-    ]
-    return "; ".join(rows)
-
-
-def drawing(chain: Chain) -> Markup:
-    """The chain as an engineer sketches it."""
-    scene = draw(chain)
-    box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    return Markup('<svg class="chain" width="{}" viewBox="{}" role="img" aria-label="{}">{}</svg>').format(
-        number(1.4 * scene.width), box, scene.title, Markup(body(scene, PAGE_PALETTE))
-    )
-
-
-def result_row(found: Result, measured: FrequencyResponse) -> Row:
-    """A physical result in the units of the data."""
-    share = found.standard_error / abs(found.value) if found.value else 0.0
-    low, high = measured.frequency[0], measured.frequency[-1]
-    outside = found.unit == "Hz" and not low <= found.value <= high
-    remark = "outside the measured band" if outside else ""
-    what = "its damping ratio" if found.name.startswith("damping ratio") else found.name  # follows its mode
-    return Row(
-        what, with_error(found.value, found.standard_error), result_unit(found, measured), error_in_percent(share), remark
-    )
-
-
-def parameter_rows(candidate: Candidate, task: Task, measured: FrequencyResponse) -> list[Row]:
-    """Parameters in the order of the chain."""
-    values = candidate.estimate.parameters
-    return [_parameter(candidate, task, n, value, unit_of(n[0], measured)) for n, value in values.items()]
-
-
-def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) -> Row:
-    if n in task.fixed:
-        return Row(n, readable(value, 6), of, "", "fixed")
-    share = candidate.practical.relative_errors[n]
-    return Row(
-        n, with_error(value, share * value), of, error_in_percent(share), "at its bound" if n in candidate.at_bound else ""
     )
 
 
@@ -153,7 +103,7 @@ def reasoning(selection: Selection) -> list[tuple[str, str]]:
         ),
         ("Margin", _margin(selection)),
         ("Akaike weights", _akaike(selection)),
-        ("Starts", _starts(shown(selection))),
+        ("Starts", _starts(selection.described)),
         ("Scatter", _scatter(selection)),
         (
             "Standard errors",
@@ -174,7 +124,7 @@ def alternatives(selection: Selection) -> list[tuple[str, list[tuple[str, str]]]
 
 def _reason(found: Alternative, selection: Selection) -> str:
     """The verdict's sentence with short names; the longer one first, of which the other may be the beginning."""
-    sentence, chains = found.sentence, [found.chain, shown(selection).chain]
+    sentence, chains = found.sentence, [found.chain, selection.described.chain]
     for chain in sorted(chains, key=lambda c: -len(str(c))):
         sentence = sentence.replace(str(chain), name(chain))
     return sentence
@@ -183,7 +133,7 @@ def _reason(found: Alternative, selection: Selection) -> str:
 def rivals(selection: Selection) -> int:
     """Number of other candidates with as many masses, fitted or not."""
     chains = [*(c.chain for c in selection.candidates), *selection.same_as]
-    return sum(c.n_masses == shown(selection).chain.n_masses for c in chains) - 1
+    return sum(c.n_masses == selection.described.chain.n_masses for c in chains) - 1
 
 
 def _validation(selection: Selection) -> str:

@@ -36,6 +36,8 @@ class Tone(StrEnum):
     BODY = "#e6ecf2"
     FIRST = "#00588f"
     SECOND = "#b0300a"
+    THIRD = "#006b52"
+    FOURTH = "#cc79a7"
 
 
 VARIABLES = {
@@ -46,6 +48,8 @@ VARIABLES = {
     Tone.BODY: "body",
     Tone.FIRST: "link",
     Tone.SECOND: "force",
+    Tone.THIRD: "sensor",
+    Tone.FOURTH: "sometimes",
 }
 """The style sheet's name of each tone."""
 

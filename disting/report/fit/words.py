@@ -3,8 +3,10 @@
 from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.cost import Case, Cost
+from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
 from disting.fit.modes import Result
+from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
@@ -72,6 +74,19 @@ def with_error(value: float, error: float) -> str:
     decimals = max(1 - floor(log10(error / 10.0**power)), 0)
     both = f"{value / 10.0**power:.{decimals}f} ± {error / 10.0**power:.{decimals}f}"
     return f"({both})·10{str(power).translate(RAISED)}" if power else both
+
+
+def between(low: float, high: float) -> str:
+    """An interval, its ends with two digits of its width.
+
+    >>> between(0.0099881, 0.0100433), between(0.0, 0.31), between(1.0, inf), between(2.0, 2.0)
+    ('0.009988 to 0.010043', '0 to 0.31', '1 to ∞', '2 to 2')
+    """
+    width = high - low
+    if not 0 < width < inf:
+        return f"{readable(low)} to {readable(high)}"
+    digits = [max(2 + floor(log10(abs(end) or width)) - floor(log10(width)), 2) for end in (low, high)]
+    return " to ".join(readable(end, n, all_digits=True) for end, n in zip((low, high), digits, strict=True))
 
 
 def percent(share: float) -> str:
@@ -169,3 +184,12 @@ def cost_in_words(cost: Cost) -> str:
 def violations(candidate: Candidate) -> str:
     """The reasons why a candidate is excluded, in one text; "" if it is admissible."""
     return "; ".join(candidate.reasons)
+
+
+def fit_in_words(selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None) -> str:
+    """How much of the data the described candidate reproduces, see `fit_percent`."""
+    candidate, task = selection.described, selection.task
+    named = [("training", train), *([("test", test)] if test is not None else [])]
+    sizes = [(label, fit_percent(candidate, task, data)) for label, data in named]
+    each = [f"{size:.4g} % of the {label} data" if isfinite(size) else f"{label} data are constant" for label, size in sizes]
+    return f"fit: {', '.join(each)} (normalised root mean square of the complex response, 100 % is perfect)"

@@ -14,8 +14,9 @@ from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
-from disting.report.fit.criteria import shown
+from disting.report.fit.onward import Site, beside
 from disting.report.fit.page import fit_page
+from disting.report.fit.residuals import residuals
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
@@ -35,19 +36,22 @@ def write_fit_report(
     test: FrequencyResponse | None = None,
     *,
     profiles: Sequence[str] = (),
+    site: Path | None = None,
 ) -> list[Path]:
     """Write fit.html, its figures (SVG, PNG, PDF), fit.json and candidates.csv; the paths written, in order.
 
     `train` and `test` are the data of the selection; `profiles` names parameters whose profiles are drawn, which takes a second
-    each. The same selection gives the same bytes. `folder` is made if it does not exist; other files in it stay as they are.
-    Raises InputError for the name of a parameter that the shown candidate does not have.
+    each. `site`: folder with the pages of the catalogues, to which the structures are linked; by default those that lie in
+    `folder` or in the folder that holds it. The same selection, with the same pages there, gives the same bytes. `folder` is
+    made if it does not exist; other files in it stay as they are.
+    Raises InputError for the name of a parameter that the described candidate does not have.
     """
-    candidate = shown(selection)
+    candidate = selection.described
     found = [profile(candidate, selection.task, n) for n in profiles]
     results = physical(candidate, selection.task)
     figures = fit_figures(selection, results, train, test, found)
     folder.mkdir(parents=True, exist_ok=True)
-    page = fit_page(selection, results, figures, train, test)
+    page = fit_page(selection, results, figures, train, test, Site(site or beside(folder), folder))
     return [write_whole(folder / file, content) for file, content in _files(selection, page, figures)]
 
 
@@ -58,10 +62,11 @@ def fit_figures(
     test: FrequencyResponse | None = None,
     profiles: Sequence[Profile] = (),
 ) -> list[Drawn]:
-    """The figures of a selection: Bode diagram, criteria against thresholds, importance, collinearity, starts, profiles."""
-    candidate, task, thresholds = shown(selection), selection.task, selection.thresholds
+    """Bode diagram, residuals, criteria against thresholds, importance, collinearity, starts, profiles."""
+    candidate, task, thresholds = selection.described, selection.task, selection.thresholds
     drawn = [
         bode(candidate, task, results, train, test),
+        residuals(selection, train, test),
         parameters_by_threshold(selection.candidates, thresholds),
         models_by_threshold(selection.candidates, thresholds),
         importance_bars(candidate, thresholds),

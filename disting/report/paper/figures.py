@@ -6,7 +6,6 @@ from disting.fit.modes import physical
 from disting.model.family import Family
 from disting.paper import Findings
 from disting.report.fit.bode import bode
-from disting.report.fit.criteria import shown
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
 from disting.report.paper.picture import Picture, of_plot, of_scene
 from disting.report.paper.refit import refit_figure
@@ -26,7 +25,7 @@ def paper_figures(findings: Findings) -> tuple[Picture, ...]:
 
 def _of_the_fit(findings: Findings) -> Iterator[Picture]:
     found = findings.selection
-    candidate, fitted = shown(found), len(found.candidates)
+    candidate, fitted = found.described, len(found.candidates)
     plot = bode(candidate, found.task, physical(candidate, found.task), findings.train, findings.test)
     yield of_plot(
         "figures-3-4",

@@ -13,7 +13,7 @@ from disting.model.family import Family
 from disting.paper import Claim, Findings, Found, Outcome
 from disting.paper.claims import SECTIONS
 from disting.report.environment import render
-from disting.report.fit.page import drawing
+from disting.report.fit.not_excluded import drawing
 from disting.report.paper.picture import Picture
 from disting.report.words import plural
 

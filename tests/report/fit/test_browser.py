@@ -1,20 +1,26 @@
 """The page of a fit in a real browser: sort, scroll, print; nothing is fetched and nothing goes wrong."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from disting.fit.members import Twin
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
 from disting.report.fit import fit_page, waterfall
-from disting.report.fit.criteria import shown
+from disting.report.fit.onward import Site, next_steps
+from tests.report.links import follow_link
+
+REPORTS = Path(__file__).parents[3] / "reports"
 
 
 @pytest.fixture(scope="module")
 def page(selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("browser") / "fit.html"
-    path.write_text(fit_page(selection, [], [waterfall(shown(selection))], train), encoding="utf-8")
+    path.write_text(fit_page(selection, [], [waterfall(selection.described)], train), encoding="utf-8")
     return path
 
 
@@ -69,3 +75,41 @@ def test_reasons_open_on_demand(tab) -> None:  # type: ignore[no-untyped-def]
     assert not reasons.locator("span").first.is_visible()
     reasons.locator("summary").click()
     assert "exceeds" in reasons.locator("span").first.inner_text()
+
+
+def test_a_command_is_copied_whole(tab, selection: Selection) -> None:  # type: ignore[no-untyped-def]
+    tab.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    button = tab.locator("#next .command button").first
+    button.click()
+    tab.wait_for_function("document.querySelector('#next .command button').textContent !== 'Copy'")
+    assert tab.evaluate("getSelection().toString()") == next_steps(selection)[0].command
+
+
+def test_commands_break_between_their_words(tab) -> None:  # type: ignore[no-untyped-def]
+    """On a phone --damped stays one word, and the command is read to its end."""
+    tab.set_viewport_size({"width": 390, "height": 844})
+    code = tab.locator("#next .command code").first
+    heights = code.evaluate("(e) => [...e.children].slice(0, 4).map((word) => word.getClientRects().length)")
+    assert heights == [1, 1, 1, 1]
+    assert code.evaluate("(e) => e.scrollWidth - e.clientWidth") <= 0
+
+
+def test_structures_lead_to_the_catalogue(
+    browser,  # type: ignore[no-untyped-def]
+    selection: Selection,
+    train: FrequencyResponse,
+    tmp_path: Path,
+) -> None:
+    """To the model's page, and to the model among those with ground dampers."""
+    (first,) = selection.members
+    loaded = Twin(Chain(3, damped=True, ground_dampers=(2,)), {})
+    found = replace(selection, members=(replace(first, twins=(loaded,)),))
+    text = fit_page(found, [], [waterfall(found.described)], train, site=Site(REPORTS, tmp_path))
+    (tmp_path / "fit.html").write_text(text, encoding="utf-8")
+    opened = browser.new_page()
+    for link, title in ((".member h3 a", "Model A1"), (".same a", "1+b2")):
+        opened.goto((tmp_path / "fit.html").as_uri())
+        follow_link(opened, link)
+        opened.wait_for_selector(f"h1:has-text('{title}'), #detail h3:has-text('{title}')")
+    assert opened.url.endswith("dampers-3-damped.html#1+b2")
+    opened.close()

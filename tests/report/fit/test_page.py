@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from disting.comparison import name_of
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
 from disting.fit.export import read_model, selection_to_dict
@@ -16,15 +17,16 @@ from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.report.fit import collinearity_dots, fit_page, importance_bars, waterfall, write_fit_report
-from disting.report.fit.criteria import limits, nearest, shown, weakest
+from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.page import reasoning
 from disting.report.fit.thresholds import parameters_by_threshold
+from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
 
-FIGURES = ["bode", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
+FIGURES = ["bode", "residuals", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +47,7 @@ def outline(written: list[Path]) -> Outline:
 @pytest.fixture(scope="module")
 def empty(nothing: Selection, train: FrequencyResponse) -> Outline:
     """With one figure: of the files of all of them, those of `written` are looked at."""
-    found = shown(nothing)
+    found = nothing.described
     return Outline(fit_page(nothing, physical(found, nothing.task), [waterfall(found)], train))
 
 
@@ -61,7 +63,7 @@ def test_the_same_figures_page_and_data_again(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path]
 ) -> None:
     """Two figures, drawn and written by what draws and writes all; `disting fit` writes all twice in the slow one."""
-    found = shown(selection)
+    found = selection.described
     content = {p.name: p.read_bytes() for p in written}
     for drawn in (importance_bars(found, selection.thresholds), waterfall(found)):
         for kind in ("svg", "png", "pdf"):
@@ -107,7 +109,8 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     assert f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are admissible: 5 parameters" in said
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
-    assert len(drawings) == 1 + len(selection.members) + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
+    sketched = len(selection.members) + sum(len(m.twins) for m in selection.members)
+    assert len(drawings) == 1 + sketched + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
 
 
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
@@ -122,7 +125,7 @@ def test_more_candidates_than_fit_are_behind_details(
     selection: Selection, train: FrequencyResponse, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("disting.report.fit.page.FIRST", 10)
-    text = fit_page(selection, [], [waterfall(shown(selection))], train)
+    text = fit_page(selection, [], [waterfall(selection.described)], train)
     assert "<summary>All 24 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
     assert len(re.findall('class="chosen"', text)) in (1, 2)
@@ -153,7 +156,14 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(nothing: Selection,
 def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
     excess = [max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)]
     assert excess == sorted(excess) and excess[0] > 1
-    assert shown(nothing) is nearest(nothing)[0]
+
+
+def test_the_page_describes_the_candidate_that_its_first_lines_are_about(nothing: Selection, empty: Outline) -> None:
+    """Where none is admissible: not the one nearest to its thresholds, which may fit worse."""
+    assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
+    said = " ".join(empty.text.split())
+    assert f"The best fit is {name(nothing.described.chain)}; what follows describes it" in said
+    assert f"the best one is {name_of(nothing.described.chain, short=False)}" in said
 
 
 def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
@@ -165,9 +175,9 @@ def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
 
 
 def test_the_weakest_combination_names_its_largest_part_first(selection: Selection) -> None:
-    terms = re.findall(r"ln (\w+)", weakest(shown(selection)))
-    assert set(terms) == set(shown(selection).practical.worst_direction)
-    assert weakest(shown(selection)).startswith(f"ln {terms[0]}")
+    terms = re.findall(r"ln (\w+)", weakest(selection.described))
+    assert set(terms) == set(selection.described.practical.worst_direction)
+    assert weakest(selection.described).startswith(f"ln {terms[0]}")
 
 
 def test_an_unknown_parameter_has_no_profile(selection: Selection, train: FrequencyResponse, tmp_path: Path) -> None:
@@ -181,7 +191,7 @@ def test_structures_that_no_data_can_tell_apart_are_named(train: FrequencyRespon
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
     found = select(train, candidates, test=test, thresholds=loose)
     assert found.selected is not None and len(found.selected.chain.ground_dampers) == 1 and found.saved == 1
-    said = " ".join(Outline(fit_page(found, [], [waterfall(shown(found))], train)).text.split())
+    said = " ".join(Outline(fit_page(found, [], [waterfall(found.described)], train)).text.split())
     assert "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
     assert "2 masses, force 1, sensor 2, dampers b1, b2." in said
     assert "1 fit saved" in said and "None: each of" not in said
@@ -196,7 +206,7 @@ def test_no_alternatives_are_said_so(outline: Outline) -> None:
 
 def test_what_no_data_determine_is_said_in_words(train: FrequencyResponse, test: FrequencyResponse) -> None:
     found = select(train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)], test=test)
-    candidate = shown(found)
+    candidate = found.described
     drawn = [
         waterfall(candidate),
         parameters_by_threshold(found.candidates, found.thresholds),

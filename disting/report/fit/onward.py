@@ -1,0 +1,97 @@
+"""What leads on from a fit: pages of the catalogues, where they lie, and ready commands for each structure."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from os import fsencode
+from os.path import relpath
+from pathlib import Path
+from urllib.parse import quote
+
+from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.files import name_of as catalog_name
+from disting.comparison import name_of
+from disting.fit.members import Member, Twin
+from disting.fit.select import Selection
+from disting.fit.telling import commands
+from disting.model.chain import Chain
+
+PURPOSES = {
+    "compare": "Whether an experiment tells them apart, and why:",
+    "equivalents": "Every structure with the same response, and its parameters:",
+}
+SAME = "Why nothing tells them apart, and whether that holds for all parameters:"
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """The structure that a page is about, and where that is."""
+
+    name: str
+    address: str
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """The pages of `disting report` in the folder `root`, as pages in `folder` lead to them."""
+
+    root: Path
+    folder: Path
+
+    def page(self, chain: Chain) -> Link | None:
+        """The page about a structure, or about it without its ground dampers where its family has none; None without either.
+
+        Lag and dead time have no pages of their own.
+        """
+        return next((self._link(*page) for page in _pages(chain) if (self.root / page[1]).is_file()), None)
+
+    def _link(self, name: str, file: str, fragment: str) -> Link:
+        target = (self.root / file).resolve()
+        try:
+            way = quote(fsencode(Path(relpath(target, self.folder.resolve())).as_posix()))
+        except ValueError:  # another drive
+            way = target.as_uri()
+        return Link(name, way + fragment)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A command, and what it tells."""
+
+    purpose: str
+    command: str
+
+
+def beside(folder: Path) -> Path:
+    """Where the pages of the catalogues may lie that nobody named: in the folder itself, or in the one that holds it."""
+    return next((root for root in (folder, folder.resolve().parent) if (root / "models").is_dir()), folder)
+
+
+def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
+    """Name, file and fragment of the pages that tell of a structure, the one that tells most first."""
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
+    name = name_of(plain, short=False)
+    size, colon, number = name.partition(":")
+    if not colon or not number.isdecimal():
+        return
+    kind = int(size), chain.damped
+    if chain.ground_dampers:
+        dampers = "".join(f"+b{i}" for i in chain.ground_dampers)
+        yield name + dampers, f"{damper_name(*kind)}.html", f"#{number}{dampers}"
+    yield name, f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
+
+
+def next_steps(selection: Selection) -> list[Step]:
+    """Commands that lead on from the described candidate."""
+    return [Step(PURPOSES[command.split()[1]], command) for command in commands(selection)]
+
+
+def steps_of(selection: Selection, member: Member) -> list[Step]:
+    """Commands that lead on from a structure of the set, against the first one; of that itself `next_steps` are."""
+    first = selection.members[0]
+    return [] if member is first else next_steps(replace(selection, selected=member.candidate, members=(member, first)))
+
+
+def step_to(member: Member, twin: Twin) -> Step:
+    """The command that compares a structure with one that behaves as it does."""
+    damped = " --damped" if twin.chain.damped else ""
+    return Step(SAME, f"disting compare {member.name} {twin.name}{damped}")

@@ -1,0 +1,94 @@
+"""Measured points with their error bars, and bands, as all panels over frequency draw them."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.fit.estimate import Task
+from disting.fit.fitted import response_of
+from disting.fit.judged import Candidate
+from disting.fit.plant import Real
+from disting.fit.scatter import Scatter, scatter
+from disting.measurement import FrequencyResponse
+from disting.report.fit.style import Tone
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+MANY = 120  # lines of one measurement from which on its points are drawn smaller
+BARRED = 60  # lines of one measurement that have an error bar, at most
+BAND = 0.28  # opacity
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Measured points beside the model's line, and how much they scatter."""
+
+    label: str
+    measured: FrequencyResponse
+    tone: Tone
+    marker: str
+    scatter: Scatter
+
+    @property
+    def has_bars(self) -> bool:
+        """Whether the data themselves tell how much they scatter."""
+        return self.measured.deviation is not None or self.measured.coherence is not None
+
+
+def series_of(candidate: Candidate, task: Task, train: FrequencyResponse, test: FrequencyResponse | None) -> list[Series]:
+    """Training and test data, each with its own scatter."""
+    named = (("training data", train, Tone.FIRST, "o"), ("test data", test, Tone.SECOND, "x"))
+    return [
+        Series(label, data, tone, marker, scatter(data, [response_of(candidate, task, data.omega)]))
+        for label, data, tone, marker in named
+        if data is not None
+    ]
+
+
+def points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
+    """One sign a line."""
+    panel.plot(
+        s.measured.frequency,
+        values,
+        linestyle="none",
+        marker=s.marker,
+        markersize=(3.6 if s.marker == "o" else 4.6) * (0.7 if len(values) > MANY else 1.0),
+        markerfacecolor="none",
+        markeredgecolor=s.tone,
+        markeredgewidth=0.9,
+        label=label,
+        zorder=2,
+    )
+
+
+def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
+    """Error bars from `low` to `high` where the data tell their scatter, at lines that are spread over the axis."""
+    if not s.has_bars:
+        return
+    at = barred(s.measured.omega)
+    panel.errorbar(
+        s.measured.frequency[at],
+        values[at],
+        yerr=np.stack([(values - low)[at], (high - values)[at]]),
+        fmt="none",
+        ecolor=s.tone,
+        elinewidth=0.8,
+        capsize=1.6,
+        capthick=0.8,
+        zorder=2,
+    )
+
+
+def barred(omega: Real) -> NDArray[np.intp]:
+    """Indices of at most `BARRED` lines, as evenly spread over a logarithmic axis as the lines allow."""
+    wanted = np.linspace(np.log(omega[0]), np.log(omega[-1]), BARRED)
+    nearest = np.abs(np.log(omega)[None, :] - wanted[:, None]).argmin(axis=1)
+    return np.arange(len(omega)) if len(omega) <= BARRED else np.unique(nearest)
+
+
+def band(panel: "Axes", hertz: Real, low: Real, high: Real, tone: Tone = Tone.INK, label: str = "") -> None:
+    """A translucent band between two lines."""
+    panel.fill_between(hertz, low, high, color=tone, alpha=BAND, linewidth=0, label=label, zorder=1.8)

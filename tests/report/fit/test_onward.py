@@ -1,0 +1,76 @@
+"""Links to the pages of the catalogues, and commands that run as they are printed."""
+
+import shlex
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from disting.cli import main
+from disting.fit.members import Twin
+from disting.fit.select import Selection
+from disting.model.chain import Chain
+from disting.report.fit.onward import Link, Site, beside, next_steps, step_to, steps_of
+from tests.report.fit.conftest import DRIVE
+
+REPORTS = Path(__file__).parents[3] / "reports"
+
+
+LOADED = Chain(3, damped=True, ground_dampers=(1, 3))
+
+
+@pytest.mark.parametrize(
+    ("chain", "link"),
+    [
+        (LOADED, Link("3:1+b1+b3", "dampers-3-damped.html#1+b1+b3")),
+        (replace(LOADED, lag=True, dead_time=True), Link("3:1+b1+b3", "dampers-3-damped.html#1+b1+b3")),
+        (replace(LOADED, ground_dampers=(), dead_time=True), Link("3:1", "models/3-damped/1.html")),
+        (Chain(3, meas_plus=3), Link("3:3", "models/3-undamped/3.html")),
+        (DRIVE, Link("2:1", "models/2-damped/1.html")),  # no page of ground dampers for 2 masses
+    ],
+)
+def test_structures_lead_to_their_pages(chain: Chain, link: Link) -> None:
+    assert Site(REPORTS, REPORTS).page(chain) == link
+    assert Site(REPORTS, REPORTS / "new").page(chain) == replace(link, address=f"../{link.address}")
+
+
+def test_what_has_no_page_has_no_link(tmp_path: Path) -> None:
+    assert Site(REPORTS, REPORTS).page(Chain(7)) is None is Site(tmp_path, tmp_path).page(DRIVE)
+
+
+def test_pages_beside_are_found_and_addresses_are_quoted(tmp_path: Path) -> None:
+    (tmp_path / "a b" / "models" / "2-damped").mkdir(parents=True)
+    (tmp_path / "a b" / "models" / "2-damped" / "1.html").touch()
+    assert Site(tmp_path / "a b", tmp_path).page(DRIVE) == Link("2:1", "a%20b/models/2-damped/1.html")
+    assert beside(tmp_path / "a b") == tmp_path / "a b" == beside(tmp_path / "a b" / "fit")
+    assert beside(tmp_path) == tmp_path
+
+
+@pytest.fixture(scope="module")
+def both(selection: Selection) -> Selection:
+    """As if the data excluded neither of two structures."""
+    (first,) = selection.members
+    other = next(c for c in selection.candidates if c.chain == replace(DRIVE, ground_dampers=(1,)))
+    return replace(selection, members=(first, replace(first, candidate=other)))
+
+
+def test_each_structure_has_its_commands(both: Selection) -> None:
+    first, second = both.members
+    compare, equivalents = (step.command for step in next_steps(both))
+    assert compare == "disting compare 2:1+b2 2:1+b1 --damped"
+    assert equivalents.startswith('disting equivalents 2:1+b2 --damped --to "2+b*" --set m1=0.0')
+    assert steps_of(both, first) == []
+    assert [step.command[:35] for step in steps_of(both, second)] == [
+        "disting compare 2:1+b1 2:1+b2 --dam",
+        "disting equivalents 2:1+b1 --damped",
+    ]
+
+
+def test_commands_run_as_they_are_printed(both: Selection, capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = both.members
+    twin = Twin(second.candidate.chain, second.candidate.estimate.parameters)
+    steps = [*next_steps(both), *steps_of(both, second), step_to(first, twin)]
+    for step in steps:
+        program, *arguments = shlex.split(step.command)
+        assert program == "disting" and main(arguments) == 0, step
+    assert "DISTINGUISHABLE" in capsys.readouterr().out
