@@ -21,7 +21,7 @@ from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.fit.swarm import by_swarm
-from disting.fit.telling import commands, first_lines, suspicions
+from disting.fit.telling import commands, first_lines, renamed, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
@@ -138,6 +138,7 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield ""
     chain = found.described.chain
     yield f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
+    yield from [f"  {renamed(found)}"] if renamed(found) else []
     yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
     yield from (f"  {line}" for line in _parameters(found))
     yield ""

@@ -5,9 +5,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 
+from disting.comparison import name_of
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
+from disting.model.symmetry import Form, forms
 
 
 def figure_1(sizes: Sequence[int] = (1, 2, 3, 4), sensor: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
@@ -57,6 +59,31 @@ def chosen_ports(
     if not found:
         raise InputError(f"no chain of {', '.join(map(str, sizes))} masses has these ports: {refused}")
     return tuple(variant for chain in found for variant in variants(chain))
+
+
+def as_listed(chain: Chain) -> Form:
+    """The form of a chain that is in the family of its size, with the names that its parameters have there.
+
+    A chain with masses counted from the other end, or with force and sensor exchanged, is no model under (38): the model that
+    behaves as it does for renamed parameters is. The chain itself where no form is in the family.
+
+    >>> form = as_listed(Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,)))
+    >>> reference(form.chain), form.renaming["m1"]
+    ('2:1+b2', 'm2')
+    """
+    family = Family(chain.n_masses, chain.damped, chain.sensor)
+    both = list(forms(chain))
+    return next((form for form in both if _is_in(family, form.chain)), both[0])
+
+
+def reference(chain: Chain) -> str:
+    """Such as 2:1+b2+delay, as the commands read it; of the form that is listed."""
+    return name_of(as_listed(chain).chain, short=False)
+
+
+def _is_in(family: Family, chain: Chain) -> bool:
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
+    return plain in family.models
 
 
 def _port(text: str, n: int) -> tuple[int, int]:

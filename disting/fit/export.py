@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disting.comparison import name_of
 from disting.errors import InputError, shown
+from disting.fit.candidates import as_listed, reference
 from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
 from disting.fit.members import Member
@@ -168,7 +168,7 @@ def member_to_dict(member: Member) -> dict[str, Any]:
 def candidate_to_dict(c: Candidate) -> dict[str, Any]:
     """Plain data of one candidate; a number that is not finite is null, and so is `unidentifiable` where nothing is."""
     return {
-        "name": name_of(c.chain, short=False),
+        "name": reference(c.chain),
         **_named(c.chain),
         "n_parameters": c.n_parameters,
         "parameters": c.estimate.parameters,
@@ -188,7 +188,11 @@ def candidate_to_dict(c: Candidate) -> dict[str, Any]:
 
 
 def _named(chain: Chain) -> dict[str, Any]:
-    """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as indices."""
+    """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as indices.
+
+    `renamed`: where the chain is named after another form of it, what its parameters are called there.
+    """
+    form = as_listed(chain)
     _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
     return {
         "n_masses": chain.n_masses,
@@ -200,7 +204,7 @@ def _named(chain: Chain) -> dict[str, Any]:
         "sensor": [meas_minus, meas_plus],
         "quantity": chain.sensor.value,
         "damped": chain.damped,
-    }
+    } | ({"renamed": form.renaming} if form.chain != chain else {})
 
 
 def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:

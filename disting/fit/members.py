@@ -13,10 +13,10 @@ from itertools import combinations
 
 import numpy as np
 
-from disting.comparison import name_of
 from disting.engine.engine import mapped
 from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.alternatives import Limits
+from disting.fit.candidates import as_listed, reference
 from disting.fit.cost import Cost
 from disting.fit.descent import fine
 from disting.fit.estimate import Task
@@ -45,7 +45,7 @@ class Twin:
     @property
     def name(self) -> str:
         """Such as 3:11+b1."""
-        return name_of(self.chain, short=False)
+        return reference(self.chain)
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Member:
     @property
     def name(self) -> str:
         """Such as 2:1+b2+delay, as the commands read it."""
-        return name_of(self.candidate.chain, short=False)
+        return reference(self.candidate.chain)
 
     @property
     def intervals(self) -> dict[str, tuple[float, float]]:
@@ -97,14 +97,15 @@ def members(
 
 def twins(chain: Chain, values: Mapping[str, float], limits: Limits) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
     """Structures with the same behaviour within the limits, and the names of those of which that is not known."""
-    found, unknown = list[Twin](), list[str]()
-    text = {name: repr(value) for name, value in values.items()}
+    found, unknown, form = list[Twin](), list[str](), as_listed(chain)
+    text = {form.renaming[name]: repr(value) for name, value in values.items()}
+    limits = {form.renaming.get(name, name): both for name, both in limits.items()}
     for other in _catalogue(chain):
-        for listing in equivalents(chain, text, other).listings:
+        for listing in equivalents(form.chain, text, other).listings:
             positive = [m for m in listing.members if m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN]
             real = [(m.free_choices, {n: complex(v).real for n, v in m.values.items()}) for m in positive]
             found += [Twin(other, p, free) for free, p in real if _inside(p, limits)]
-            if not (listing.complete or positive or other == chain):
+            if not (listing.complete or positive or other == form.chain):
                 unknown.append(listing.name)
     found.sort(key=lambda t: (t.free_choices, len(t.chain.ground_dampers)))
     return tuple(found), tuple(unknown)

@@ -8,8 +8,8 @@ from math import isfinite
 
 import numpy as np
 
-from disting.comparison import name_of
 from disting.fit.admissible import KNOWN
+from disting.fit.candidates import as_listed, reference
 from disting.fit.members import Disagreement
 from disting.fit.noise import correlation
 from disting.fit.scatter import between, scatter
@@ -39,28 +39,35 @@ def suspicions(found: Selection) -> tuple[str, ...]:
     return tuple(dict.fromkeys(said))
 
 
+def renamed(found: Selection) -> str:
+    """What the parameters of the described candidate are called in the structure that it is named after; "" for the same."""
+    form = as_listed(found.described.chain)
+    other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)
+    exchanged = "" if other else "force and sensor are exchanged there"
+    said = f"{reference(found.described.chain)} is the structure of the catalogue that behaves the same"
+    return "" if form.chain == found.described.chain else f"{said}: {other or exchanged}"
+
+
 def commands(found: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps."""
-    first = found.described
-    name, rest = name_of(first.chain, short=False), [m.name for m in found.members[1:]]
+    first, rest = found.described, [m.name for m in found.members[1:]]
+    given, form = reference(first.chain), as_listed(first.chain)
     damped = " --damped" if first.chain.damped else ""
-    if name.startswith("("):
-        return ()
-    values = ",".join(f"{n}={v:.6g}" for n, v in first.estimate.parameters.items())
-    steps = [f"disting compare {name} {rest[0]}{damped}"] if rest else []
-    return (*steps, f'disting equivalents {name}{damped} --to "{first.chain.n_masses}+b*" --set {values}')
+    values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in first.estimate.parameters.items())
+    steps = [f"disting compare {given} {rest[0]}{damped}"] if rest else []
+    return (*steps, f'disting equivalents {given}{damped} --to "{first.chain.n_masses}+b*" --set {values}')
 
 
 def _verdict(found: Selection) -> str:
     """The first line."""
-    said, name = found.explanation, name_of(found.described.chain, short=False)
+    said, best = found.explanation, reference(found.described.chain)
     scattered = f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
     size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone; {scattered}"
     if said.explains:
-        return f"{name} explains this data ({size})"
+        return f"{best} explains this data ({size})"
     if said.noisy:
-        return f"none of the candidates explains this data: it is mostly noise ({scattered}); the best one is {name}"
-    return f"none of the candidates explains this data; the best one is {name} ({size})"
+        return f"none of the candidates explains this data: it is mostly noise ({scattered}); the best one is {best}"
+    return f"none of the candidates explains this data; the best one is {best} ({size})"
 
 
 def _explained(found: Selection) -> Iterator[str]:
@@ -99,7 +106,7 @@ def _better(found: Selection) -> Iterator[str]:
     best, more = found.better[0], len(found.better) - 1
     others = f" ({more} more)" if more else ""
     yield (
-        f"{name_of(best.chain, short=False)}{others} fits better, J = {best.j_test:.3g} for {found.selected.j_test:.3g}, "
+        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for {found.selected.j_test:.3g}, "
         f"but is excluded: {'; '.join(best.reasons)}"
     )
 

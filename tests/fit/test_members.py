@@ -8,17 +8,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting.comparison import name_of
 from disting.equivalence import chain_of
 from disting.fit.admissible import Rule, undetermined
 from disting.fit.alternatives import limits_of
+from disting.fit.candidates import as_listed, reference
 from disting.fit.export import predicted, selection_to_dict
 from disting.fit.members import twins
 from disting.fit.practical import Thresholds
 from disting.fit.select import select
-from disting.fit.telling import commands, first_lines
+from disting.fit.telling import commands, first_lines, renamed
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.symmetry import forms
 from tests.fit.drives import OMEGA, response
 
 ROW = Chain(3, damped=True)
@@ -35,7 +36,28 @@ def test_the_command_line_reads_the_names_that_a_fit_writes(n, data):
         lag=data.draw(st.booleans()),
         dead_time=data.draw(st.booleans()),
     )
-    assert chain_of(name_of(chain, short=False), Family(1, damped=True)) == chain
+    assert as_listed(chain).chain == chain
+    for form in forms(chain):  # masses counted from the other end, force and sensor exchanged
+        assert chain_of(reference(form.chain), Family(1, damped=True)) in {other.chain for other in forms(chain)}
+
+
+MIRRORED = Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,))
+
+
+def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_listed():
+    values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b1": 3.0}
+    there = {"m1": 0.6, "m2": 1.0, "k12": 3e4, "d12": 8.0, "b2": 3.0}
+    assert twins(MIRRORED, values, limits_of({}, {"m2": 0.6})) == twins(
+        as_listed(MIRRORED).chain, there, limits_of({}, {"m1": 0.6})
+    )
+    train, test = (response(MIRRORED, values, noise=0.005, seed=s) for s in (1, 2))
+    found = select(train, [MIRRORED], test=test)
+    plain = selection_to_dict(found)
+    assert first_lines(found)[0].startswith("2:1+b2 explains") and plain["selected"]["name"] == "2:1+b2"
+    assert plain["selected"]["renamed"]["b1"] == "b2" and "m1 is m2 there" in renamed(found)
+    command = commands(found)[-1].split()
+    given = dict(pair.split("=") for pair in command[-1].split(","))
+    assert command[2] == "2:1+b2" and float(given["b2"]) == pytest.approx(found.described.estimate.parameters["b1"], rel=1e-5)
 
 
 def test_twins_come_from_the_whole_catalogue_and_behave_the_same():

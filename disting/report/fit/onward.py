@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import name_of as catalog_name
-from disting.comparison import name_of
+from disting.fit.candidates import as_listed, reference
 from disting.fit.members import Member, Twin
 from disting.fit.select import Selection
 from disting.fit.telling import commands
@@ -68,8 +68,8 @@ def beside(folder: Path) -> Path:
 
 def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
     """Name, file and fragment of the pages that tell of a structure, the one that tells most first."""
-    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
-    name = name_of(plain, short=False)
+    chain = as_listed(chain).chain
+    name = reference(replace(chain, ground_dampers=(), lag=False, dead_time=False))
     size, colon, number = name.partition(":")
     if not colon or not number.isdecimal():
         return
