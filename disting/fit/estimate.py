@@ -1,7 +1,10 @@
-"""The best parameters of candidates: structured starts, a rough search of all, the last digits of the best.
+"""The best parameters of candidates: structured starts, a rough search of all, the last digits of the best, exchange.
 
-Candidates are taken in the order of masses and elements, so that each finds the fits of smaller ones ready. Within one size a
-candidate that contains another one is never worse: the smaller one's fit, the additional elements hardly felt, is a start.
+Candidates are taken in the order of masses and elements, so that each finds the fits of smaller ones ready. Those with the same
+masses, springs and ports then exchange their fits: what neighbours found is a start, round by round until no candidate gets
+better. A valley that one of them enters is thereby open to all, so that each needs to try a part of the starts only. Within one
+size a candidate that contains another one is never worse: the smaller one's fit, the additional elements hardly felt, is a
+start.
 """
 
 import json
@@ -28,9 +31,9 @@ from disting.fit.starts import UNFELT, Values, extended, from_extrema, merged, r
 from disting.model.chain import Chain
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
-FELLOWS, PARTS = 8, 6  # so many candidates of one size have one part more of the starts, up to so many parts
+FELLOWS, PARTS = 8, 6  # every so many candidates that exchange divide their starts into one part more, up to so many parts
 FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
-FINISHED = 4  # starts that are brought to the last digit
+FINISHED = 4  # starts that are searched on, the best of which is brought to the last digit
 REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
 NOTHING = 1e-6  # or a cost that is as good as zero
 GAIN = 1e-4  # relative gain of cost from which on a neighbour's fit helps
@@ -42,8 +45,8 @@ NESTED = 1e-9  # relative excess of cost that a candidate may have over one that
 class Task:
     """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1: sensor reversed.
 
-    `divided`: each candidate takes one of so many parts of its starts. Where candidates of one size later exchange their fits,
-    what one of them finds helps all, and together they try every kind of start.
+    `divided`: each candidate takes one of so many parts of its starts. Where candidates exchange their fits, what one of them
+    finds helps all, and together they try every kind of start.
     """
 
     cost: Cost
@@ -76,7 +79,7 @@ class Task:
 class Estimate:
     """A candidate's best parameters and their cost J; `costs` of all starts after the rough search, in rising order.
 
-    Fits of neighbours are starts too.
+    Among the starts are those from the data and from smaller fits, then the fits of neighbours, once for each change.
     """
 
     chain: Chain
@@ -191,10 +194,10 @@ def estimates(
     store, run = store or Store.none(), method or estimate
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
-    for _, same_size in groupby(wanted, key=lambda c: c.n_masses):
-        size = list(same_size)
-        part = replace(task, divided=min(1 + (len(size) - 1) // FELLOWS, PARTS)) if method is None else task
-        for _, stage in groupby(size, key=_stage):
+    for _, variants in groupby(wanted, key=_body):
+        fellows = list(variants)
+        part = replace(task, divided=min(1 + (len(fellows) - 1) // FELLOWS, PARTS)) if method is None else task
+        for _, stage in groupby(fellows, key=_stage):
             whole = list(stage)
             known |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
             helpful = {c: _helpful(c, known) for c in whole if c not in known}
@@ -203,14 +206,14 @@ def estimates(
                 known[found.chain] = found
                 progress("fit", len(known), len(wanted))
         if method is None:
-            for found in _exchanged({c: known[c] for c in size}, task, store, executor):
+            for found in _exchanged({c: known[c] for c in fellows}, task, store, executor):
                 known[found.chain] = found
                 progress("fit", len(known), len(wanted))
     return known
 
 
 def _exchanged(known: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None) -> Iterator[Estimate]:
-    """Better estimates of candidates of one size, from the fits of neighbours that have changed, until none changes.
+    """Better estimates of variants of one chain, from the fits of neighbours that have changed, until none changes.
 
     All candidates of a round start from the estimates before it: their order and the number of workers do not matter.
     """
@@ -286,5 +289,11 @@ def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estim
     return {c: known[c] for c in known if c in near}
 
 
-def _stage(chain: Chain) -> tuple[int, int]:
-    return chain.n_masses, len(chain.ground_dampers) + chain.lag + chain.dead_time
+def _body(chain: Chain) -> tuple[int, str]:
+    """Masses, springs and ports: what candidates that exchange their fits have in common."""
+    return chain.n_masses, repr(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+
+
+def _stage(chain: Chain) -> tuple[int, str, int]:
+    """Order of work: what a candidate contains and what leads to it comes before it."""
+    return *_body(chain), len(chain.ground_dampers) + chain.lag + chain.dead_time
