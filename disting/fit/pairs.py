@@ -43,7 +43,7 @@ def paired(chain: Chain, joint: int, fewer: Values, size: Scale, missed: Sequenc
                 with np.errstate(all="ignore"):
                     more = cauer(float(masses.sum()), _with_pair(poles, zeros, float(omega), distance))
                 if all(0 < value < inf for part in more for value in part):
-                    yield rest | _named(chain, rest, *(part[::order] for part in more), softness)
+                    yield {**rest, **_named(chain, rest, more[0][::order], more[1][::order], softness)}
 
 
 def _named(chain: Chain, rest: Values, masses: Sequence[float], springs: Sequence[float], softness: float) -> Values:
