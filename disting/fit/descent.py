@@ -7,13 +7,15 @@ because a batch shares every numpy call; the last digits, bounds and the stoppin
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from disting.fit.cost import Cost
 from disting.fit.plant import Plant, Real
 
+Indices = NDArray[np.intp]
+
 BATCH = 8  # starts at once: more do not fit into a processor's cache, which costs half as much again
-HALVED = 5  # steps after which the worse half of the starts is dropped
 FIRST_DAMPING, HOPELESS = 1e-2, 1e8  # of Levenberg and Marquardt
 LARGEST_STEP = 1.5  # of a logarithm in one iteration
 WORTHLESS = 1e-4  # relative gain below which a start counts as settled
@@ -47,44 +49,52 @@ class Box:
 def rough(plant: Plant, cost: Cost, box: Box, starts: Real, iterations: int) -> tuple[Real, Real]:
     """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each start.
 
-    Every few steps the worse half of the starts is left where it is.
+    None is given up for being worse than others: what leads to the best optimum is often worse than half of them for long.
     """
     points = box.clipped(starts)
-    costs = np.asarray(cost.total(plant.response(points)))
-    damping = np.full(len(points), FIRST_DAMPING)
+    costs, damping = np.empty(len(points)), np.full(len(points), FIRST_DAMPING)
+    curvature, slope = np.empty((*points.shape, points.shape[1])), np.empty(points.shape)
     active = np.arange(len(points))
-    for step in range(1, iterations + 1):
-        for part in np.array_split(active, -(-len(active) // BATCH)):
-            points[part], reached = _improved(plant, cost, box, points[part], costs[part], damping[part])
-            settled = (reached < costs[part]) & (reached > costs[part] * (1 - WORTHLESS))
-            damping[part] *= np.where(reached < costs[part], 0.2, 8.0)
+    for part in _batches(active):
+        costs[part], curvature[part], slope[part] = _normal(plant, cost, box, points[part])
+    costs[np.isnan(costs)] = np.inf
+    for _ in range(iterations):
+        for part in _batches(active):
+            tried = box.clipped(points[part] * np.exp(_step(curvature[part], slope[part], damping[part])))
+            # Most steps lead downwards: their slope is computed along with their cost, which saves a response a step.
+            reached, *there = _normal(plant, cost, box, tried)
+            better = reached < costs[part]
+            settled = better & (reached > costs[part] * (1 - WORTHLESS))
+            damping[part] *= np.where(better, 0.2, 8.0)
             damping[part[settled]] = np.inf
-            costs[part] = reached
+            won = part[better]
+            points[won], costs[won] = tried[better], reached[better]
+            curvature[won], slope[won] = (array[better] for array in there)
         active = active[damping[active] < HOPELESS]
-        if step % HALVED == 0 and len(active) > BATCH:
-            active = active[np.argsort(costs[active], kind="stable")[: -(-len(active) // 2)]]
         if not active.size:
             break
     return points, costs
 
 
-def _improved(plant: Plant, cost: Cost, box: Box, points: Real, costs: Real, damping: Real) -> tuple[Real, Real]:
-    """Points and costs after one step, the old ones where it leads upwards."""
+def _batches(active: Indices) -> list[Indices]:
+    return np.array_split(active, -(-len(active) // BATCH))
+
+
+def _normal(plant: Plant, cost: Cost, box: Box, points: Real) -> tuple[Real, Real, Real]:
+    """Cost J = r'r, shape (n_s,), with S'S and S'r of the free logarithms, shapes (n_s, n_p, n_p) and (n_s, n_p)."""
     residual, columns = cost.of(plant, points)
-    tried = box.clipped(points * np.exp(_step(residual, columns * box.free, damping)))
-    reached = np.asarray(cost.total(plant.response(tried)))
-    better = reached < costs
-    return np.where(better[:, None], tried, points), np.where(better, reached, costs)
+    columns *= box.free
+    rows = columns.swapaxes(-1, -2)
+    return np.einsum("si,si->s", residual, residual), rows @ columns, (rows @ residual[..., None])[..., 0]
 
 
-def _step(residual: Real, columns: Real, damping: Real) -> Real:
+def _step(curvature: Real, slope: Real, damping: Real) -> Real:
     """Levenberg-Marquardt steps, shape (n_s, n_p): (S'S + damping diag S'S) step = -S' r."""
-    curvature = columns.swapaxes(-1, -2) @ columns
-    slope = (columns.swapaxes(-1, -2) @ residual[..., None])[..., 0]
     diagonal = np.einsum("sii->si", curvature)
     floor = TINY * diagonal.max(axis=-1, keepdims=True) + np.finfo(float).tiny
-    diagonal += damping[:, None] * diagonal + floor
-    step = -np.linalg.solve(curvature, slope[..., None])[..., 0]
+    damped = curvature.copy()
+    np.einsum("sii->si", damped)[...] += damping[:, None] * diagonal + floor
+    step = -np.linalg.solve(damped, slope[..., None])[..., 0]
     return np.asarray(np.clip(step, -LARGEST_STEP, LARGEST_STEP))
 
 

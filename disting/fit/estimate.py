@@ -1,13 +1,16 @@
-"""The best parameters of candidates: structured starts, a rough search of all, the last digits of the best.
+"""The best parameters of candidates: structured starts, a rough search of all, the last digits of the best, exchange.
 
-Candidates are taken in the order of masses and elements, so that each finds the fits of smaller ones ready. Within one size a
-candidate that contains another one is never worse: the smaller one's fit, the additional elements hardly felt, is a start.
+Candidates are taken in the order of masses and elements, so that each finds the fits of smaller ones ready. Those with the same
+masses, springs and ports then exchange their fits: what neighbours found is a start, round by round until no candidate gets
+better. A valley that one of them enters is thereby open to all, so that each needs to try a part of the starts only. Within one
+size a candidate that contains another one is never worse: the smaller one's fit, the additional elements hardly felt, is a
+start.
 """
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from itertools import groupby
 from math import inf
@@ -21,27 +24,37 @@ from disting.engine.engine import mapped
 from disting.errors import InputError
 from disting.fit.cost import Cost
 from disting.fit.descent import Box, fine, rough
+from disting.fit.neighbours import carried, neighbours
+from disting.fit.pairs import conspicuous, paired
 from disting.fit.plant import Plant, Real
 from disting.fit.starts import UNFELT, Values, extended, from_extrema, merged, random, scale, shortened, split, stacked
 from disting.model.chain import Chain
 
-ITERATIONS = 15  # of the rough search
+ITERATIONS = 30  # of the rough search, and again from the best that it found
+FELLOWS, PARTS = 8, 6  # every so many candidates that exchange divide their starts into one part more, up to so many parts
 FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
-FINISHED = 4  # starts that are brought to the last digit
+FINISHED = 4  # starts that are searched on, the best of which is brought to the last digit
 REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
 NOTHING = 1e-6  # or a cost that is as good as zero
+GAIN = 1e-4  # relative gain of cost from which on a neighbour's fit helps
+ROUNDS = 20  # of the exchange between neighbours, at most: it stands still after fewer
 NESTED = 1e-9  # relative excess of cost that a candidate may have over one that it contains
 
 
 @dataclass(frozen=True)
 class Task:
-    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1: sensor reversed."""
+    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1: sensor reversed.
+
+    `divided`: each candidate takes one of so many parts of its starts. Where candidates exchange their fits, what one of them
+    finds helps all, and together they try every kind of start.
+    """
 
     cost: Cost
     sign: int = 1
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     fixed: Mapping[str, float] = field(default_factory=dict)
     seed: str = "disting"
+    divided: int = 1
 
     def __post_init__(self) -> None:
         for name, (low, high) in self.bounds.items():
@@ -64,7 +77,10 @@ class Task:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A candidate's best parameters and their cost J; `costs` of all starts after the rough search, in rising order."""
+    """A candidate's best parameters and their cost J; `costs` of all starts after the rough search, in rising order.
+
+    Among the starts are those from the data and from smaller fits, then the fits of neighbours, once for each change.
+    """
 
     chain: Chain
     parameters: dict[str, float]
@@ -82,7 +98,8 @@ Method = Callable[[Chain, Task, Mapping[Chain, Estimate]], Estimate]
 
 def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
     """Best parameters of one candidate, from the data and from the fits of smaller candidates in `known`."""
-    starts = stacked(list(_starts(chain, task, known)), chain.parameters)
+    first = sha256(str(chain).encode()).digest()[0] % task.divided
+    starts = stacked(list(_starts(chain, task, known))[first :: task.divided], chain.parameters)
     # One thread of linear algebra: matrices are small, and workers share the processors.
     with threadpool_limits(1):
         return _best(chain, task, known, starts)
@@ -95,18 +112,42 @@ def evaluated(chain: Chain, task: Task) -> Estimate:
     return Estimate(chain, dict(zip(chain.parameters, values, strict=True)), j, (j,))
 
 
+def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+    """The candidate's estimate in `known`, or a better one that the fits of its neighbours there lead to."""
+    own, names, size = known[chain], chain.parameters, scale(task.cost.measured)
+    offered = [known[c].parameters for c in neighbours(chain) if c in known]
+    starts = stacked([start for fit in offered for start in carried(chain, fit, size)], names)
+    plant, box = task.plant(chain), task.box(names)
+    with threadpool_limits(1):
+        points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
+        i = int(np.argmin(costs))
+        p, j = np.array([own.parameters[name] for name in names]), own.j
+        if costs[i] < j * (1 - GAIN):
+            p, j = fine(plant, task.cost, box, points[i])
+        p, j = _nested(chain, task, known, p, j)
+    tried = tuple(sorted([*own.costs, *map(float, costs)]))
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried)
+
+
 def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
     names = chain.parameters
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-    finished = [fine(plant, task.cost, box, points[i]) for i in _different(costs)]
-    contained = min((known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None)
-    if contained is not None and contained.j * (1 + NESTED) < min(j for _, j in finished):
-        slight = stacked(list(extended(chain, contained.parameters, scale(task.cost.measured), UNFELT)), names)
-        unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
-        finished.append(fine(plant, task.cost, box, unfelt))
-    p, j = min(finished, key=lambda found: found[1])
+    ends, reached = rough(plant, task.cost, box, points[_different(costs)], ITERATIONS)
+    p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
+    p, j = _nested(chain, task, known, p, j)
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs))))
+
+
+def _nested(chain: Chain, task: Task, known: Mapping[Chain, Estimate], p: Real, j: float) -> tuple[Real, float]:
+    """Parameters and cost that are no worse than those of a candidate which this one contains."""
+    contained = min((known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None)
+    if contained is None or contained.j * (1 + NESTED) >= j:
+        return p, j
+    plant, box = task.plant(chain), task.box(chain.parameters)
+    slight = stacked(list(extended(chain, contained.parameters, scale(task.cost.measured), UNFELT)), chain.parameters)
+    unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
+    return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda found: found[1])
 
 
 def _different(costs: Real) -> list[int]:
@@ -126,6 +167,11 @@ def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterat
     for joint, fewer in merged(chain):
         if fewer in known:
             yield from split(chain, joint, known[fewer].parameters, size)
+    for fewer, joint in {fewer: joint for joint, fewer in merged(chain)}.items():
+        if fewer in known:
+            fit = known[fewer].parameters
+            missed = conspicuous(task.cost.measured, task.plant(fewer).response(np.array(list(fit.values()))))
+            yield from paired(chain, joint, fit, size, missed)
     for fewer in shortened(chain):
         if fewer in known:
             yield from extended(chain, known[fewer].parameters, size)
@@ -148,20 +194,52 @@ def estimates(
     store, run = store or Store.none(), method or estimate
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
-    for _, stage in groupby(wanted, key=_stage):
-        whole = list(stage)
-        known |= {c: evaluated(c, task) for c in whole if set(c.parameters) <= set(task.fixed)}
-        chains = [c for c in whole if c not in known]
-        keys = {c: _key(c, task, _helpful(c, known), run.__name__) for c in chains}
-        stored = store.get_many(keys.values())
-        known |= {c: estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored}
-        progress("fit", len(known), len(wanted))
-        missing = [(c, task, _helpful(c, known)) for c in chains if c not in known]
-        for found in mapped(run, missing, executor):
-            known[found.chain] = found
-            store.put_many({keys[found.chain]: estimate_to_json(found)})
+    for _, variants in groupby(wanted, key=_body):
+        fellows = list(variants)
+        part = replace(task, divided=min(1 + (len(fellows) - 1) // FELLOWS, PARTS)) if method is None else task
+        for _, stage in groupby(fellows, key=_stage):
+            whole = list(stage)
+            known |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+            helpful = {c: _helpful(c, known) for c in whole if c not in known}
             progress("fit", len(known), len(wanted))
+            for found in _results(run, helpful, part, store, executor):
+                known[found.chain] = found
+                progress("fit", len(known), len(wanted))
+        if method is None:
+            for found in _exchanged({c: known[c] for c in fellows}, task, store, executor):
+                known[found.chain] = found
+                progress("fit", len(known), len(wanted))
     return known
+
+
+def _exchanged(known: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None) -> Iterator[Estimate]:
+    """Better estimates of variants of one chain, from the fits of neighbours that have changed, until none changes.
+
+    All candidates of a round start from the estimates before it: their order and the number of workers do not matter.
+    """
+    changed, left = set(known), ROUNDS
+    while changed and left:
+        offers = {c: changed.intersection(neighbours(c)) for c in known if not _is_given(c, task)}
+        helpful = {c: {o: known[o] for o in known if o in near or o == c} for c, near in offers.items() if near}
+        left -= 1
+        after = dict(known)
+        for found in _results(improved, helpful, task, store, executor):
+            after[found.chain] = found
+            yield found
+        changed = {c for c in known if after[c].j < known[c].j}
+        known = after
+
+
+def _results(
+    run: Method, helpful: Mapping[Chain, Mapping[Chain, Estimate]], task: Task, store: Store, executor: Executor | None
+) -> Iterator[Estimate]:
+    """The estimates that `run` finds of chains, each with what helps it, as they come; from `store` where it holds them."""
+    keys = {c: _key(c, task, near, run.__name__) for c, near in helpful.items()}
+    stored = store.get_many(keys.values())
+    yield from (estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored)
+    for found in mapped(run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor):
+        store.put_many({keys[found.chain]: estimate_to_json(found)})
+        yield found
 
 
 def estimate_to_json(found: Estimate) -> str:
@@ -184,7 +262,7 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
         method,
         repr(chain),
         cost.measured.sensor.value,
-        repr((cost.case, cost.weights, task.sign, task.seed)),
+        repr((cost.case, cost.weights, task.sign, task.seed, task.divided)),
     ]
     texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
     texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
@@ -200,11 +278,22 @@ def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
     return found
 
 
+def _is_given(chain: Chain, task: Task) -> bool:
+    """Whether there is nothing to search."""
+    return set(chain.parameters) <= set(task.fixed)
+
+
 def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
     """What one candidate's starts come from; a worker needs no more."""
     near = {*(c for _, c in merged(chain)), *shortened(chain)}
     return {c: known[c] for c in known if c in near}
 
 
-def _stage(chain: Chain) -> tuple[int, int]:
-    return chain.n_masses, len(chain.ground_dampers) + chain.lag + chain.dead_time
+def _body(chain: Chain) -> tuple[int, str]:
+    """Masses, springs and ports: what candidates that exchange their fits have in common."""
+    return chain.n_masses, repr(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+
+
+def _stage(chain: Chain) -> tuple[int, str, int]:
+    """Order of work: what a candidate contains and what leads to it comes before it."""
+    return *_body(chain), len(chain.ground_dampers) + chain.lag + chain.dead_time

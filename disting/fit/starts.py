@@ -2,7 +2,8 @@
 
 (a) Resonances and antiresonances of the data, mapped to masses and springs by the Cauer continued fraction (force and sensor at
 the free end). (b) The growth ladder: the best fit with one mass fewer, one mass split in two by a spring tuned to each
-frequency of a grid. (c) The best fits of candidates with one element fewer. (d) A few random points.
+frequency of a grid; or with one more pair of pole and zero, see `pairs`. (c) The best fits of candidates with one element
+fewer. (d) A few random points.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -59,7 +60,7 @@ def scale(measured: FrequencyResponse) -> Scale:
 
 def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Values]:
     """Starts (a): N - 1 pairs of antiresonance and resonance, seen or supposed; none where the ports are elsewhere."""
-    if not (chain.collocated and chain.gap == 0 and chain.act_minus == 0 and chain.act_plus in (1, chain.n_masses)):
+    if not is_seen_at_one_end(chain):
         return
     size = scale(measured)
     seen, wanted = extrema(measured), chain.n_masses - 1
@@ -71,6 +72,11 @@ def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Values]:
                 masses, springs = masses[::-1], springs[::-1]
             if min([*masses, *springs], default=0.0) > 0:
                 yield _filled(chain, size, masses, springs)
+
+
+def is_seen_at_one_end(chain: Chain) -> bool:
+    """Whether force and sensor are the same end of a free chain: then poles and zeros fix masses and springs."""
+    return chain.collocated and chain.gap == 0 and chain.act_minus == 0 and chain.act_plus in (1, chain.n_masses)
 
 
 def extrema(measured: FrequencyResponse) -> list[tuple[float, float]]:

@@ -29,7 +29,9 @@ def test_the_smallest_candidate_alone_would_take_the_wrong_sign(sign):
     both = select(measured, [ONE, TWO], test=again, sign=0)
     assert alone.task.sign == -sign and both.task.sign == sign
     found = both.candidates[0].estimate.parameters
-    assert found["k12"] == pytest.approx(2e4, rel=0.1) and found["m1"] + found["m2"] == pytest.approx(1.5, rel=0.02)
+    # No data determine more of this chain than m1 + m2, k12/d12 and k12/(m1 m2): a stiffness alone may come out anywhere.
+    assert found["k12"] / (found["m1"] * found["m2"]) == pytest.approx(4e4, rel=0.02)
+    assert found["m1"] + found["m2"] == pytest.approx(1.5, rel=0.02)
 
 
 def test_training_and_test_of_opposite_sign_are_refused():

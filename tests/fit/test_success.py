@@ -1,4 +1,4 @@
-"""How often structured starts reach the truth: 50 random drives of each size, 2 % noise."""
+"""Structured starts reach the cost of the truth: 50 random drives of each size, 2 % noise."""
 
 from itertools import pairwise
 
@@ -34,15 +34,26 @@ def drive(n, source):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("n", "needed"), [(2, 49), (3, 48), (4, 45)])
-def test_the_cost_of_the_truth_is_reached(n, needed):
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_the_cost_of_the_truth_is_always_reached(n):
     source = np.random.default_rng(n)
-    reached = 0
-    for _ in range(DRIVES):
+    missed = []
+    for i in range(DRIVES):
         chain, p = drive(n, source)
         exact = Plant(chain.structure, OMEGA).response(p)
         noise = (source.normal(size=OMEGA.size) + 1j * source.normal(size=OMEGA.size)) / np.sqrt(2)
         task = Task(Cost(FrequencyResponse(OMEGA, exact * (1 + NOISE * noise))))
-        reached += estimates([chain], task)[chain].j <= task.cost.total(exact) * (1 + 1e-9)
-    print(f"{n} masses: {reached} of {DRIVES} reach the cost of the truth")
-    assert reached >= needed
+        if not estimates([chain], task)[chain].j <= task.cost.total(exact) * (1 + 1e-9):
+            missed.append(f"drive {i}: {chain}")
+    assert missed == []
+
+
+def test_a_mode_that_hardly_shows_is_found():
+    """Drive 36 of four masses: its third pole lies a thousandth beside a zero, and all other starts end 4 % above the truth."""
+    source = np.random.default_rng(4)
+    for _ in range(37):
+        chain, p = drive(4, source)
+        exact = Plant(chain.structure, OMEGA).response(p)
+        noise = (source.normal(size=OMEGA.size) + 1j * source.normal(size=OMEGA.size)) / np.sqrt(2)
+    task = Task(Cost(FrequencyResponse(OMEGA, exact * (1 + NOISE * noise))))
+    assert estimates([chain], task)[chain].j <= task.cost.total(exact)

@@ -1,0 +1,41 @@
+"""Candidates that differ by one step, and the fit of one as a start of the other.
+
+A search from the data alone may end in a valley where one element does the work of another: a damper at the wrong mass, a dead
+time for a lag, a small mass tuned to one line. The fit of a neighbour often lies in the better one.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from disting.fit.starts import Scale, Values, extended, shortened
+from disting.model.chain import Chain
+
+ADDED = (0.1, 1.0)  # of its natural size, for an element that the neighbour lacks
+
+
+def neighbours(chain: Chain) -> Iterator[Chain]:
+    """Yield the candidates with one element fewer or more, a ground damper at another mass, the lag for the dead time."""
+    yield from shortened(chain)
+    dampers = set(chain.ground_dampers)
+    free = [i for i in range(1, chain.n_masses + 1) if i not in dampers]
+    for at in free:
+        yield replace(chain, ground_dampers=tuple(sorted(dampers | {at})))
+        for other in chain.ground_dampers:
+            yield replace(chain, ground_dampers=tuple(sorted((dampers | {at}) - {other})))
+    if not chain.lag:
+        yield replace(chain, lag=True)
+    if not chain.dead_time:
+        yield replace(chain, dead_time=True)
+    if chain.lag != chain.dead_time:
+        yield replace(chain, lag=chain.dead_time, dead_time=chain.lag)
+
+
+def carried(chain: Chain, fit: Values, size: Scale, factors: Iterable[float] = ADDED) -> Iterator[Values]:
+    """Starts from a neighbour's fit: what it has too much hands its value over, or is left out; what it lacks is added."""
+    missing = [name for name in chain.parameters if name not in fit]
+    surplus = [name for name in fit if name not in chain.parameters]
+    if surplus:
+        moved = {new: fit[old] for new, old in zip(missing, surplus, strict=False)}
+        yield {name: fit[name] if name in fit else moved[name] for name in chain.parameters}
+    else:
+        yield from extended(chain, fit, size, factors)
