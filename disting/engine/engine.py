@@ -126,7 +126,7 @@ class Engine:
         done = len(keys) - len(missing)
         absent = [keys[k] for k in missing]
         batches = [(absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)]
-        for batch in mapped(compute, batches, executor):
+        for _, batch in mapped(compute, batches, executor):
             texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
             self.store.put_many(texts)
             self.memo |= {key: profile_from_json(text) for key, text in texts.items()}
@@ -147,8 +147,10 @@ class Engine:
         self.answers |= {key: question.decode(text) for key, text in stored.items()}
         missing = {key: chains for key, chains in keys.items() if key not in self.answers}
         done = len(keys) - len(missing)
-        tasks = [(question, key, chains, self.settings) for key, chains in missing.items()]
-        for key, text in mapped(compute_answer, tasks, executor):
+        asked_for = {chains: key for key, chains in missing.items()}
+        tasks = [(question, chains, self.settings) for chains in asked_for]
+        for (_, chains, _), text in mapped(compute_answer, tasks, executor):
+            key = asked_for[chains]
             self.store.put_many({key: text})
             self.answers[key] = question.decode(text)
             done += 1
@@ -173,19 +175,21 @@ def compute(structures: Sequence[Structure], r: Representation, count: int, sett
     return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
 
 
-def compute_answer(question: Question[Any], key: str, chains: Chains, settings: Settings) -> tuple[str, str]:
+def compute_answer(question: Question[Any], chains: Chains, settings: Settings) -> str:
     """A task for a worker: one answer as text."""
-    return key, question.encode(question.answer(*chains, settings))
+    return question.encode(question.answer(*chains, settings))
 
 
-def mapped(function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None) -> Iterator[T]:
-    """Results of the tasks as they come, from the executor's workers or from this process."""
+def mapped(
+    function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
+) -> Iterator[tuple[tuple[Any, ...], T]]:
+    """Tasks with their results as they come, in any order, from the executor's workers or from this process."""
     if executor is None:
-        yield from (function(*task) for task in tasks)
+        yield from ((task, function(*task)) for task in tasks)
         return
-    futures: list[Future[T]] = [executor.submit(function, *task) for task in tasks]
+    futures: dict[Future[T], tuple[Any, ...]] = {executor.submit(function, *task): task for task in tasks}
     try:
-        yield from (future.result() for future in as_completed(futures))
+        yield from ((futures[future], future.result()) for future in as_completed(futures))
     finally:
         for future in futures:
             future.cancel()

@@ -237,7 +237,7 @@ def _results(
     keys = {c: _key(c, task, near, run.__name__) for c, near in helpful.items()}
     stored = store.get_many(keys.values())
     yield from (estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored)
-    for found in mapped(run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor):
+    for _, found in mapped(run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor):
         store.put_many({keys[found.chain]: estimate_to_json(found)})
         yield found
 

@@ -88,10 +88,12 @@ def members(
 ) -> tuple[Member, ...]:
     """The candidates, in their order, as members of the set."""
     given = [(c.chain, c.estimate.parameters, dict(limits)) for c in chosen]
-    found = list(mapped(twins, given, executor))
+    found = {chain: both for (chain, *_), both in mapped(twins, given, executor)}
     return tuple(
-        Member(c, *both, disagreements(c, task, test) if test else (), _differs(chosen[0], c, test or task.cost, task))
-        for c, both in zip(chosen, found, strict=True)
+        Member(
+            c, *found[c.chain], disagreements(c, task, test) if test else (), _differs(chosen[0], c, test or task.cost, task)
+        )
+        for c in chosen
     )
 
 

@@ -1,6 +1,7 @@
 """The set of structures that data do not exclude: names that commands read, twins from the whole catalogue, the rules."""
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from disting.fit.admissible import Rule, undetermined
 from disting.fit.alternatives import limits_of
 from disting.fit.candidates import as_listed, reference
 from disting.fit.export import predicted, selection_to_dict
-from disting.fit.members import twins
+from disting.fit.members import members, twins
 from disting.fit.practical import Thresholds
 from disting.fit.select import select
 from disting.fit.telling import commands, first_lines, renamed
@@ -79,6 +80,14 @@ def test_twins_keep_the_limits():
 def selection():
     train, test = (response(ROW, VALUES, noise=0.005, seed=s) for s in (1, 2))
     return select(train, [Chain(2, damped=True), ROW, replace(ROW, dead_time=True)], test=test)
+
+
+def test_each_member_has_its_own_twins_in_whatever_order_workers_finish(selection):
+    """The first one takes longest, so its twins come last."""
+    chosen = sorted(selection.candidates, key=lambda c: -c.chain.n_masses)
+    with ThreadPoolExecutor(len(chosen)) as pool:
+        among, alone = (members(chosen, selection.task, None, {}, executor) for executor in (pool, None))
+    assert among == alone and {t.chain.n_masses for t in among[0].twins} == {3}
 
 
 def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
