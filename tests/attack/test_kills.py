@@ -87,7 +87,7 @@ def stopped(command, data, cache, folder, delay, by):
         process.send_signal(by)
     else:
         os.killpg(process.pid, by)
-    _, error = process.communicate(timeout=60)
+    _, error = process.communicate(timeout=600)
     return process.returncode, error.decode()
 
 

@@ -19,7 +19,7 @@ def disting(*arguments, cache="off", cwd=None):
     """A process of its own."""
     environment = os.environ | {"DISTING_CACHE": str(cache), "COLUMNS": "100"}
     command = [*COMMAND, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False, cwd=cwd)
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, check=False, cwd=cwd)
 
 
 def called(*arguments, cache="off"):

@@ -22,7 +22,7 @@ from tests.cli.process import COMMAND, disting, heed_signals, marked
 )
 def test_output_that_the_terminal_cannot_encode_is_no_error(encoding, command):
     environment = os.environ | {"PYTHONIOENCODING": encoding, "DISTING_CACHE": "off", "PYTHONUTF8": "0"}
-    done = subprocess.run([*COMMAND, *command], capture_output=True, env=environment, timeout=120, check=False)
+    done = subprocess.run([*COMMAND, *command], capture_output=True, env=environment, timeout=600, check=False)
     assert done.returncode == 0, done.stderr
     assert b"Traceback" not in done.stderr and done.stdout
     assert done.stdout.decode(encoding).count("?") == disting(*command).stdout.count("?")  # every sign has a substitute
@@ -42,7 +42,7 @@ def test_workers_end_with_their_parent(tmp_path, by):
         time.sleep(0.05)
     assert len(workers) >= 3
     parent.send_signal(by)
-    assert parent.wait(timeout=60) == -by
+    assert parent.wait(timeout=600) == -by
     patience = 600  # tenths of a second; idle, they end within one
     while marked(tmp_path) and patience:
         time.sleep(0.1)
@@ -70,7 +70,7 @@ def disting_with_small_files(*arguments):
     limited = f"{limit}; runpy.run_module('disting', run_name='__main__')"
     environment = os.environ | {"DISTING_CACHE": "off"}
     command = [sys.executable, "-c", limited, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, check=False)
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, check=False)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="named pipes are of POSIX")
@@ -80,6 +80,6 @@ def test_pipes_and_links_stay_what_they_are(tmp_path):
     link.symlink_to(there)
     reader = subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True)
     assert disting("verdicts", 2, "--csv", pipe).returncode == 0
-    read, _ = reader.communicate(timeout=60)
+    read, _ = reader.communicate(timeout=600)
     assert disting("verdicts", 2, "--csv", link).returncode == 0
     assert pipe.is_fifo() and link.is_symlink() and there.read_text() == read != ""

@@ -62,7 +62,7 @@ def test_many_processes_share_one_cache(tmp_path):
     running = [
         subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) for _ in range(3)
     ]
-    outputs = [process.communicate(timeout=120) for process in running]
+    outputs = [process.communicate(timeout=600) for process in running]
     assert [process.returncode for process in running] == [0] * 3
     assert {error for _, error in outputs} == {""}
     assert len({text for text, _ in outputs}) == 1
@@ -110,7 +110,7 @@ def interrupted(cache, stored, *arguments):
     while process.poll() is None and entries(cache) < stored:
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
-    _, error = process.communicate(timeout=60)
+    _, error = process.communicate(timeout=600)
     return process.returncode, error.strip()
 
 

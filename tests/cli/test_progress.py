@@ -14,7 +14,7 @@ WORK = ("verdicts", "3", "--damped", "--no-cache")
 def told(*arguments: str, progress: str | None) -> subprocess.CompletedProcess[str]:
     environment = {name: value for name, value in os.environ.items() if name != "DISTING_PROGRESS"}
     environment |= {} if progress is None else {"DISTING_PROGRESS": progress}
-    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, env=environment, timeout=120, check=False)
+    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, env=environment, timeout=600, check=False)
 
 
 def test_a_pipe_is_told_what_is_done_and_the_result_stays_as_it_is() -> None:

@@ -16,6 +16,7 @@ from tests.engine.store_worker import items
 WORKER = Path(__file__).with_name("store_worker.py")
 ROOT = Path(__file__).parents[2]
 TEN = items(range(10))
+LONG = 600  # seconds, after which something hangs, however busy the machine is
 
 
 def start(*arguments: object) -> subprocess.Popen[bytes]:
@@ -38,7 +39,7 @@ def first_line(process: subprocess.Popen[bytes]) -> str:
 
 def finish(process: subprocess.Popen[bytes]) -> list[str]:
     """The lines a worker printed; it must end well and print no traceback."""
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=LONG)
     assert (process.returncode, errors) == (0, b"")
     return output.decode().splitlines()
 
@@ -46,7 +47,7 @@ def finish(process: subprocess.Popen[bytes]) -> list[str]:
 def stop(process: subprocess.Popen[bytes]) -> list[str]:
     """Kill a worker at once; the lines it had printed."""
     process.send_signal(signal.SIGKILL)
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=LONG)
     assert (process.returncode, errors) == (-signal.SIGKILL, b"")
     return output.decode().splitlines()
 

@@ -13,7 +13,19 @@ from pathlib import Path
 import pytest
 
 from disting.engine.store import Store
-from tests.engine.store_tools import TEN, alter, aside, cache_warnings, finish, first_line, keeps_nothing, start, stop, works
+from tests.engine.store_tools import (
+    LONG,
+    TEN,
+    alter,
+    aside,
+    cache_warnings,
+    finish,
+    first_line,
+    keeps_nothing,
+    start,
+    stop,
+    works,
+)
 from tests.engine.store_worker import items, key, value
 
 
@@ -67,7 +79,7 @@ def test_a_file_locked_for_too_long_is_left_alone(filled: Path) -> None:
 
 def join(threads: list[threading.Thread]) -> None:
     for thread in threads:
-        thread.join(30)
+        thread.join(LONG)
     assert not any(thread.is_alive() for thread in threads)
 
 
@@ -97,7 +109,7 @@ def in_child(work: Callable[[], bool]) -> int:
         child = os.fork()
     if child == 0:
         status = 9
-        signal.alarm(20)  # a deadlock ends as a failure
+        signal.alarm(LONG)  # a deadlock ends as a failure
         with contextlib.suppress(BaseException):
             status = 0 if work() else 1
         os._exit(status)
