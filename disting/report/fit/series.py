@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MANY = 120  # lines of one measurement from which on its points are drawn smaller
-BARRED = 60  # lines of one measurement that have an error bar, at most
+BARRED = 48  # lines of one measurement that have an error bar, at most
 BAND = 0.28  # opacity
+FINE = 1e-3  # of the range of a curve: less is not seen
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +76,7 @@ def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
         yerr=np.stack([(values - low)[at], (high - values)[at]]),
         fmt="none",
         ecolor=s.tone,
-        elinewidth=0.8,
-        capsize=1.6,
-        capthick=0.8,
+        elinewidth=0.9,
         zorder=2,
     )
 
@@ -91,4 +90,27 @@ def barred(omega: Real) -> NDArray[np.intp]:
 
 def band(panel: "Axes", hertz: Real, low: Real, high: Real, tone: Tone = Tone.INK, label: str = "") -> None:
     """A translucent band between two lines."""
-    panel.fill_between(hertz, low, high, color=tone, alpha=BAND, linewidth=0, label=label, zorder=1.8)
+    plain = np.log if panel.get_yscale() == "log" else np.asarray
+    at = corners(np.log(hertz), plain(low), plain(high))
+    panel.fill_between(hertz[at], low[at], high[at], color=tone, alpha=BAND, linewidth=0, label=label, zorder=1.8)
+
+
+def corners(x: Real, *curves: Real) -> NDArray[np.intp]:
+    """Indices of points, straight lines between which stay within `FINE` of each curve's range; a band has few of them.
+
+    (D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points, 1973.)
+    """
+    scaled = np.stack([curve / (np.ptp(curve) or 1.0) for curve in curves])
+    kept, open_spans = {0, len(x) - 1}, [(0, len(x) - 1)]
+    while open_spans:
+        i, j = open_spans.pop()
+        if j - i < 2:
+            continue
+        share = (x[i + 1 : j] - x[i]) / (x[j] - x[i])
+        straight = scaled[:, [i]] + share * (scaled[:, [j]] - scaled[:, [i]])
+        apart = np.abs(scaled[:, i + 1 : j] - straight).max(axis=0)
+        if apart.max() > FINE:
+            middle = i + 1 + int(apart.argmax())
+            kept.add(middle)
+            open_spans += [(i, middle), (middle, j)]
+    return np.array(sorted(kept))
