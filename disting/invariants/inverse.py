@@ -10,7 +10,7 @@ from flint import nmod_poly
 
 from disting.algebra.quotient import Quotient, series_rows
 from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, enough
-from disting.invariants.profile import Profile, from_samples, minor_size
+from disting.invariants.profile import Profile, from_samples, minor_size, search_labels
 from disting.invariants.sample import Representation, Sample, drawn
 from disting.model.structure import Structure
 from disting.settings import Settings
@@ -21,8 +21,8 @@ def inverse_profile(structure: Structure, count: int, settings: Settings) -> Pro
     size = minor_size(structure, Representation.MARKOV, count)
     points = enough(size, settings.points)
     seen = [_sample(structure, count, f"{settings.seed}:inverse:{k}", PROOF_BITS) for k in range(points)]
-    search = _sample(structure, count, f"{settings.seed}:inverse:search", SEARCH_BITS)
-    return from_samples(seen, search, frozenset(), (0, 0), count, structure.n_states, size, settings)
+    searches = (_sample(structure, count, label, SEARCH_BITS) for label in search_labels(f"{settings.seed}:inverse"))
+    return from_samples(seen, searches, frozenset(), (0, 0), count, structure.n_states, size, settings)
 
 
 def _sample(structure: Structure, count: int, label: str, bits: int) -> Sample:

@@ -4,7 +4,7 @@ A profile is small, hashable data. Pairs are compared through profiles, so a fam
 equal profiles form buckets.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 
@@ -15,6 +15,8 @@ from disting.invariants.powers import degrees, powers, zeros
 from disting.invariants.sample import Representation, Sample, drawn, seen_at
 from disting.model.structure import Structure
 from disting.settings import Settings
+
+SEARCHES = 3  # points modulo 31 bits: with thousands of models one is special now and then
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,14 +66,21 @@ def profile(structure: Structure, representation: Representation, count: int, se
     """Profile from `settings.points` random points, or as many as it takes, with large primes, and one with a small prime."""
     size = minor_size(structure, representation, count)
     seen = list(samples(structure, representation, count, enough(size, settings.points), settings.seed))
-    search = seen_at(drawn(structure, f"{settings.seed}:search", SEARCH_BITS), representation, count)
+    drawings = (drawn(structure, label, SEARCH_BITS) for label in search_labels(settings.seed))
+    searches = (seen_at(one, representation, count) for one in drawings)
     known = _proven_zeros(structure, representation, count)
-    return from_samples(seen, search, known, degrees(structure), count, structure.n_states, size, settings)
+    return from_samples(seen, searches, known, degrees(structure), count, structure.n_states, size, settings)
+
+
+def search_labels(label: str) -> Iterator[str]:
+    """Yield labels of the points at which dependences are searched, one after another while they are special."""
+    for attempt in range(SEARCHES):
+        yield f"{label}:search{f':{attempt}' * bool(attempt)}"
 
 
 def from_samples(
     seen: Sequence[Sample],
-    search: Sample,
+    searches: Iterable[Sample],
     proven: frozenset[str],
     degrees: tuple[int, int],
     count: int,
@@ -79,13 +88,16 @@ def from_samples(
     size: Size,
     settings: Settings,
 ) -> Profile:
-    """Profile of a summary known through samples; `proven` are the labels that are proven to be constant."""
+    """Profile of a summary known through samples; `proven` are the labels that are proven to be constant.
+
+    Dependences are searched at the first of `searches` that is not special, as `seen` tells; the others are not asked for.
+    """
     labels = seen[0].labels
     free = tuple(any(any(s.rows[i]) for s in seen) for i in range(len(labels)))
     constants = tuple("" if free[i] else rational(seen[0].values[i], seen[0].modulus) for i in range(len(labels)))
     everything = tuple(range(len(labels)))
     rank = max(s.rank(everything) for s in seen)
-    shape, claims = _matroid(seen, search, rank, settings.subset_limit)
+    shape, claims = _matroid(seen, searches, rank, settings.subset_limit)
     return Profile(
         representation=Representation.TF if labels[0].startswith("b") else Representation.MARKOV,
         labels=labels,
@@ -127,18 +139,24 @@ def minor_size(structure: Structure, representation: Representation, count: int)
     return Size(rank * entry.degree, rank * (entry.bits + ceil(log2(rank + 1))))
 
 
-def _matroid(seen: Sequence[Sample], search: Sample, rank: int, limit: int) -> tuple[Matroid | Unsearched, int]:
-    """Matroid at the search point with each dependence confirmed at all points, and the number of these statements."""
-    if len(search.labels) > 64:
+def _matroid(seen: Sequence[Sample], searches: Iterable[Sample], rank: int, limit: int) -> tuple[Matroid | Unsearched, int]:
+    """Matroid at a search point with each dependence confirmed at all points, and the number of statements that were tried.
+
+    What was refuted counts too: each statement had its chance to be confirmed wrongly.
+    """
+    if len(seen[0].labels) > 64:
         return Unsearched("more than 64 invariants"), 0
-    try:
-        shape = matroid(search.jacobian, limit)
-    except SearchTooLargeError as reason:
-        return Unsearched(f"more than {limit} subsets: {reason}"), 0
-    statements = list(shape.dependences())
-    if shape.rank != rank or any(s.rank(rows) > bound for s in seen for rows, bound in statements):
-        return Unsearched("the search point was special; choose another seed"), 0
-    return shape, len(statements)
+    claims = 0
+    for search in searches:
+        try:
+            shape = matroid(search.jacobian, limit)
+        except SearchTooLargeError as reason:
+            return Unsearched(f"more than {limit} subsets: {reason}"), 0
+        statements = list(shape.dependences())
+        claims += len(statements)
+        if shape.rank == rank and not any(s.rank(rows) > bound for s in seen for rows, bound in statements):
+            return shape, claims
+    return Unsearched("every search point was special; choose another seed"), 0
 
 
 def _proven_zeros(structure: Structure, representation: Representation, count: int) -> frozenset[str]:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from disting.algebra.sampling import SEARCH_BITS, enough
-from disting.invariants.profile import Profile, from_samples
+from disting.invariants.profile import Profile, from_samples, search_labels
 from disting.invariants.sample import Representation
 from disting.parametric.model import Model, Terms
 from disting.parametric.samples import drawn, minor_size, samples
@@ -30,9 +30,9 @@ def profile(model: Model, representation: Representation, count: int, settings: 
     """
     size = minor_size(model, representation, count)
     seen = list(samples(model, representation, count, enough(size, settings.points), settings.seed))
-    search = drawn(model, representation, count, f"{settings.seed}:search", SEARCH_BITS)
+    searches = (drawn(model, representation, count, label, SEARCH_BITS) for label in search_labels(settings.seed))
     known = proven_constants(model, representation, count)
-    found = from_samples(seen, search, frozenset(known), model.degrees, count, model.n_states, size, settings)
+    found = from_samples(seen, searches, frozenset(known), model.degrees, count, model.n_states, size, settings)
     values = zip(found.labels, found.constants, strict=True)
     constants = tuple(str(known[label]) if label in known else value for label, value in values)
     return replace(found, constants=constants, safety=found.safety - len(seen))

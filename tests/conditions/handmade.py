@@ -19,7 +19,7 @@ def handmade(rows, values=None, *, labels=None, degrees=None, zeros=(), count=0,
     values = values or [0] * len(rows)
     return from_samples(
         [sample(rows, values, labels, LARGE)] * 2,
-        sample(searched or rows, values, labels, SMALL),
+        [sample(searched or rows, values, labels, SMALL)],
         frozenset(zeros),
         degrees or (len(rows) - 1, 0),
         count,

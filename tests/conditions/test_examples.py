@@ -24,7 +24,7 @@ def summary(rows_and_values, *, constants=()):
     for label, modulus in [("one", LARGE), ("two", LARGE), ("search", SMALL)]:
         entries = rows_and_values(*residues(label, 2, modulus), modulus)
         samples.append(sample([row for _, *row in entries], [value for value, *_ in entries], LABELS, modulus))
-    return from_samples(samples[:2], samples[2], frozenset(constants), (1, 0), 0, 1, Size(2, 2), Settings())
+    return from_samples(samples[:2], samples[2:], frozenset(constants), (1, 0), 0, 1, Size(2, 2), Settings())
 
 
 MAGNITUDE_PHASE = (

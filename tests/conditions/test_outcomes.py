@@ -152,7 +152,7 @@ def test_condition_5_is_abandoned_where_a_matroid_is_too_large():
 def test_a_special_search_point_is_recognised(searched):
     """A dependence, or a rank, that is there at the search point only makes no matroid."""
     special = handmade(GENERAL, searched=searched)
-    assert special.matroid == Unsearched("the search point was special; choose another seed")
+    assert special.matroid == Unsearched("every search point was special; choose another seed")
 
 
 def test_more_than_64_invariants_are_not_searched():

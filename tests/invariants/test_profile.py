@@ -159,16 +159,38 @@ def test_one_special_point_among_others_does_no_harm():
     names = ("b0", "b1", "b2")
     good, bad = (sample(r, [1, 2, 3], names, LARGE) for r in (rows, special))
     search = sample(rows, [1, 2, 3], names, SMALL)
-    expected = from_samples([good, good], search, frozenset(), (2, 0), 0, 1, Size(4, 4), Settings())
+    expected = from_samples([good, good], [search], frozenset(), (2, 0), 0, 1, Size(4, 4), Settings())
     assert (expected.rank, expected.free) == (2, (True, True, True))
     for seen in ([good, bad], [bad, good]):
-        assert from_samples(seen, search, frozenset(), (2, 0), 0, 1, Size(4, 4), Settings()) == expected
+        assert from_samples(seen, [search], frozenset(), (2, 0), 0, 1, Size(4, 4), Settings()) == expected
+
+
+def test_a_special_search_point_is_followed_by_another():
+    """The dependence that only the first one shows is refuted; it counts among the statements that share the bound."""
+    rows, parallel = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 2, 3]], [[1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 0, 1]]
+    good, special = (sample(r, [1, 2, 3, 4], ("b0", "b1", "b2", "b3"), SMALL) for r in (rows, parallel))
+    seen = [sample(rows, [1, 2, 3, 4], good.labels, LARGE)] * 2
+
+    def searched(*points):
+        return from_samples(seen, points, frozenset(), (3, 0), 0, 1, Size(10, 20), Settings())
+
+    assert searched(special, good).matroid == searched(good).matroid and isinstance(searched(special).matroid, Unsearched)
+    assert searched(special, good).safety <= searched(good).safety
+    asked = iter([good, special])
+    from_samples(seen, asked, frozenset(), (3, 0), 0, 1, Size(10, 20), Settings())
+    assert next(asked) is special
+
+
+def test_the_search_of_every_chain_with_dampers_ends():
+    """The first search point of this one, among thousands, is special."""
+    chain = Chain(5, 2, 2, 4, 2, 4, damped=True, ground_dampers=(1,))
+    assert not isinstance(profile(chain.structure, Representation.MARKOV, 20, Settings()).matroid, Unsearched)
 
 
 def test_constants_are_fractions_whatever_the_primes():
     primes, names = [prime("one"), LARGE, SMALL], ("b0", "b1")
     *seen, search = (sample([[1], [0]], [5, 2 * pow(3, -1, p)], names, p) for p in primes)
-    found = from_samples(seen, search, frozenset(), (1, 0), 0, 1, Size(4, 4), Settings())
+    found = from_samples(seen, [search], frozenset(), (1, 0), 0, 1, Size(4, 4), Settings())
     assert found.constants == ("", "2/3")
 
 
