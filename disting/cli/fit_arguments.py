@@ -17,53 +17,69 @@ THRESHOLDS = (30.0, 1000.0, 20.0)
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    data = p.add_argument_group("data")
-    data.add_argument("train", nargs="?", type=Path, metavar="TRAIN", help="measured frequency response, or time series")
-    data.add_argument("--test", type=Path, metavar="TEST", help="independent data of the drive (default: cross-validation)")
-    data.add_argument("--demo", action="store_true", help="simulated data of a small drive instead of files")
+    _data(p.add_argument_group("data"))
+    _candidates(p.add_argument_group("candidates"))
+    _choices(p.add_argument_group("cost and selection"))
+    _output(p.add_argument_group("output"))
+
+
+def _data(group: argparse._ArgumentGroup) -> None:
+    """Files and how they are read."""
+    group.add_argument("train", nargs="?", type=Path, metavar="TRAIN", help="measured frequency response, or time series")
+    group.add_argument("--test", type=Path, metavar="TEST", help="independent data of the drive (default: cross-validation)")
+    group.add_argument("--demo", action="store_true", help="simulated data of a small drive instead of files")
     text = "header of the response's first column (default: the first response); all: they are repeats of one"
-    data.add_argument("--column", metavar="HEADER", help=text)
+    group.add_argument("--column", metavar="HEADER", help=text)
     text = "option of the reader, such as input=iq, output=angle, sampling_rate=2500, to=acceleration; may be repeated"
-    data.add_argument("--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text)
+    group.add_argument("--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text)
     text = "another measurement of TRAIN; mean and scatter of all are taken; may be repeated"
-    data.add_argument("--repeat", type=Path, action="append", default=[], metavar="FILE", help=text)
+    group.add_argument("--repeat", type=Path, action="append", default=[], metavar="FILE", help=text)
     text = "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg; may be repeated"
-    data.add_argument("--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text)
-    data.add_argument("--scale", type=float, metavar="X", help="multiply the response by X, such as the gain of the sensor")
+    group.add_argument("--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text)
+    group.add_argument("--scale", type=float, metavar="X", help="multiply the response by X, such as the gain of the sensor")
     text = "torque per current [Nm/A], or force per current [N/A] where the output is in m: results in SI units"
-    data.add_argument("--torque-constant", type=float, metavar="K", help=text)
-    data.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
+    group.add_argument("--torque-constant", type=float, metavar="K", help=text)
+    group.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
     text = "sign of the sensor; auto takes what fits better among small and large candidates (default: +)"
-    data.add_argument("--sign", choices=SIGNS, default="+", help=text)
-    models = p.add_argument_group("candidates")
-    models.add_argument("--masses", type=_masses, default=(1, 2, 3, 4), metavar="N", help="3, 1-4 or 1,3 (default: 1-4)")
-    models.add_argument("--actuator", default="1", metavar="PORT", help="mass with the force: 2, last, or 1:3 (default: 1)")
-    models.add_argument("--sensor", default="1", metavar="PORT", help="mass that the sensor shows, likewise (default: 1)")
-    models.add_argument("--gap", type=int, default=0, metavar="I", help="no spring right of mass I (default: 0, the ground)")
-    models.add_argument("--family", action="store_true", help="force, sensor and gap anywhere: every chain of these sizes")
-    models.add_argument("--fix", type=_value, action="append", default=[], metavar="NAME=VALUE", help="a known parameter")
+    group.add_argument("--sign", choices=SIGNS, default="+", help=text)
+
+
+def _candidates(group: argparse._ArgumentGroup) -> None:
+    """Which structures are fitted, and what is known of them."""
+    group.add_argument("--masses", type=_masses, default=(1, 2, 3, 4), metavar="N", help="3, 1-4 or 1,3 (default: 1-4)")
+    group.add_argument("--actuator", default="1", metavar="PORT", help="mass with the force: 2, last, or 1:3 (default: 1)")
+    group.add_argument("--sensor", default="1", metavar="PORT", help="mass that the sensor shows, likewise (default: 1)")
+    group.add_argument("--gap", type=int, default=0, metavar="I", help="no spring right of mass I (default: 0, the ground)")
+    group.add_argument("--family", action="store_true", help="force, sensor and gap anywhere: every chain of these sizes")
+    group.add_argument("--fix", type=_value, action="append", default=[], metavar="NAME=VALUE", help="a known parameter")
     text = "range of a parameter; may be repeated"
-    models.add_argument("--bound", type=_bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text)
-    models.add_argument("--no-prune", action="store_true", help="fit indistinguishable candidates separately")
-    choice = p.add_argument_group("cost and selection")
-    choice.add_argument("--case", type=int, choices=[1, 2, 3], default=3, help="cost function of the paper (default: 3)")
+    group.add_argument("--bound", type=_bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text)
+    group.add_argument("--no-prune", action="store_true", help="fit indistinguishable candidates separately")
+
+
+def _choices(group: argparse._ArgumentGroup) -> None:
+    """What is minimised, and what is admissible."""
+    group.add_argument("--case", type=int, choices=[1, 2, 3], default=3, help="cost function of the paper (default: 3)")
     text = "of the frequency lines; auto: coherence for Welch's method (--read segment=..), else all alike (default: auto)"
-    choice.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
+    group.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
-    choice.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
+    group.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
     text = "admissible: what the data determine (determined), or the paper's three criteria alone (default: determined)"
-    choice.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
+    group.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
     text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"
-    choice.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
-    choice.add_argument("--seed", default="disting", help="of the few random starts")
-    out = p.add_argument_group("output")
-    out.add_argument(
+    group.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
+    group.add_argument("--seed", default="disting", help="of the few random starts")
+
+
+def _output(group: argparse._ArgumentGroup) -> None:
+    """Where results go."""
+    group.add_argument(
         "--out", type=written_folder, metavar="DIR", help="write a page, figures, tables, JSON and a .mat file there"
     )
-    out.add_argument("--profiles", action="store_true", help="with --out: a profile of every parameter of the selected model")
+    group.add_argument("--profiles", action="store_true", help="with --out: a profile of every parameter of the selected model")
     text = "with --out: folder that 'disting report' wrote, to which the page links its structures (default: if it lies beside)"
-    out.add_argument("--site", type=_site, metavar="DIR", help=text)
-    out.add_argument("--json", type=written_file, metavar="FILE", help="write the selection as JSON; - is standard output")
+    group.add_argument("--site", type=_site, metavar="DIR", help=text)
+    group.add_argument("--json", type=written_file, metavar="FILE", help="write the selection as JSON; - is standard output")
 
 
 def _site(text: str) -> Path:
