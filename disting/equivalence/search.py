@@ -80,7 +80,8 @@ def _fibre(given: Chain, point: Point, other: Chain) -> Fibre:
     if given.dead_time != other.dead_time:
         return Fibre(Status.EMPTY, reason="only one of them has a dead time")
     plain = replace(other, dead_time=False)
-    found = fibre(plain, target(given.structure, {name: point[name] for name in given.parameters if name != "Td"}))
+    plain_values = {name: point[name] for name in given.parameters if name != "Td"}
+    found = fibre(plain, target(given.structure, plain_values), confirm=False)
     why = not_covered(given, other)
     if found.status is Status.DEGENERATE and why:
         return Fibre(Status.NOT_COVERED, reason=why)

@@ -149,7 +149,8 @@ def standard_errors(slopes: Real, columns: Real, noise: Noise, rank: int) -> Rea
 
 def worst_direction(columns: Real, names: Sequence[str]) -> dict[str, float]:
     """Right singular vector of the smallest singular value of S-tilde, its large entries by parameter, largest positive."""
-    vector = np.linalg.svd(unit_columns(columns), full_matrices=True)[2][-1]
+    matrix = unit_columns(columns)
+    vector = np.linalg.svd(matrix, full_matrices=len(matrix) < matrix.shape[1])[2][-1]  # full where columns outnumber rows
     vector = vector / vector[np.argmax(np.abs(vector))]
     return {name: float(v) for name, v in zip(names, vector, strict=True) if abs(v) >= NAMED}
 

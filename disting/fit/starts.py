@@ -99,8 +99,8 @@ def cauer(total: float, pairs: Sequence[tuple[float, float]]) -> tuple[list[floa
     """
     denominator, numerator = np.array([total, 0.0]), np.array([1.0])
     for zero, pole in pairs:
-        denominator = np.polymul(denominator, [1 / pole**2, 1.0])
-        numerator = np.polymul(numerator, [1 / zero**2, 1.0])
+        denominator = np.convolve(denominator, [1 / pole**2, 1.0])
+        numerator = np.convolve(numerator, [1 / zero**2, 1.0])
     masses, springs = [denominator[0] / numerator[0]], []
     while len(numerator) > 1:
         rest = (denominator - masses[-1] * np.append(numerator, 0.0))[1:]
