@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 import disting
 
 NAMES = [
@@ -71,3 +73,13 @@ def test_importing_the_package_leaves_heavy_libraries_alone():
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert "disting" in loaded
     assert not HEAVY & set(loaded)
+
+
+@pytest.mark.parametrize(
+    ("command", "writes"),
+    [("compare 3:2 3:5", False), ("models 3", False), ("equivalents 3:4 --to 3:1 --formulas", True)],
+)
+def test_commands_load_sympy_only_where_they_write_an_expression(command, writes):
+    code = f"import sys; from disting.cli import main; main({command.split()}); print('sympy' in sys.modules)"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert said.splitlines()[-1] == str(writes)

@@ -4,6 +4,10 @@ from collections.abc import Mapping, Sequence
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
+Polynomial = fmpz_mpoly
+Term = tuple[int, Mapping[str, int]]
+"""Coefficient and {symbol: exponent}."""
+
 
 def symbols(names: Sequence[str]) -> dict[str, fmpz_mpoly]:
     """The generators of Z[names], in lexicographic order of the names as given."""
@@ -33,3 +37,23 @@ def coefficients(polynomial: fmpz_mpoly, variable: str) -> list[fmpz_mpoly]:
         rest = tuple(0 if i == at else power for i, power in enumerate(powers))
         parts[powers[at]][rest] = int(number)
     return [context.from_dict(part) for part in parts]
+
+
+def terms(polynomial: fmpz_mpoly) -> list[Term]:
+    """Every term, in the ring's order.
+
+    >>> m, k = symbols(["m1", "k12"]).values()
+    >>> terms(k - 2 * m**2)
+    [(-2, {'m1': 2}), (1, {'k12': 1})]
+    """
+    names = [str(symbol) for symbol in polynomial.context().gens()]
+    return [
+        (int(c), {name: int(e) for name, e in zip(names, powers, strict=True) if e})
+        for powers, c in zip(polynomial.monoms(), polynomial.coeffs(), strict=True)
+    ]
+
+
+def factors(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
+    """The integer content with sign, and the irreducible factors with exponents, single symbols first."""
+    content, found = polynomial.factor()
+    return int(content), sorted(((p, int(e)) for p, e in found), key=lambda pe: (len(pe[0]), str(pe[0])))

@@ -28,10 +28,10 @@ def doctor(options: argparse.Namespace) -> int:
     from importlib.util import find_spec
 
     print(f"{'disting':14}{__version__}")
-    for name in ("python-flint", "numpy"):
+    for name in ("python-flint", "numpy", "sympy"):
         print(f"{name:14}{version(name)}")
-    for name, brings in (("sympy", "maps as SymPy expressions"), ("distributed", "work on a cluster (--scheduler)")):
-        print(f"{name:14}{version(name) if find_spec(name) else 'not found'}; optional, for {brings}")
+    found = version("distributed") if find_spec("distributed") else "not found"
+    print(f"{'distributed':14}{found}; optional, for work on a cluster (--scheduler)")
     with Store.open(None) as store:
         print(f"{'cache':14}{store.info().path or 'off'}")
     return 0

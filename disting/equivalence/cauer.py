@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
+from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import coefficients, symbols
-from disting.equivalence.expression import Expression
 from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 from disting.model.structure import Ports, Structure
@@ -26,7 +26,7 @@ class Expansion:
     """A chain that continued fractions lead to; `values` works out its parameters."""
 
     chain: Chain
-    values: Callable[[], dict[str, Expression]]
+    values: Callable[[], dict[str, RationalFunction]]
 
 
 def expansions(given: Chain) -> Iterator[Expansion]:
@@ -68,9 +68,9 @@ def _by_parts(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expan
     chain = replace(given, act_plus=g + 1, meas_plus=g + 1) if free else given
     chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
 
-    def values() -> dict[str, Expression]:
+    def values() -> dict[str, RationalFunction]:
         """Masses and springs in terms of those of the given chain."""
-        known = {name: Expression(p, p**0) for name, p in _ring(given).items() if name != "s"}
+        known = {name: RationalFunction(p, p**0) for name, p in _ring(given).items() if name != "s"}
         masses, springs = [known[f"m{i}"] for i in range(1, n + 1)], [known[k] for k in known if k[0] == "k"]
         if free:
             masses[g:], springs[g:] = _seen(given, Ports(0, given.act_plus, 0, given.meas_plus), wall=False)
@@ -88,7 +88,7 @@ def _seen(given: Chain, ports: Ports, *, wall: bool) -> Ladder:
     ring = _ring(given)
     one = ring["s"] ** 0
     found = plain_receptance(structure, ring, ring["s"], one)
-    num, den = ([Expression(c, one) for c in coefficients(p, "s")[::2]] for p in found)
+    num, den = ([RationalFunction(c, one) for c in coefficients(p, "s")[::2]] for p in found)
     return ladder(num, den, wall=wall)
 
 
@@ -96,5 +96,5 @@ def _ring(given: Chain) -> dict[str, Any]:
     return symbols(["s", *given.parameters])
 
 
-def _named(chain: Chain, masses: list[Expression], springs: list[Expression]) -> dict[str, Expression]:
+def _named(chain: Chain, masses: list[RationalFunction], springs: list[RationalFunction]) -> dict[str, RationalFunction]:
     return dict(zip(chain.parameters, [*masses, *springs], strict=True))

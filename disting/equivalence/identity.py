@@ -14,8 +14,8 @@ from math import ceil, log2
 
 from flint import fmpq
 
+from disting.algebra.rational_function import RationalFunction, variables
 from disting.algebra.symbols import symbols
-from disting.equivalence.expression import Expression, variables
 from disting.equivalence.residual import exactly_equal
 from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
@@ -23,17 +23,17 @@ from disting.model.chain import Chain
 BITS = 256  # of a random coordinate
 
 
-def is_identity(given: Chain, other: Chain, formulas: Mapping[str, Expression]) -> bool:
+def is_identity(given: Chain, other: Chain, formulas: Mapping[str, RationalFunction]) -> bool:
     """Written out: exact. For small chains and short formulas."""
     ring = symbols(["s", *given.parameters])
     names = variables(["s", *given.parameters])
     one = names["s"] / names["s"]
     plain = plain_receptance(given.structure, ring, ring["s"], ring["s"] ** 0)
     num, den = plain_receptance(other.structure, formulas, names["s"], one)
-    return bool((num / den) == Expression(*plain))
+    return bool((num / den) == RationalFunction(*plain))
 
 
-def holds_at_random(given: Chain, other: Chain, formulas: Mapping[str, Expression], seed: str) -> bool:
+def holds_at_random(given: Chain, other: Chain, formulas: Mapping[str, RationalFunction], seed: str) -> bool:
     """At one random point, exactly; False is a proof that the formulas are wrong, True holds but for `safety`."""
     count = BITS // 8
     digits = shake_256(f"equivalence:{seed}".encode()).digest(count * len(given.parameters))
@@ -42,7 +42,7 @@ def holds_at_random(given: Chain, other: Chain, formulas: Mapping[str, Expressio
     return exactly_equal(given, point, other, {name: formula.value(point) for name, formula in formulas.items()})
 
 
-def safety(given: Chain, formulas: Mapping[str, Expression]) -> int:
+def safety(given: Chain, formulas: Mapping[str, RationalFunction]) -> int:
     """The probability that wrong formulas pass at one random point is at most 2^-safety."""
     degree = sum(formula.degree for formula in formulas.values()) + len(given.parameters)
     return BITS - ceil(log2(degree))

@@ -10,14 +10,14 @@ from typing import Any
 
 from flint import fmpq
 
+from disting.algebra.notation import expression, latex, latex_symbol, text
+from disting.algebra.rational_function import RationalFunction, variables
 from disting.certainty import Certainty
 from disting.comparison import name_of
 from disting.equivalence.cauer import expansions
-from disting.equivalence.expression import Expression, variables
 from disting.equivalence.given import Value, point_of
 from disting.equivalence.identity import holds_at_random, is_identity, safety
 from disting.equivalence.images import Image, images
-from disting.equivalence.writing import latex, latex_symbol, sympy_expression, text
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
 
@@ -37,7 +37,7 @@ class Map:
 
     given: Chain
     other: Chain
-    formulas: dict[str, Expression]
+    formulas: dict[str, RationalFunction]
     steps: tuple[str, ...]
     certainty: Certainty
     safety: int
@@ -49,10 +49,10 @@ class Map:
 
     @property
     def python(self) -> str:
-        """Python source: symbols for SymPy and a dictionary of the formulas; needs no SymPy to be written."""
+        """Python source: symbols for SymPy, positive as those of `sympy`, and a dictionary of the formulas."""
         names = ", ".join(self.given.parameters)
         lines = "".join(f'    "{name}": {text(formula)},\n' for name, formula in self.formulas.items())
-        return f'from sympy import symbols\n\n{names} = symbols("{names}")\nequivalent = {{\n{lines}}}'
+        return f'from sympy import symbols\n\n{names} = symbols("{names}", positive=True)\nequivalent = {{\n{lines}}}'
 
     @property
     def text(self) -> str:
@@ -67,8 +67,8 @@ class Map:
         return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
 
     def sympy(self) -> dict[str, Any]:
-        """SymPy expressions by parameter name of `other`; raises InputError where SymPy is not installed."""
-        return {name: sympy_expression(formula) for name, formula in self.formulas.items()}
+        """SymPy expressions by parameter name of `other`, in positive symbols."""
+        return {name: expression(formula) for name, formula in self.formulas.items()}
 
 
 def explicit_map(given: Chain, other: Chain) -> Map | None:
@@ -106,7 +106,7 @@ def _candidates(given: Chain, other: Chain) -> Iterator[Image]:
             yield image
 
 
-def _images(given: Chain, start: Mapping[str, Expression], other: Chain) -> Iterator[Image]:
+def _images(given: Chain, start: Mapping[str, RationalFunction], other: Chain) -> Iterator[Image]:
     yield from images(given, start)
     for expansion in expansions(given) if given.n_masses <= CAUER_UP_TO else ():
         if any(image.chain == other for image in images(expansion.chain, dict.fromkeys(expansion.chain.parameters, 1.0))):

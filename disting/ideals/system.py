@@ -97,9 +97,8 @@ def coefficient_map(structure: Structure) -> CoefficientMap:
     >>> [str(a) for a in coefficient_map(Chain(1).structure).denominator]
     ['m1']
     """
-    written = expanded(structure)
     names = tuple(p for p in structure.parameters if p != "Td")
-    return separated(names, written.num, written.den)
+    return separated(names, *expanded(structure))
 
 
 def normalised(structure: Structure) -> CoefficientMap:

@@ -77,8 +77,7 @@ class Candidates:
 
     def coefficients(self) -> Iterator[Candidate]:
         """The coefficients of the transfer function, the denominator made monic."""
-        whole = expanded(self.structure)
-        tops, bottoms = coefficients(whole.num, "s"), coefficients(whole.den, "s")
+        tops, bottoms = (coefficients(part, "s") for part in expanded(self.structure))
         lead = bottoms.pop().to_dict()
         if len(lead) != 1:
             return

@@ -1,14 +1,16 @@
 """Laurent polynomials in the parameters with integer coefficients: sums such as m1 + m2, quotients such as k01/m1.
 
-They are few terms long, are differentiated by hand (d p^a = a p^a/p_i) and print themselves for people and in LaTeX.
+They are few terms long and are differentiated by hand (d p^a = a p^a/p_i).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, log2
 from typing import Any
 
+from disting.algebra.notation import latex, text
 from disting.algebra.sampling import Size
+from disting.algebra.symbols import Term
 
 Number = Any  # an element of a field
 Exponents = tuple[tuple[str, int], ...]
@@ -52,16 +54,20 @@ class Formula:
     @property
     def text(self) -> str:
         """For people: k01/m1."""
-        return _sum([_term(c, e, _factor, "*", _slash) for c, e in self.terms])
+        return text(self._sum)
 
     @property
     def latex(self) -> str:
         r"""For print: \frac{k_{01}}{m_{1}}."""
-        return _sum([_term(c, e, _latex_factor, " ", _fraction) for c, e in self.terms])
+        return latex(self._sum)
 
     def renamed(self, names: Mapping[str, str]) -> "Formula":
         """The same formula in other names."""
         return Formula(tuple((c, tuple((names[n], e) for n, e in exponents)) for c, exponents in self.terms))
+
+    @property
+    def _sum(self) -> list[Term]:
+        return [(c, dict(exponents)) for c, exponents in self.terms]
 
 
 def monomial(**exponents: int) -> Formula:
@@ -78,38 +84,3 @@ def _power(at: Mapping[str, Number], exponents: Exponents) -> Number:
     for name, exponent in exponents:
         value = value * at[name] ** exponent if exponent > 0 else value / at[name] ** -exponent
     return value
-
-
-def _sum(terms: list[str]) -> str:
-    return " + ".join(terms).replace("+ -", "- ")
-
-
-def _term(
-    coefficient: int,
-    exponents: Exponents,
-    factor: Callable[[str, int], str],
-    times: str,
-    over: Callable[[str, str, bool], str],
-) -> str:
-    above = [factor(name, e) for name, e in exponents if e > 0]
-    below = [factor(name, -e) for name, e in exponents if e < 0]
-    sign, size = "-" if coefficient < 0 else "", abs(coefficient)
-    top = times.join(([] if size == 1 and above else [str(size)]) + above)
-    return sign + (over(top, times.join(below), len(below) > 1) if below else top)
-
-
-def _factor(name: str, exponent: int) -> str:
-    return name if exponent == 1 else f"{name}^{exponent}"
-
-
-def _latex_factor(name: str, exponent: int) -> str:
-    letter, index = name[0], name[1:].replace("_", ",")
-    return f"{letter}_{{{index}}}" + ("" if exponent == 1 else f"^{{{exponent}}}")
-
-
-def _slash(top: str, bottom: str, several: bool) -> str:
-    return f"{top}/({bottom})" if several else f"{top}/{bottom}"
-
-
-def _fraction(top: str, bottom: str, several: bool) -> str:
-    return rf"\frac{{{top}}}{{{bottom}}}"

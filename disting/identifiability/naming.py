@@ -12,7 +12,7 @@ from disting.model.chain import Chain
 def renamed(found: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
     """`names` leads from the canonical parameters to those of `chain`, whose order is kept everywhere."""
     place = {name: i for i, name in enumerate(chain.parameters)}
-    singles = sorted((_combination(c, names, place) for c in found.singles), key=lambda c: place[c.text])
+    singles = sorted((_combination(c, names, place) for c in found.singles), key=lambda c: place[c.parameter])
     return replace(
         found,
         parameters=chain.parameters,

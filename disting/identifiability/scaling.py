@@ -23,8 +23,7 @@ def scalings(structure: Structure, seed: str = "disting") -> tuple[Scaling, ...]
     """
     if not maybe_scaled(list(search_tangents(structure, seed, POINTS))):
         return ()
-    whole = expanded(structure)
-    powers = [p[1:] for part in (whole.num, whole.den) for p in part.monoms()]
+    powers = [p[1:] for part in expanded(structure) for p in part.monoms()]
     differences = [[a - b for a, b in zip(p, powers[0], strict=True)] for p in powers[1:]]
     names = [p for p in structure.parameters if p != "Td"]
     found = [_signed(v) for v in short_vectors(integer_kernel(differences, len(names)))]

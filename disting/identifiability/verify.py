@@ -32,7 +32,7 @@ def _seen(found: Identifiability, at: Tangent) -> bool:
     units = {name: [int(name == other) for other in at.values] for name in at.values}
     singles = {name for name, unit in units.items() if at.sees(unit)}
     independent = matrix(slopes, len(at.values), at.modulus).rank() == found.rank
-    return all(map(at.sees, slopes)) and independent and singles == {c.text for c in found.singles}
+    return all(map(at.sees, slopes)) and independent and singles == {c.parameter for c in found.singles}
 
 
 def _renamed(found: Identifiability, chain: Chain) -> bool:

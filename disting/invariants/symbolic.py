@@ -39,8 +39,7 @@ def rank_is_at_most(structure: Structure, labels: Sequence[str], most: int, seco
 
 
 def _normalised(structure: Structure) -> tuple[list[fmpz_mpoly], list[fmpz_mpoly], fmpz_mpoly]:
-    whole = expanded(structure)
-    tops, bottoms = coefficients(whole.num, "s"), coefficients(whole.den, "s")
+    tops, bottoms = (coefficients(part, "s") for part in expanded(structure))
     return tops, bottoms, bottoms[-1]
 
 

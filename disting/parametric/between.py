@@ -17,10 +17,10 @@ from math import prod
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
 from disting.parametric.cases import Case, numbered, placed
 from disting.parametric.orthant import Orthant
-from disting.parametric.ratio import Ratio
 
 CHOICES = 12  # fractions that are tried for the unknown that is chosen
 TRIALS = 6  # points at which signs are looked at in rounded numbers first
@@ -38,7 +38,7 @@ class Path:
     at: int
     low: End
     high: End
-    values: tuple[Ratio, ...]
+    values: tuple[RationalFunction, ...]
 
 
 def path(ring: Orthant, case: Case) -> Path | None:
@@ -50,7 +50,7 @@ def path(ring: Orthant, case: Case) -> Path | None:
         return _root(ring, case, free[0])
     for at in free:
         for num, den in islice(_candidates(ring), CHOICES):
-            chosen = _chosen(ring, case, at, Ratio(num, den))
+            chosen = _chosen(ring, case, at, RationalFunction(num, den))
             found = _root(ring, chosen, next(i for i in free if i != at)) if chosen else None
             if found:
                 return found
@@ -66,7 +66,7 @@ def odd_path(ring: Orthant, case: Case) -> Path | None:
     return _known(ring, case, free[0], (-one, zero), (one, zero))
 
 
-def _chosen(ring: Orthant, case: Case, at: int, value: Ratio) -> Case | None:
+def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:
     found = placed(ring, case, at, value)
     return found if isinstance(found, Case) and ring.occurring(found.equations) else None
 
@@ -84,7 +84,7 @@ def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | No
     whole, equation = numbered(ring, case), case.equations[0]
     if any(c.gcd(equation).degrees()[at] for c in whole.nonzero):
         return None
-    values = dict(whole.solved) | {at: Ratio(ring.generators[at], ring.number(1))}
+    values = dict(whole.solved) | {at: RationalFunction(ring.generators[at], ring.number(1))}
     return Path(equation, at, low, high, tuple(values[i] for i in ring.unknowns))
 
 
@@ -134,7 +134,7 @@ def _ends(ring: Orthant, case: Case, at: int) -> Iterator[End]:
     for g in case.positive:
         if g.degrees()[at] == 1:
             rest, factor = ring.coefficients(g, at)
-            root = Ratio(-rest, factor)
+            root = RationalFunction(-rest, factor)
             if ring.sign(root.num) > 0 and ring.sign(root.den) > 0:
                 yield root.num, root.den
     yield from _candidates(ring)
@@ -162,7 +162,7 @@ def without_equations(ring: Orthant, case: Case) -> Case | None:
     if case.equations or len(free) > 2:
         return None
     for num, den in _candidates(ring):
-        value = Ratio(num, den)
+        value = RationalFunction(num, den)
         chosen = placed(ring, case, free[0], value)
         found = without_equations(ring, chosen) if isinstance(chosen, Case) else None
         if found:

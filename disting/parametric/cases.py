@@ -42,10 +42,10 @@ from itertools import combinations
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.domain import Domain
 from disting.parametric.model import Model
 from disting.parametric.orthant import Orthant, TooMuch
-from disting.parametric.ratio import Ratio
 
 CASES = 300  # that are opened before the search is given up
 RESULTANTS = 24  # sum of total degrees: resultants stay a matter of milliseconds
@@ -60,7 +60,7 @@ class Case:
 
     equations: tuple[fmpz_mpoly, ...] = ()
     positive: tuple[fmpz_mpoly, ...] = ()
-    solved: tuple[tuple[int, Ratio], ...] = ()
+    solved: tuple[tuple[int, RationalFunction], ...] = ()
     nonzero: tuple[fmpz_mpoly, ...] = ()
 
 
@@ -177,14 +177,14 @@ def _solve(search: Search, case: Case, number: int, at: int, factor: fmpz_mpoly,
         search.generic.append(factor)
     nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
     asked = (*case.positive, ring.generators[at]) if positive else case.positive
-    found = placed(ring, Case(others, asked, case.solved, (*case.nonzero, *nonzero)), at, Ratio(-rest, factor))
+    found = placed(ring, Case(others, asked, case.solved, (*case.nonzero, *nonzero)), at, RationalFunction(-rest, factor))
     if isinstance(found, Case):
         _open(search, found)
     else:
         search.closed.append(found)
 
 
-def placed(ring: Orthant, case: Case, at: int, by: Ratio) -> Case | str:
+def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:
     """A case with one unknown replaced by a fraction whose denominator is not zero; else what would have to hold and fails."""
     put = [ring.put(c, at, by.num, by.den)[0] for c in case.nonzero]
     void = next((c for c, found in zip(case.nonzero, put, strict=True) if found.is_zero()), None)
@@ -204,7 +204,7 @@ def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[f
     return tuple(f for i, f in enumerate(every) if f not in every[:i])
 
 
-def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], Ratio]) -> Case:
+def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalFunction]) -> Case:
     """A case with an unknown of no equation and no inequality replaced by the first of values(1), values(2), .. that may be.
 
     These are different fractions. A polynomial of degree d in the unknown is zero at d of them at most, if it is not zero.
@@ -218,11 +218,11 @@ def numbered(ring: Orthant, case: Case) -> Case:
     left = ring.occurring((*case.equations, *case.positive))
     for at in ring.unknowns:
         if at not in left and at not in dict(case.solved):
-            case = chosen(ring, case, at, lambda k: Ratio(ring.number(k), ring.number(1)))
+            case = chosen(ring, case, at, lambda k: RationalFunction(ring.number(k), ring.number(1)))
     return case
 
 
-def put_positive(ring: Orthant, polynomial: fmpz_mpoly, at: int, by: Ratio) -> fmpz_mpoly:
+def put_positive(ring: Orthant, polynomial: fmpz_mpoly, at: int, by: RationalFunction) -> fmpz_mpoly:
     """A polynomial with the sign of the value where one variable is replaced by a fraction."""
     found, degree = ring.put(polynomial, at, by.num, by.den)
     return found * by.den if degree % 2 and ring.sign(by.den) <= 0 else found
@@ -250,7 +250,7 @@ def shortened(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
     return sign * ring.product(factors)
 
 
-def put_ratio(ring: Orthant, value: Ratio, at: int, by: Ratio) -> Ratio:
+def put_ratio(ring: Orthant, value: RationalFunction, at: int, by: RationalFunction) -> RationalFunction:
     """A fraction with one variable replaced by another fraction."""
     (top, above), (bottom, below) = (ring.put(side, at, by.num, by.den) for side in (value.num, value.den))
-    return Ratio(top * by.den ** max(below - above, 0), bottom * by.den ** max(above - below, 0))
+    return RationalFunction(top * by.den ** max(below - above, 0), bottom * by.den ** max(above - below, 0))

@@ -1,9 +1,10 @@
 """What a user writes down: matrices and lists of entries, checked for shape and turned into trees."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.parametric.expression import tree
 from disting.parametric.trees import Power, Product, Sum, Tree, names
 
@@ -33,6 +34,14 @@ def state_space(a: object, b: object, c: object, d: object) -> StateSpace:
         raise InputError(f"A is square, not {n} x {max(map(len, rows))}")
     column = [entry for row in _shaped(b, n, 1, "B") for entry in row]
     return StateSpace(rows, column, _shaped(c, 1, n, "C")[0], _shaped(d, 1, 1, "D")[0][0])
+
+
+def refuse_namesakes(*given: object) -> None:
+    """Raises InputError where two symbols of SymPy that are not the same have one name: they would become one parameter."""
+    known: dict[str, Any] = {}
+    for symbol in _symbols(given):
+        if known.setdefault(symbol.name, symbol) != symbol:
+            raise InputError(f"two different symbols are called {shown(symbol.name)}; use one of them")
 
 
 def polynomial(side: object, variable: str) -> Tree:
@@ -65,6 +74,14 @@ def _shaped(entries: object, height: int, width: int, name: str) -> Matrix:
         found = f"{len(rows)} x {max(map(len, rows), default=0)}"
         raise InputError(f"{name} is {height} x {width} (one input, one output, A with {max(height, width)} rows), not {found}")
     return rows
+
+
+def _symbols(given: Any) -> Iterator[Any]:
+    if _is_list(given):
+        for entry in _listed(given):
+            yield from _symbols(entry)
+    elif hasattr(given, "is_Symbol"):
+        yield from given.free_symbols
 
 
 def _is_list(entry: object) -> bool:

@@ -13,8 +13,8 @@ from math import comb, lcm, prod
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.errors import InputError
-from disting.parametric.ratio import Ratio
 from disting.parametric.trees import Power, Product, Sum, Tree
 
 MOST_WORK = 30_000_000
@@ -26,6 +26,7 @@ TOO_LARGE = "the expressions grow too large when they are multiplied out; write 
 
 Term = tuple[Fraction, dict[str, int]]
 """A number times powers of symbols."""
+Operation = Callable[[RationalFunction, RationalFunction], RationalFunction]
 
 
 @dataclass(slots=True)
@@ -36,7 +37,7 @@ class Expansion:
     one: fmpz_mpoly
     left: float = MOST_WORK
 
-    def value(self, of: Tree) -> Ratio:
+    def value(self, of: Tree) -> RationalFunction:
         """Value of a tree; raises InputError for x/0 and for what grows too large."""
         term = self._term(of)
         if term:
@@ -60,32 +61,32 @@ class Expansion:
             raise InputError(TOO_LARGE)
         return a * b
 
-    def ratio(self, num: fmpz_mpoly, den: fmpz_mpoly) -> Ratio:
+    def ratio(self, num: fmpz_mpoly, den: fmpz_mpoly) -> RationalFunction:
         """A fraction in lowest terms."""
         self._spend(0 if den.is_one() else COMMON * sum(len(side) * (1 + _bits(side) // 64) for side in (num, den)))
-        return Ratio(num, den)
+        return _over(num, den)
 
-    def quotient(self, a: Ratio, b: Ratio) -> Ratio:
+    def quotient(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
         """a/b; raises InputError for b = 0."""
-        return self._times(a, Ratio(b.den, b.num))
+        return self._times(a, _over(b.den, b.num))
 
     def common(self, first: fmpz_mpoly, second: fmpz_mpoly) -> fmpz_mpoly:
         """A polynomial of smallest degree that both divide."""
         return first if first == second else self.times(self.ratio(first, second).num, second)
 
-    def _plus(self, a: Ratio, b: Ratio) -> Ratio:
+    def _plus(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
         self._spend(len(a.num) + len(b.num))
         if a.den == b.den:
             return self.ratio(a.num + b.num, a.den)
         return self.ratio(self.times(a.num, b.den) + self.times(b.num, a.den), self.times(a.den, b.den))
 
-    def _times(self, a: Ratio, b: Ratio) -> Ratio:
+    def _times(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
         return self.ratio(self.times(a.num, b.num), self.times(a.den, b.den))
 
-    def _power(self, base: Ratio, exponent: int) -> Ratio:
+    def _power(self, base: RationalFunction, exponent: int) -> RationalFunction:
         for side in (base.num, base.den):
             self._spend(self._of_power(side, abs(exponent)))
-        return base**exponent
+        return base**exponent if exponent >= 0 else _over(base.den, base.num) ** -exponent
 
     def _of_power(self, base: fmpz_mpoly, n: int) -> float:
         """Work of a power: its terms times those of the base, times the words of its coefficients."""
@@ -96,7 +97,7 @@ class Expansion:
         most = min(comb(n + terms - 1, n) if terms else 1, prod(d + 1 for d in degrees))
         return most * max(terms, 1) * (1 + bits // 64)
 
-    def _halved(self, operation: Callable[[Ratio, Ratio], Ratio], values: Sequence[Ratio]) -> Ratio:
+    def _halved(self, operation: Operation, values: Sequence[RationalFunction]) -> RationalFunction:
         while len(values) > 1:
             pairs = [operation(a, b) for a, b in zip(values[::2], values[1::2], strict=False)]
             values = [*pairs, *values[2 * len(pairs) :]]
@@ -130,7 +131,7 @@ class Expansion:
                 raise InputError(TOO_LARGE)
         return number, powers
 
-    def _gathered(self, terms: Sequence[Term]) -> Ratio:
+    def _gathered(self, terms: Sequence[Term]) -> RationalFunction:
         """The sum of terms."""
         at = {name: i for i, name in enumerate(self.ring)}
         total, below = dict[tuple[int, ...], Fraction](), 1
@@ -151,6 +152,12 @@ class Expansion:
         self.left -= STEP + work * (1 + len(self.ring) // 8)
         if self.left < 0:
             raise InputError(TOO_LARGE)
+
+
+def _over(num: fmpz_mpoly, den: fmpz_mpoly) -> RationalFunction:
+    if den.is_zero():
+        raise InputError("an expression divides by zero")
+    return RationalFunction(num, den)
 
 
 def _length(number: Fraction) -> int:

@@ -2,13 +2,13 @@
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
+from disting.algebra.rational_function import RationalFunction
 from disting.conditions.explicit import Explicit, Formula, NoEquivalent
 from disting.domain import Domain
 from disting.parametric.between import End, Path
 from disting.parametric.expansion import Expansion
 from disting.parametric.expression import tree
 from disting.parametric.model import Model, Terms
-from disting.parametric.ratio import Ratio
 from disting.parametric.sections import Section
 from disting.parametric.trees import names as symbols_of
 from disting.parametric.ways import Way, way
@@ -64,7 +64,7 @@ def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
 def _end_text(end: End, names: list[str]) -> str:
     if end[1].is_zero():
         return "infinity" if end[0].is_one() else "-infinity"
-    return text_of(Ratio(*end), names)
+    return text_of(RationalFunction(*end), names)
 
 
 def _names(one: Way) -> list[str]:
@@ -87,19 +87,19 @@ def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
     if tuple(name for name, _ in values) != other.parameters or not {n for t in trees for n in symbols_of(t)} <= ring.keys():
         return False
     point = [expansion.value(t) for t in trees]
-    here = [value_of(c, [Ratio(ring[n], one) for n in given.parameters], one) for c in _every(given)]
+    here = [value_of(c, [RationalFunction(ring[n], one) for n in given.parameters], one) for c in _every(given)]
     there = [value_of(c, point, one) for c in _every(other)]
     equation = expansion.value(tree(root[1])).num if root else one - one
-    rests = [b * here[-1] + Ratio(-a.num, a.den) * there[-1] for a, b in zip(here, there, strict=True)]
+    rests = [b * here[-1] - a * there[-1] for a, b in zip(here, there, strict=True)]
     sides = [side for v in (*point, there[-1]) for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))]
     return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(_is_multiple(r.num, equation) for r in rests)
 
 
-def value_of(terms: Terms, point: list[Ratio], one: fmpz_mpoly) -> Ratio:
+def value_of(terms: Terms, point: list[RationalFunction], one: fmpz_mpoly) -> RationalFunction:
     """A polynomial at fractions."""
-    total = Ratio(one - one, one)
+    total = RationalFunction(one - one, one)
     for exponents, number in terms:
-        term = Ratio(one * number, one)
+        term = RationalFunction(one * number, one)
         for x, e in zip(point, exponents, strict=True):
             term = term * x**e if e else term
         total = total + term

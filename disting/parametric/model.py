@@ -12,17 +12,17 @@ from dataclasses import dataclass, field
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
+from disting.algebra.notation import printed, quotient
+from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import renamed, symbols
 from disting.errors import InputError, shown
 from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
-from disting.parametric.entries import polynomial, state_space
+from disting.parametric.entries import polynomial, refuse_namesakes, state_space
 from disting.parametric.expansion import Expansion
 from disting.parametric.expression import tree
-from disting.parametric.ratio import Ratio
 from disting.parametric.response import response
 from disting.parametric.trees import LONGEST_NUMBER, Tree, names
-from disting.parametric.written import written
 
 MOST_SYMBOLS = 300
 Terms = tuple[tuple[tuple[int, ...], int], ...]
@@ -50,12 +50,13 @@ class Model:
         """Model x' = A x + B u, y = C x + D u with A (n x n), B (n x 1), C (1 x n), D (1 x 1).
 
         Matrices are SymPy or NumPy ones or nested lists; B and C may be flat lists, D a single entry. Entries are exact
-        numbers, texts such as "k12/m1" or SymPy expressions; parameters are their symbols, sorted by name. `s` is the frequency
-        variable and must not be among them. Raises InputError.
+        numbers, texts such as "k12/m1" or SymPy expressions; parameters are their symbols, sorted by name, whatever is assumed
+        of them. `s` is the frequency variable and must not be among them. Raises InputError.
 
         >>> Model.from_state_space([["-k"]], [1], ["g"]).parameters
         ('g', 'k')
         """
+        refuse_namesakes(a, b, c, d, s)
         space = state_space(a, b, c, d)
         parameters, variable = _parameters(space.entries), _variable(s)
         if variable in parameters:
@@ -64,14 +65,16 @@ class Model:
         return _model(response(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters, name)
 
     @staticmethod
-    def from_transfer_function(num: object, den: object, *, s: object = "s", name: str = "model") -> "Model":
+    def from_transfer_function(num: object, den: object = 1, *, s: object = "s", name: str = "model") -> "Model":
         """Model num/den: lists of coefficients, the highest power first (as in scipy and python-control), or expressions in s.
 
-        Entries as in `from_state_space`. Raises InputError, also for a numerator of higher degree than the denominator.
+        An expression may be all of G(s). Entries as in `from_state_space`. Raises InputError, also for a numerator of higher
+        degree than the denominator.
 
         >>> Model.from_transfer_function("k*s", "(s + p)*(s + q)*k").denominator
         (p*q, p + q, 1)
         """
+        refuse_namesakes(num, den, s)
         variable = _variable(s)
         top, bottom = (polynomial(side, variable) for side in (num, den))
         parameters = tuple(name for name in _parameters([top, bottom]) if name != variable)
@@ -91,9 +94,10 @@ class Model:
         """
         if chain.dead_time:
             raise InputError("a dead time exp(-Td s) is no rational function of s")
-        form, parameters = expanded(chain.structure), tuple(sorted(chain.parameters))
+        parameters = tuple(sorted(chain.parameters))
         ring = symbols(["s", *parameters])
-        return _model(Ratio(renamed(form.num, ring, {}), renamed(form.den, ring, {})), parameters, name or str(chain))
+        num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
+        return _model(RationalFunction(num, den), parameters, name or str(chain))
 
     @property
     def numerator(self) -> tuple[fmpz_mpoly, ...]:
@@ -121,14 +125,14 @@ class Model:
         return len(self.numerator_terms) - 1, self.n_states
 
     def __str__(self) -> str:
-        return f"G(s) = {written(self.numerator, self.denominator)}"
+        return f"G(s) = {printed(quotient(self.numerator, self.denominator, evaluate=False))}"
 
     def _polynomials(self, coefficients: tuple[Terms, ...]) -> tuple[fmpz_mpoly, ...]:
         context = fmpz_mpoly_ctx.get(self.parameters, Ordering.lex)
         return tuple(context.from_dict(dict(terms)) for terms in coefficients)
 
 
-def _model(ratio: Ratio, parameters: tuple[str, ...], name: str) -> Model:
+def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
     """The model of a transfer function in the ring of s and the parameters, s first."""
     if ratio.num.is_zero():
         raise InputError("the transfer function is zero: the output does not depend on the input")

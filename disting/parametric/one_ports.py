@@ -26,11 +26,11 @@ from dataclasses import replace
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.domain import Domain
 from disting.parametric.cases import Case, cases_of
 from disting.parametric.model import Model, Terms
 from disting.parametric.orthant import Orthant, TooMuch
-from disting.parametric.ratio import Ratio
 from disting.parametric.sections import cover, sections
 
 Polynomial = list[fmpz_mpoly]
@@ -64,7 +64,7 @@ def _kind(model: Model) -> tuple[int, bool, bool]:
     return model.n_states, model.degrees[0] == model.n_states, not model.denominator_terms[0]
 
 
-def _reaches(ring: Orthant, coordinates: list[Ratio] | None) -> bool:
+def _reaches(ring: Orthant, coordinates: list[RationalFunction] | None) -> bool:
     if coordinates is None or len(coordinates) != ring.n_given:
         return False
     if any(ring.sign(c.num) * ring.sign(c.den) <= 0 for c in coordinates):
@@ -77,9 +77,9 @@ def _reaches(ring: Orthant, coordinates: list[Ratio] | None) -> bool:
         return False
 
 
-def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[Ratio] | None:
+def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFunction] | None:
     """k_oo, k_0, and all k_i and a_i, where the denominator has linear factors."""
-    found = [Ratio(num[-1], den[-1])] if len(num) == len(den) else []
+    found = [RationalFunction(num[-1], den[-1])] if len(num) == len(den) else []
     s = ring.generators[ring.path]
     top, bottom = (sum((c * s**i for i, c in enumerate(side)), ring.number(0)) for side in (num, den))
     if max(len(top), len(bottom)) > ring.terms:
@@ -91,21 +91,21 @@ def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[Ratio] | No
             return None
         e, d = ring.coefficients(factor, ring.path)
         above, below = (_at(ring, side, -e, d) for side in (top, bottom // factor))
-        found += [above / below / Ratio(d, ring.number(1))]
-        found += [] if e.is_zero() else [Ratio(e, d)]
+        found += [above / below / RationalFunction(d, ring.number(1))]
+        found += [] if e.is_zero() else [RationalFunction(e, d)]
     return found
 
 
-def _dual_foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[Ratio] | None:
+def _dual_foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFunction] | None:
     """The same of H = den/(s num)."""
     return _foster(ring, den[1:], num) if den[0].is_zero() else _foster(ring, den, [ring.number(0), *num])
 
 
-def _cauer(ring: Orthant, num: Polynomial, den: Polynomial) -> list[Ratio] | None:
+def _cauer(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFunction] | None:
     """r_0, c_1, r_1, .. of the continued fraction; None where the degrees do not fall one by one."""
     one = ring.number(1)
-    top, bottom = ([Ratio(c, one) for c in side] for side in (num, den))
-    found, zero = list[Ratio](), Ratio(ring.number(0), one)
+    top, bottom = ([RationalFunction(c, one) for c in side] for side in (num, den))
+    found, zero = list[RationalFunction](), RationalFunction(ring.number(0), one)
     if len(top) == len(bottom):
         found.append(top[-1] / bottom[-1])
         top = _less(top, found[-1], bottom)[:-1]
@@ -124,14 +124,14 @@ def _cauer(ring: Orthant, num: Polynomial, den: Polynomial) -> list[Ratio] | Non
     return found
 
 
-def _less(side: list[Ratio], factor: Ratio, other: list[Ratio]) -> list[Ratio]:
+def _less(side: list[RationalFunction], factor: RationalFunction, other: list[RationalFunction]) -> list[RationalFunction]:
     """side - factor * other, of equal lengths."""
-    return [a + Ratio(-(factor * b).num, (factor * b).den) for a, b in zip(side, other, strict=True)]
+    return [a - factor * b for a, b in zip(side, other, strict=True)]
 
 
-def _at(ring: Orthant, polynomial: fmpz_mpoly, num: fmpz_mpoly, den: fmpz_mpoly) -> Ratio:
+def _at(ring: Orthant, polynomial: fmpz_mpoly, num: fmpz_mpoly, den: fmpz_mpoly) -> RationalFunction:
     value, degree = ring.put(polynomial, ring.path, num, den)
-    return Ratio(value, den**degree)
+    return RationalFunction(value, den**degree)
 
 
 def _plain(model: Model) -> Model | None:

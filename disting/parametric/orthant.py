@@ -15,9 +15,9 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
+from disting.algebra.rational_function import RationalFunction
 from disting.domain import Domain
 from disting.parametric.model import Model, Terms
-from disting.parametric.ratio import Ratio
 
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign of a polynomial, or is zero."""
@@ -72,20 +72,20 @@ class Orthant:
         here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
         return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
 
-    def monic(self, model: Model) -> list[Ratio]:
+    def monic(self, model: Model) -> list[RationalFunction]:
         """All coefficients over the leading one, in the p."""
         sides = [self.lifted(c, 0) for c in (*model.numerator_terms, *model.denominator_terms)]
-        return [Ratio(c, sides[-1]) for c in sides[:-1]]
+        return [RationalFunction(c, sides[-1]) for c in sides[:-1]]
 
-    def _invariants(self, model: Model, first: int) -> list[Ratio]:
+    def _invariants(self, model: Model, first: int) -> list[RationalFunction]:
         """Coefficients of G over the leading one, the numerator without the multiple of the denominator that G is at s = oo."""
         top, bottom = ([self.lifted(c, first) for c in side] for side in (model.numerator_terms, model.denominator_terms))
         lead = bottom[-1]
-        monic = [Ratio(c, lead) for c in bottom[:-1]]
+        monic = [RationalFunction(c, lead) for c in bottom[:-1]]
         if len(top) < len(bottom):
-            return [*(Ratio(c, lead) for c in top), *monic]
+            return [*(RationalFunction(c, lead) for c in top), *monic]
         rest = [b * lead - top[-1] * a for a, b in zip(bottom[:-1], top[:-1], strict=True)]
-        return [Ratio(top[-1], lead), *(Ratio(c, lead * lead) for c in rest), *monic]
+        return [RationalFunction(top[-1], lead), *(RationalFunction(c, lead * lead) for c in rest), *monic]
 
     def lead(self, other: Model) -> fmpz_mpoly:
         """Leading denominator coefficient of the searched model."""

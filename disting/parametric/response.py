@@ -12,14 +12,14 @@ from functools import reduce
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.parametric.entries import StateSpace
 from disting.parametric.expansion import Expansion
 from disting.parametric.minors import minors
-from disting.parametric.ratio import Ratio
 from disting.parametric.trees import Tree
 
 
-def response(space: StateSpace, expansion: Expansion, s: fmpz_mpoly) -> Ratio:
+def response(space: StateSpace, expansion: Expansion, s: fmpz_mpoly) -> RationalFunction:
     """G(s) in lowest terms; the ring of the expansion holds s and the parameters. Raises InputError if it grows too large."""
     one = expansion.one
     dynamics = [_cleared([*row, force], expansion) for row, force in zip(space.a, space.b, strict=True)]

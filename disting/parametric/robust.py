@@ -21,11 +21,11 @@ from math import lcm
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.domain import Domain
 from disting.parametric.boxes import Box, Grid, is_empty, root
 from disting.parametric.cases import Case, Search
 from disting.parametric.orthant import value_at
-from disting.parametric.ratio import Ratio
 from disting.parametric.sections import Section
 
 UNKNOWNS = 2  # of a case at a point, at most
@@ -86,7 +86,7 @@ def _is_inside(parted: Parted, values: list[Fraction]) -> bool:
     return parted.search.ring.domain is not Domain.POSITIVE or min(values) > 0
 
 
-def _valued(values: tuple[Ratio, ...], point: Point) -> list[Fraction] | None:
+def _valued(values: tuple[RationalFunction, ...], point: Point) -> list[Fraction] | None:
     below = [value_at(v.den, point) for v in values]
     return [value_at(v.num, point) / d for v, d in zip(values, below, strict=True)] if all(below) else None
 

@@ -22,9 +22,9 @@ from itertools import product
 
 from flint import fmpz_mpoly
 
+from disting.algebra.rational_function import RationalFunction
 from disting.parametric.cases import Case, Search, chosen, inequalities, numbered, put_positive, unknown_factors
 from disting.parametric.orthant import Orthant, TooMuch
-from disting.parametric.ratio import Ratio
 
 SECTIONS = 200  # of one case
 SMOOTH = 8  # polynomials in sections that cover everything: so many signs are tried in all ways
@@ -38,7 +38,7 @@ class Section:
     """An equivalent as fractions in the p, one for each unknown, wherever all polynomials of `where` are positive."""
 
     where: tuple[fmpz_mpoly, ...]
-    values: tuple[Ratio, ...]
+    values: tuple[RationalFunction, ...]
 
 
 def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
@@ -154,12 +154,12 @@ def _difference(greater: Bound, smaller: Bound) -> fmpz_mpoly:
     return greater[1] * smaller[0] - smaller[1] * greater[0]
 
 
-def _inside(ring: Orthant, low: Bound, high: Bound | None, weight: int) -> Ratio:
+def _inside(ring: Orthant, low: Bound, high: Bound | None, weight: int) -> RationalFunction:
     """(L + w U)/(1 + w), or L + w."""
-    least, w = Ratio(low[1], low[0]), ring.number(weight)
+    least, w = RationalFunction(low[1], low[0]), ring.number(weight)
     if high is None:
-        return least + Ratio(w, ring.number(1))
-    return (least + Ratio(w * high[1], high[0])) / Ratio(w + 1, ring.number(1))
+        return least + RationalFunction(w, ring.number(1))
+    return (least + RationalFunction(w * high[1], high[0])) / RationalFunction(w + 1, ring.number(1))
 
 
 def held(ring: Orthant, polynomial: fmpz_mpoly, section: Section) -> fmpz_mpoly:

@@ -18,13 +18,13 @@ from itertools import islice, permutations
 
 from flint import fmpz_mpoly, nmod_mat
 
+from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
 from disting.domain import Domain
 from disting.parametric.cases import Case, Search, searched
 from disting.parametric.identifiability import LocalIdentifiability, local_identifiability
 from disting.parametric.model import Model
 from disting.parametric.orthant import Orthant, TooMuch
-from disting.parametric.ratio import Ratio
 from disting.parametric.samples import evaluated
 from disting.parametric.words import text_of
 from disting.settings import Settings
@@ -80,7 +80,7 @@ def global_identifiability(model: Model, settings: Settings = SETTINGS) -> Globa
 class _Vector:
     """Values of all unknowns, None for those that are free; the equation of a root among them, and its position."""
 
-    values: tuple[Ratio | None, ...]
+    values: tuple[RationalFunction | None, ...]
     equation: fmpz_mpoly | None
     at: int
 
@@ -142,15 +142,15 @@ def _same(first: _Vector, second: _Vector) -> bool:
 
 def _is_unique(ring: Orthant, vectors: Sequence[_Vector], at: int, search: Search | None) -> bool:
     """Whether an unknown is p in all cases; all of them are looked at, so cases that were left out make it no less true."""
-    p = Ratio(ring.generators[at], ring.number(1))
+    p = RationalFunction(ring.generators[at], ring.number(1))
     return search is not None and all(x.values[at] == p for x in vectors)
 
 
 def _combinations(ring: Orthant, model: Model, rank: int, unique: tuple[str, ...]) -> tuple[str, ...]:
     """Independent ones, by their gradients modulo a prime: what is independent there is so everywhere else."""
-    invariants = [Ratio(r.num, r.den) for r in ring.monic(model)]
-    singles = [Ratio(ring.generators[i], ring.number(1)) for i, name in enumerate(model.parameters) if name in unique]
-    candidates = [*singles, *sorted(invariants, key=lambda r: (len(r.num) + len(r.den), r.num.total_degree()))]
+    one = ring.number(1)
+    singles = [RationalFunction(ring.generators[i], one) for i, name in enumerate(model.parameters) if name in unique]
+    candidates = [*singles, *sorted(ring.monic(model), key=lambda r: (len(r.num) + len(r.den), r.num.total_degree()))]
     modulus = prime(f"combinations:{model.numerator_terms}:{model.denominator_terms}")
     point = residues(f"combinations:{model.parameters}", ring.path + 1, modulus)
     chosen, rows = list[str](), list[list[int]]()
@@ -163,7 +163,7 @@ def _combinations(ring: Orthant, model: Model, rank: int, unique: tuple[str, ...
     return tuple(chosen)
 
 
-def _gradient(ratio: Ratio, point: list[int], modulus: int) -> list[int]:
+def _gradient(ratio: RationalFunction, point: list[int], modulus: int) -> list[int]:
     """Gradient of num/den times den^2."""
     sides = [[(tuple(map(int, e)), int(c)) for e, c in side.to_dict().items()] for side in (ratio.num, ratio.den)]
     (top, above), (bottom, below) = (evaluated(tuple(side), point, modulus) for side in sides)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.parametric.ratio import Ratio
+from disting.algebra.rational_function import RationalFunction
 
 
 def polynomial_text(polynomial: fmpz_mpoly, names: Sequence[str]) -> str:
@@ -13,7 +13,7 @@ def polynomial_text(polynomial: fmpz_mpoly, names: Sequence[str]) -> str:
     return str(context.from_dict(polynomial.to_dict())).replace("^", "**")
 
 
-def text_of(ratio: Ratio, names: Sequence[str]) -> str:
+def text_of(ratio: RationalFunction, names: Sequence[str]) -> str:
     """A fraction with other names of its variables."""
     top, bottom = (polynomial_text(side, names) for side in (ratio.num, ratio.den))
     if bottom == "1":

@@ -5,18 +5,18 @@ spring and the damper beside it act as one dynamic stiffness. Written out in k, 
 hundred terms and more; in κ they stay readable, and nothing is lost.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from disting.algebra.symbols import coefficients
+from disting.algebra.notation import latex, latex_symbol
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import Polynomial, coefficients, factors, terms
 from disting.equivalence import explicit_map
-from disting.equivalence.expression import Expression, Polynomial, factors, terms
 from disting.equivalence.images import images
-from disting.equivalence.writing import latex, latex_symbol
 from disting.identifiability.parts import Combination
-from disting.invariants.expanded import transfer_function
+from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
 from disting.report.mathml import equation, expression, factorised, formula, fraction, math, primed, summands, symbol
 from disting.report.words import LARGEST_SPELLED_OUT
@@ -58,9 +58,9 @@ def written(chain: Chain) -> TransferFunction:
     \end{align}
     """
     stiffness = chain.damped and chain.n_masses > LARGEST_SPELLED_OUT
-    found = transfer_function(replace(chain, damped=False) if stiffness else chain)
+    found = expanded((replace(chain, damped=False) if stiffness else chain).structure)
     names = ("B", "A") if stiffness else ("b", "a")
-    sides = [(letter, _coefficients(p)) for letter, p in zip(names, (found.num, found.den), strict=True)]
+    sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
     head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
     flat = [(f"{letter}{power}", p) for letter, coefficients in sides for power, p in coefficients]
     lines = tuple((math(f"{symbol(label)}<mo>=</mo>"), _typeset(p, stiffness)) for label, p in flat)
@@ -112,18 +112,8 @@ def _latex(sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tu
 
 
 def _latex_in_s(letter: str, found: Sequence[Coefficient]) -> str:
-    return " + ".join(
-        latex_symbol(f"{letter}{n}") + ("" if not n else " s" if n == 1 else f" s^{{{n}}}") for n, _ in reversed(found)
-    )
+    return latex([(1, {f"{letter}{n}": 1, "s": n}) for n, _ in reversed(found)])
 
 
 def _latex_of(polynomial: Polynomial) -> str:
-    if _is_short(polynomial):
-        return latex(Expression(polynomial, polynomial**0))
-    return " + ".join(_latex_term(c, powers) for c, powers in terms(polynomial)).replace("+ -", "- ")
-
-
-def _latex_term(coefficient: int, powers: Mapping[str, int]) -> str:
-    size = [str(abs(coefficient))] * (abs(coefficient) != 1 or not powers)
-    symbols = [latex_symbol(name) + (f"^{{{e}}}" if e > 1 else "") for name, e in powers.items()]
-    return ("-" if coefficient < 0 else "") + " ".join(size + symbols)
+    return latex(RationalFunction(polynomial, polynomial**0) if _is_short(polynomial) else terms(polynomial))

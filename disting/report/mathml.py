@@ -2,6 +2,9 @@
 
 A long sum is a list of terms, each an element of its own: a browser breaks lines between elements, never inside of one.
 Every name is a parameter's or a fixed letter, so nothing has to be escaped.
+
+SymPy's printer writes an expression as one element. For the 15,500 pieces of the shipped pages it took 11.0 s instead of 1.5 s,
+of 40 s for all files, and 3.2 MB instead of 2.2 MB, with indices as identifiers. All else that pages print, LaTeX, is SymPy's.
 """
 
 from collections.abc import Iterable, Mapping
@@ -9,11 +12,9 @@ from itertools import starmap
 
 from markupsafe import Markup
 
-from disting.equivalence.expression import Expression, Polynomial, factors, terms
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import Polynomial, Term, factors, terms
 from disting.identifiability.formula import Formula
-
-Term = tuple[int, Mapping[str, int]]
-"""Coefficient and {symbol: exponent}."""
 
 
 def math(inner: str) -> Markup:
@@ -66,7 +67,7 @@ def fraction(top: str, bottom: str) -> str:
     return f"<mfrac><mrow>{top}</mrow><mrow>{bottom}</mrow></mfrac>"
 
 
-def expression(value: Expression) -> str:
+def expression(value: RationalFunction) -> str:
     """A rational function, factorised."""
     top, bottom = ("".join(factorised(p)) for p in (value.num, value.den))
     return top if value.den.is_one() else fraction(top, bottom)

@@ -1,13 +1,9 @@
 """The wording that pages and figures share."""
 
-import re
-
 from disting.catalogs import Catalog
 from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.exact import EXACT
 from disting.domain import Domain
-from disting.invariants.expanded import transfer_function
-from disting.model.chain import Chain
 from disting.verdict import RULE_NAMES, Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
@@ -56,19 +52,6 @@ def totals(catalog: Catalog, view: View = View.POSITIVE) -> dict[Relation, int]:
     return {relation: found.count(relation) for relation in shown}
 
 
-def coefficients(chain: Chain) -> tuple[str, ...]:
-    """The transfer-function coefficients in the parameters, a line each, or nothing where that is too long to read.
-
-    >>> coefficients(Chain(2))
-    ('b0 = (k12) / a2', 'b2 = (m2) / a2', 'a0 = (m1 k12 + m2 k12) / a2', 'a2 = m1 m2')
-    """
-    if chain.n_masses > LARGEST_SPELLED_OUT:
-        return ()
-    table = {label: _readable(text) for label, text in transfer_function(chain).table().items() if text != "0"}
-    *others, lead = table
-    return (*(f"{label} = ({table[label]}) / {lead}" for label in others), f"{lead} = {table[lead]}")
-
-
 def rule_in_words(decided_by: str) -> str:
     """What decided, in words.
 
@@ -77,11 +60,6 @@ def rule_in_words(decided_by: str) -> str:
     """
     named = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with positive parameters"}
     return named.get(decided_by, f"condition {decided_by}")
-
-
-def _readable(expression: str) -> str:
-    """Products without signs, powers as superscripts."""
-    return re.sub(r"\^(\d)", lambda m: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(m[1])], expression).replace("*", " ")
 
 
 def plural(count: int, one: str, many: str = "") -> str:

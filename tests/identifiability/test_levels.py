@@ -229,7 +229,7 @@ def test_lattices():
 
 def test_formulas_for_print():
     formula = Formula(((1, (("k9_10", 2), ("m1", -1))), (-3, (("m2", 1),)), (1, (("T1", -1),))))
-    assert formula.text == "k9_10^2/m1 - 3*m2 + 1/T1"
+    assert formula.text == "k9_10**2/m1 - 3*m2 + 1/T1"
     assert formula.latex == r"\frac{k_{9,10}^{2}}{m_{1}} - 3 m_{2} + \frac{1}{T_{1}}"
     assert identifiability(Chain(4, meas_plus=4)).basis[-1].latex == r"\text{coefficient } a_{2}"
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from disting import Certainty, Query, Relation, View
+from disting.algebra.rational_function import RationalFunction
 from disting.conditions.evidence import NoEquivalent, Renaming
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
@@ -13,7 +14,6 @@ from disting.parametric import Model, Witnesses, alternatives, compare, confirms
 from disting.parametric.admissible import of_ways, points
 from disting.parametric.cases import Case, Search
 from disting.parametric.orthant import Orthant
-from disting.parametric.ratio import Ratio
 from disting.parametric.sections import sections
 from disting.parametric.ways import way
 
@@ -182,7 +182,7 @@ def test_what_contradicts_itself_is_no_finding():
 def test_formulas_of_another_model_are_no_evidence():
     one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["u"], [1, 1])
     there, back = way(one, other, Domain.POSITIVE), way(other, one, Domain.POSITIVE)
-    double = Ratio(2 * there.covering[0].values[0].num, there.covering[0].values[0].den)
+    double = RationalFunction(2 * there.covering[0].values[0].num, there.covering[0].values[0].den)
     wrong = replace(there, covering=(replace(there.covering[0], values=(double,)),))
     with pytest.raises(ContradictionError, match="another transfer function"):
         of_ways(one, other, (wrong, back), Domain.POSITIVE, "s")

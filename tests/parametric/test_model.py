@@ -78,6 +78,53 @@ def test_expressions_and_texts_and_polynomials_agree():
     assert Model.from_transfer_function(1, m / k * s**2 + 1) == written
 
 
+def test_one_expression_is_a_whole_transfer_function():
+    s, k, m = sp.Symbol("s"), *sp.symbols("k m", positive=True)
+    assert Model.from_transfer_function(k / (m * s**2 + k) - 1) == Model.from_transfer_function("-m*s**2", "m*s**2 + k")
+    assert Model.from_transfer_function("k/(m*s**2 + k)") == Model.from_transfer_function(k, m * s**2 + k)
+    matrix = sp.ImmutableMatrix([[0, 1], [-k / m, 0]])
+    space = Model.from_state_space(matrix, sp.SparseMatrix([0, 1 / m]), sp.ImmutableMatrix([[k, 0]]), sp.Integer(0), s=s)
+    assert space == Model.from_transfer_function(k / (m * s**2 + k))
+    with pytest.raises(InputError, match="no rational expression"):
+        Model.from_transfer_function(sp.exp(-s) / (s + k))
+
+
+def test_symbols_that_only_look_alike_are_refused():
+    """SymPy computes with them as two; as one parameter they would make another model."""
+    k, other, s = sp.Symbol("k"), sp.Symbol("k", positive=True), sp.Symbol("s")
+    with pytest.raises(InputError, match="two different symbols are called 'k'"):
+        Model.from_transfer_function(k / (s + other))
+    with pytest.raises(InputError, match="two different symbols are called 'k'"):
+        Model.from_state_space(sp.Matrix([[-k]]), [other], ["k"])
+    with pytest.raises(InputError, match="two different symbols are called 's'"):
+        Model.from_transfer_function(1 / (sp.Symbol("s", real=True) + k), s=s)
+    with pytest.raises(InputError, match="two different symbols are called 'x'"):
+        Model.from_transfer_function([sp.Dummy("x")], [1, sp.Dummy("x")])
+    assert Model.from_transfer_function(other, ["1", other], s=s).parameters == ("k",)
+
+
+@pytest.mark.parametrize(
+    ("num", "den", "text"),
+    [
+        ("1 - k*s", "s + k", "(1 - k*s)/(k + s)"),
+        (
+            "2*k*s**2/3 - 1/7",
+            "k*m*s**3 + s**2*(k - m) - 5*s + 1",
+            "(-3 + 14*k*s**2)/(21 - 105*s + (21*k - 21*m)*s**2 + 21*k*m*s**3)",
+        ),
+        ("k*m*s", "2*s + 1", "k*m*s/(1 + 2*s)"),
+        ("k + 1", "7*(m + n)", "(k + 1)/(7*m + 7*n)"),
+        ("2*s", "-k*s**2", "-2/(k*s)"),
+        ("k*m", "s**2*(k - m)*(k + m)", "k*m/((k**2 - m**2)*s**2)"),
+        ("k", "3", "k/3"),
+    ],
+)
+def test_a_model_is_written_as_it_can_be_read_again(num, den, text):
+    model = Model.from_transfer_function(num, den)
+    assert str(model) == f"G(s) = {text}"
+    assert Model.from_transfer_function(text) == model
+
+
 def test_another_frequency_variable():
     z, s = sp.symbols("z s")
     model = Model.from_transfer_function(s, z + s, s=z)

@@ -10,6 +10,7 @@ import sympy as sp
 
 from disting import Certainty, Family, Query, Relation, View
 from disting import compare as compare_chains
+from disting.algebra.rational_function import RationalFunction
 from disting.conditions.explicit import Explicit
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
@@ -20,7 +21,6 @@ from disting.parametric.between import path
 from disting.parametric.cases import Case, Search
 from disting.parametric.formulas import fit
 from disting.parametric.orthant import Orthant, value_at
-from disting.parametric.ratio import Ratio
 from disting.parametric.robust import Parted
 from disting.parametric.sections import held, sections
 from disting.parametric.ways import Way, way
@@ -218,8 +218,8 @@ def test_a_common_root_is_no_path():
     ring = Orthant(1, 2, Domain.POSITIVE)
     p, x = ring.generators[:2]
     equation = x**2 - 2 * p
-    case = Case((equation,), (), ((2, Ratio(p, x)),))
-    assert path(ring, case).values == (Ratio(x, ring.number(1)), Ratio(p, x))
+    case = Case((equation,), (), ((2, RationalFunction(p, x)),))
+    assert path(ring, case).values == (RationalFunction(x, ring.number(1)), RationalFunction(p, x))
     assert path(ring, replace(case, nonzero=(equation,))) is None
     assert path(ring, replace(case, equations=(equation * (x - p),), nonzero=(equation,))) is None
     assert path(ring, replace(case, nonzero=(x - p,)))
@@ -262,7 +262,7 @@ def test_elimination_keeps_off_denominators():
     ring = Orthant(1, 2, Domain.POSITIVE)
     p, x = ring.generators[:2]
     for positive_, zero in ((2 * p - x, x - p), (x - p, x - p - 1)):
-        found, left = sections(Search(ring, (1, 2)), Case((), (positive_,), ((2, Ratio(p, zero**2)),), (zero,)))
+        found, left = sections(Search(ring, (1, 2)), Case((), (positive_,), ((2, RationalFunction(p, zero**2)),), (zero,)))
         assert found and not left
         for section in found:
             assert not held(ring, zero, section).is_zero() and not section.values[1].den.is_zero()

@@ -69,7 +69,7 @@ def _oracle_rows(structure, labels):
 
     whole = expanded(structure)
     s = sympy.Symbol("s")
-    num, den = (sympy.Poly(sympy.sympify(str(p).replace("^", "**")), s) for p in (whole.num, whole.den))
+    num, den = (sympy.Poly(sympy.sympify(str(p).replace("^", "**")), s) for p in whole)
     m, lead, a = den.degree(), den.LC(), den.all_coeffs()
     b = [0] * (m - num.degree()) + num.all_coeffs()
     g = []

@@ -1,0 +1,119 @@
+"""Rational functions for people, by SymPy: as its expressions, as text that Python reads, and in LaTeX.
+
+Importing SymPy takes about as long as importing all of this package, so it is imported where an expression is written and
+nowhere else. What is printed is built unevaluated: SymPy then keeps the order of the terms, which is the chain's (k12/m1 +
+k12/m2, where it would sort k12/m2 + k12/m1), and numbers before sums. What users compute with is evaluated, in symbols that are
+positive, as parameters are, but for the frequency variable s.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import Polynomial, Term, factors, terms
+
+Expr = Any  # an expression of SymPy
+Sum = Sequence[Term]
+"""A sum of products of powers, whose exponents may be negative."""
+Product = tuple[Any, list[tuple[Expr, int]]]
+"""A number, and bases with their exponents."""
+
+
+def expression(of: RationalFunction | Sum, *, evaluate: bool = True) -> Expr:
+    """The same for SymPy; a rational function factorised, a sum term by term.
+
+    >>> from disting.algebra.rational_function import variables
+    >>> a, b = variables(["m1", "m2"]).values()
+    >>> expression((a**2 - b**2) / a) * expression([(1, {"m1": 1})])
+    (m1 - m2)*(m1 + m2)
+    """
+    from sympy import Rational
+
+    if not isinstance(of, RationalFunction):
+        return _added(_products(of), evaluate)
+    (above, top), (below, bottom) = factors(of.num), factors(of.den)
+    powers = [(_added(_products(terms(p)), evaluate), sign * e) for sign, found in ((1, top), (-1, bottom)) for p, e in found]
+    return _product((Rational(above, below), powers), evaluate)
+
+
+def quotient(above: Sequence[Polynomial], below: Sequence[Polynomial], *, evaluate: bool = True) -> Expr:
+    """A rational function of s, from the coefficients of the powers 0, 1, .. of numerator and denominator.
+
+    >>> from disting.algebra.symbols import symbols
+    >>> k, m = symbols(["k", "m"]).values()
+    >>> printed(quotient([k], [k, m - m, m + 1], evaluate=False))
+    'k/(k + (m + 1)*s**2)'
+    """
+    from sympy import Rational
+
+    (n, top), (d, bottom) = (_in_s(side, evaluate) for side in (above, below))
+    return _product((Rational(n, d), [*top, *((x, -e) for x, e in bottom)]), evaluate)
+
+
+def symbol(name: str) -> Expr:
+    """A parameter, which is positive, or the frequency variable s."""
+    from sympy import Symbol
+
+    return Symbol(name) if name == "s" else Symbol(name, positive=True)
+
+
+def text(of: RationalFunction | Sum) -> str:
+    """A valid Python expression.
+
+    >>> text([(1, {"k12": 1, "m1": -1}), (-2, {"k12": 1, "m2": -1})])
+    'k12/m1 - 2*k12/m2'
+    """
+    return printed(expression(of, evaluate=False))
+
+
+def printed(unevaluated: Expr) -> str:
+    """An expression as text, in the order in which it is built."""
+    from sympy import sstr
+
+    return str(sstr(unevaluated, order="none"))
+
+
+def latex(of: RationalFunction | Sum) -> str:
+    r"""In LaTeX, without dollar signs.
+
+    >>> latex([(1, {"k9_10": 2, "m1": -1})])
+    '\\frac{k_{9,10}^{2}}{m_{1}}'
+    """
+    import sympy
+
+    unevaluated = expression(of, evaluate=False)
+    names = {x: latex_symbol(x.name) for x in unevaluated.free_symbols}
+    return str(sympy.latex(unevaluated, order="none", symbol_names=names))
+
+
+def latex_symbol(name: str) -> str:
+    """m_{1} for m1, k_{9,10} for k9_10, s for s."""
+    return name if len(name) == 1 else f"{name[0]}_{{{name[1:].replace('_', ',')}}}"
+
+
+def _in_s(coefficients: Sequence[Polynomial], evaluate: bool) -> Product:
+    """A polynomial in s as one product: a sum with brackets around its longer coefficients, or its only term."""
+    found: list[Product] = []
+    for i, coefficient in enumerate(coefficients):
+        products = _products(terms(coefficient))
+        shown = [(1, [(_added(products, evaluate), 1)])] if i and len(products) > 1 else products
+        found += [(number, [*powers, (symbol("s"), i)]) for number, powers in shown]
+    return found[0] if len(found) == 1 else (1, [(_added(found, evaluate), 1)])
+
+
+def _products(found: Sum) -> list[Product]:
+    return [(number, [(symbol(name), e) for name, e in powers.items()]) for number, powers in found]
+
+
+def _added(products: Sequence[Product], evaluate: bool) -> Expr:
+    from sympy import Add
+
+    return Add(*(_product(p, evaluate) for p in products), evaluate=evaluate)
+
+
+def _product(of: Product, evaluate: bool) -> Expr:
+    from sympy import Mul, Pow
+
+    number, powers = of
+    parts = [x if e == 1 else Pow(x, e, evaluate=evaluate) for x, e in powers if e]
+    return Mul(*([number] if number != 1 or not parts else []), *parts, evaluate=evaluate)

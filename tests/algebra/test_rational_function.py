@@ -1,0 +1,71 @@
+"""Rational functions are a field, and what is written of them is what is meant, as SymPy reads it."""
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from disting.algebra.notation import expression, latex, latex_symbol, text
+from disting.algebra.rational_function import RationalFunction, variables
+
+RING = variables(["m1", "m2", "k12"])
+leaves = st.sampled_from([*RING.values(), RING["m1"] / RING["m1"]])
+trees = st.recursive(
+    leaves,
+    lambda inner: st.tuples(inner, inner, st.sampled_from("+-*/")).map(lambda t: combined(*t)),
+    max_leaves=6,
+)
+
+
+def combined(a, b, sign):
+    if sign == "/" and b.num.is_zero():
+        return a
+    return {"+": a.__add__, "-": a.__sub__, "*": a.__mul__, "/": a.__truediv__}[sign](b)
+
+
+@settings(max_examples=60, deadline=None)
+@given(trees)
+def test_what_is_written_is_what_is_meant(function: RationalFunction):
+    """The text, read by SymPy, is the expression; and both are num/den, as put into each other term by term."""
+    names = {name: sympy.Symbol(name, positive=True) for name in RING}
+    value = expression(function)
+    num, den = (sympy.sympify(str(p).replace("^", "**"), locals=names) for p in (function.num, function.den))
+    assert sympy.cancel(sympy.sympify(text(function), locals=names) - value) == 0 == sympy.cancel(value - num / den)
+
+
+def test_latex():
+    m1, m2, k12 = RING.values()
+    assert latex(m1) == "m_{1}"
+    assert latex((m1 - m2) / k12) == r"\frac{m_{1} - m_{2}}{k_{12}}"
+    assert latex(-m1 * (m1 + m2 + m2) ** 3) == r"- m_{1} \left(m_{1} + 2 m_{2}\right)^{3}"
+    assert latex(m1 / (k12 + k12)) == r"\frac{m_{1}}{2 k_{12}}"
+    assert latex(RING["m1"] / RING["m1"]) == "1"
+
+
+def test_sums_keep_their_order_and_numbers_stay_before_sums():
+    m1, m2, _ = RING.values()
+    two = RING["m1"] / RING["m1"] + RING["m1"] / RING["m1"]
+    assert text([(1, {"k12": 1, "m1": -1}), (1, {"k12": 1, "m2": -1})]) == "k12/m1 + k12/m2"
+    assert text([(-1, {"m10": 1}), (3, {"m2": 2, "T1": -1}), (1, {})]) == "-m10 + 3*m2**2/T1 + 1"
+    assert (text(two * (m1 + m2)), text(-(m1 + m2)), text((m1 - m1) * m2)) == ("2*(m1 + m2)", "-(m1 + m2)", "0")
+    assert (text(m1 / (two * two * m2)), text(-((m1 / m2) ** 2) / two)) == ("m1/(4*m2)", "-m1**2/(2*m2**2)")
+    assert [latex_symbol(name) for name in ("m1", "k9_10", "Td", "s")] == ["m_{1}", "k_{9,10}", "T_{d}", "s"]
+
+
+def test_symbols_are_positive_as_parameters_are():
+    assert expression(RING["m1"]).is_positive and sympy.sqrt(expression(RING["m1"] ** 2)) == expression(RING["m1"])
+
+
+@settings(max_examples=60, deadline=None)
+@given(trees, trees)
+def test_equal_functions_are_equal_pairs(a: RationalFunction, b: RationalFunction):
+    assert a + b - b == a and a - a - a == -a
+    assert b.num.is_zero() or (a / b * b == a and b**-2 * b**3 == b)
+    assert (a + b).den.leading_coefficient() > 0
+
+
+def test_no_function_divides_by_zero():
+    zero = RING["m1"] - RING["m1"]
+    for divided in (lambda: RING["m1"] / zero, lambda: zero**-1, lambda: (RING["m1"] / RING["m2"]).value({"m1": 1, "m2": 0})):
+        with pytest.raises(ZeroDivisionError):
+            divided()
