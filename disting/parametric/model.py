@@ -56,8 +56,8 @@ class Model:
         >>> Model.from_state_space([["-k"]], [1], ["g"]).parameters
         ('g', 'k')
         """
-        refuse_namesakes(a, b, c, d, s)
         space = state_space(a, b, c, d)
+        refuse_namesakes(a, b, c, d, s)
         parameters, variable = _parameters(space.entries), _variable(s)
         if variable in parameters:
             raise InputError(f"the matrices contain the frequency variable {variable}; name another one with s=..")
@@ -74,9 +74,9 @@ class Model:
         >>> Model.from_transfer_function("k*s", "(s + p)*(s + q)*k").denominator
         (p*q, p + q, 1)
         """
-        refuse_namesakes(num, den, s)
         variable = _variable(s)
         top, bottom = (polynomial(side, variable) for side in (num, den))
+        refuse_namesakes(num, den, s)
         parameters = tuple(name for name in _parameters([top, bottom]) if name != variable)
         ring = symbols([variable, *parameters])
         expansion = Expansion(ring, ring[variable] ** 0)

@@ -1,10 +1,9 @@
 """The wording that pages and figures share."""
 
 from disting.catalogs import Catalog
-from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.exact import EXACT
+from disting.conditions.table import RULES
 from disting.domain import Domain
-from disting.verdict import RULE_NAMES, Relation, View
+from disting.verdict import Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
@@ -18,7 +17,6 @@ SAID = {relation: relation.value for relation in Relation} | {
     Relation.SOMETIMES: "sometimes indistinguishable",
 }
 """Relations as pages name them."""
-SIGNS = {RULE_NAMES[EXACT]: "E", RULE_NAMES[ADMISSIBLE]: "+"}  # what a field of the matrix shows; else the condition's number
 
 
 def title(catalog: Catalog) -> str:
@@ -55,11 +53,19 @@ def totals(catalog: Catalog, view: View = View.POSITIVE) -> dict[Relation, int]:
 def rule_in_words(decided_by: str) -> str:
     """What decided, in words.
 
-    >>> rule_in_words("4"), rule_in_words(RULE_NAMES[EXACT])
+    >>> rule_in_words("4"), rule_in_words("exact")
     ('condition 4', 'the exact decision')
     """
-    named = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with positive parameters"}
-    return named.get(decided_by, f"condition {decided_by}")
+    return RULES[decided_by].in_words()
+
+
+def sign(decided_by: str) -> str:
+    """What a field of a matrix shows, nothing of an undecided pair.
+
+    >>> sign("4"), sign("exact"), sign("")
+    ('4', 'E', '')
+    """
+    return RULES[decided_by].sign if decided_by else ""
 
 
 def plural(count: int, one: str, many: str = "") -> str:
