@@ -53,8 +53,10 @@ class Model:
         numbers, texts such as "k12/m1" or SymPy expressions; parameters are their symbols, sorted by name, whatever is assumed
         of them. `s` is the frequency variable and must not be among them. Raises InputError.
 
-        >>> Model.from_state_space([["-k"]], [1], ["g"]).parameters
-        ('g', 'k')
+        >>> from sympy import Matrix, symbols
+        >>> k, m = symbols("k m")
+        >>> str(Model.from_state_space(Matrix([[0, 1], [-k / m, 0]]), Matrix([0, 1 / m]), Matrix([[1, 0]])))
+        'G(s) = 1/(k + m*s**2)'
         """
         space = state_space(a, b, c, d)
         refuse_namesakes(a, b, c, d, s)

@@ -101,6 +101,10 @@ def test_symbols_that_only_look_alike_are_refused():
     with pytest.raises(InputError, match="two different symbols are called 'x'"):
         Model.from_transfer_function([sp.Dummy("x")], [1, sp.Dummy("x")])
     assert Model.from_transfer_function(other, ["1", other], s=s).parameters == ("k",)
+    for _ in range(3000):
+        k = sp.Add(sp.Mul(k, s, evaluate=False), 1, evaluate=False)
+    with pytest.raises(InputError, match="nested too deeply"):  # before its symbols are looked for, by recursion
+        Model.from_transfer_function(1, k)
 
 
 @pytest.mark.parametrize(
