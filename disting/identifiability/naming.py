@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from disting.identifiability.formula import Formula
+from disting.identifiability.formula import Formula, monomial
 from disting.identifiability.parts import Combination, Renaming, Scaling
 from disting.identifiability.result import Identifiability
 from disting.model.chain import Chain
@@ -12,7 +12,8 @@ from disting.model.chain import Chain
 def renamed(found: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
     """`names` leads from the canonical parameters to those of `chain`, whose order is kept everywhere."""
     place = {name: i for i, name in enumerate(chain.parameters)}
-    singles = sorted((_combination(c, names, place) for c in found.singles), key=lambda c: place[c.parameter])
+    order = [monomial(**{name: 1}) for name in chain.parameters]
+    singles = sorted((_combination(c, names, place) for c in found.singles), key=lambda c: order.index(c.formula))
     return replace(
         found,
         parameters=chain.parameters,

@@ -106,12 +106,6 @@ class Combination:
         return rf"\text{{coefficient }} {self.name[0]}_{{{self.name[1:]}}}" if self.is_named else self.formula.latex
 
     @property
-    def parameter(self) -> str:
-        """Of a single parameter: which."""
-        ((_, ((name, _),)),) = self.formula.terms
-        return name
-
-    @property
     def is_named(self) -> bool:
         """Whether it is a coefficient whose formula is too long to read."""
         return bool(self.name) and len(self.formula.terms) > MOST_TERMS

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from disting.algebra.quotient import matrix
+from disting.identifiability.formula import monomial
 from disting.identifiability.result import Identifiability
 from disting.identifiability.solutions import MOST_LISTED, foster_count
 from disting.identifiability.tangent import Tangent, proof_tangents
@@ -30,9 +31,9 @@ def _seen(found: Identifiability, at: Tangent) -> bool:
     """The combinations lie in the row space and are independent; of the parameters, only those listed lie in it."""
     slopes = [c.formula.gradient(at.values, at.modulus) for c in found.basis]
     units = {name: [int(name == other) for other in at.values] for name in at.values}
-    singles = {name for name, unit in units.items() if at.sees(unit)}
+    singles = {monomial(**{name: 1}) for name, unit in units.items() if at.sees(unit)}
     independent = matrix(slopes, len(at.values), at.modulus).rank() == found.rank
-    return all(map(at.sees, slopes)) and independent and singles == {c.parameter for c in found.singles}
+    return all(map(at.sees, slopes)) and independent and singles == {c.formula for c in found.singles}
 
 
 def _renamed(found: Identifiability, chain: Chain) -> bool:

@@ -176,7 +176,9 @@ def test_findings_are_confirmed_by_what_they_say():
 def test_false_findings_are_not_confirmed():
     local, short, exchanged = (identifiability(Family(3, True)[number]) for number in (6, 7, 4))
     wrong = replace(short.basis[0], formula=Formula(((1, (("m2", 1),)),)))
+    square = replace(short.singles[0], formula=Formula(((1, (("m1", 2),)),)))
     false = (
+        (replace(short, singles=(square, *short.singles[1:])), 7),
         (replace(short, basis=(wrong, *short.basis[1:])), 7),
         (replace(short, basis=(short.basis[1], *short.basis[1:])), 7),
         (replace(short, singles=short.singles[1:]), 7),
