@@ -46,11 +46,9 @@ def terms(polynomial: fmpz_mpoly) -> list[Term]:
     >>> terms(k - 2 * m**2)
     [(-2, {'m1': 2}), (1, {'k12': 1})]
     """
-    names = [str(symbol) for symbol in polynomial.context().gens()]
-    return [
-        (int(c), {name: int(e) for name, e in zip(names, powers, strict=True) if e})
-        for powers, c in zip(polynomial.monoms(), polynomial.coeffs(), strict=True)
-    ]
+    names = polynomial.context().names()
+    found = polynomial.terms()
+    return [(int(c), {name: int(e) for name, e in zip(names, powers, strict=True) if e}) for powers, c in found]
 
 
 def factors(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:

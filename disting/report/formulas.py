@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from disting.algebra.notation import latex, latex_symbol
+from disting.algebra.notation import Sum, latex, latex_symbol
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import Polynomial, coefficients, factors, terms
 from disting.equivalence import explicit_map
@@ -62,8 +62,8 @@ def written(chain: Chain) -> TransferFunction:
     names = ("B", "A") if stiffness else ("b", "a")
     sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
     head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
-    flat = [(f"{letter}{power}", p) for letter, coefficients in sides for power, p in coefficients]
-    lines = tuple((math(f"{symbol(label)}<mo>=</mo>"), _typeset(p, stiffness)) for label, p in flat)
+    flat = [(f"{letter}{power}", _readable(p)) for letter, coefficients in sides for power, p in coefficients]
+    lines = tuple((math(f"{symbol(label)}<mo>=</mo>"), _typeset(shown, stiffness)) for label, shown in flat)
     text = _latex(sides, flat)
     return TransferFunction(head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness)
 
@@ -90,30 +90,27 @@ def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
     return [(power, p) for power, p in enumerate(coefficients(polynomial, "s")) if not p.is_zero()]
 
 
-def _typeset(polynomial: Polynomial, stiffness: bool) -> tuple[Markup, ...]:
-    """Factorised where no factor is long, else term by term."""
-    parts = factorised(polynomial) if _is_short(polynomial) else summands(terms(polynomial))
+def _readable(polynomial: Polynomial) -> RationalFunction | Sum:
+    """To be written factorised where no factor is long, else term by term."""
+    brackets = (sum(map(sum, p.monoms())) for p, _ in factors(polynomial)[1] if len(p) > 1)
+    is_short = all(letters <= LONGEST_BRACKET for letters in brackets)
+    return RationalFunction(polynomial, polynomial**0) if is_short else terms(polynomial)
+
+
+def _typeset(shown: RationalFunction | Sum, stiffness: bool) -> tuple[Markup, ...]:
+    parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
     return tuple(math(part.replace("<mi>k</mi>", "<mi>κ</mi>") if stiffness else part) for part in parts)
-
-
-def _is_short(polynomial: Polynomial) -> bool:
-    letters = (sum(sum(powers.values()) for _, powers in terms(p)) for p, _ in factors(polynomial)[1] if len(terms(p)) > 1)
-    return all(count <= LONGEST_BRACKET for count in letters)
 
 
 def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
     return "<mo>+</mo>".join(symbol(f"{letter}{n}") + (symbol("s", n) if n else "") for n, _ in reversed(found))
 
 
-def _latex(sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tuple[str, Polynomial]]) -> str:
+def _latex(sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tuple[str, RationalFunction | Sum]]) -> str:
     top, bottom = (_latex_in_s(*side) for side in sides)
-    rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [f"{latex_symbol(label)} &= {_latex_of(p)}" for label, p in flat]
+    rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [f"{latex_symbol(label)} &= {latex(shown)}" for label, shown in flat]
     return "\\begin{align}\n  " + " \\\\\n  ".join(rows) + "\n\\end{align}"
 
 
 def _latex_in_s(letter: str, found: Sequence[Coefficient]) -> str:
     return latex([(1, {f"{letter}{n}": 1, "s": n}) for n, _ in reversed(found)])
-
-
-def _latex_of(polynomial: Polynomial) -> str:
-    return latex(RationalFunction(polynomial, polynomial**0) if _is_short(polynomial) else terms(polynomial))

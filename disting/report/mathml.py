@@ -94,8 +94,8 @@ def factorised(polynomial: Polynomial) -> list[str]:
     content, found = factors(polynomial)
     number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not found else ""
     alone = not number and len(found) == 1
-    single = "".join(_factor(p, e, alone) for p, e in found if len(terms(p)) == 1)
-    sums = [_factor(p, e, alone) for p, e in found if len(terms(p)) > 1]
+    single = "".join(_factor(p, e, alone) for p, e in found if len(p) == 1)
+    sums = [_factor(p, e, alone) for p, e in found if len(p) > 1]
     head = ("<mo>−</mo>" if content < 0 else "") + number + single
     return [head, *sums] if head else sums
 
