@@ -66,6 +66,8 @@ def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_generated_files_are_current(tmp_path: Path) -> None:
     fresh = written_anew(tmp_path)
-    stored = {p.relative_to(REPORTS).as_posix() for p in [*REPORTS.glob("*"), *REPORTS.glob("models/**/*")] if p.is_file()}
+    stored = {
+        p.relative_to(REPORTS).as_posix() for kind in ("*", "guide/*", "models/**/*") for p in REPORTS.glob(kind) if p.is_file()
+    }
     assert set(fresh) == stored - others(REPORTS), REMEDY
     assert [name for name, p in fresh.items() if not is_current(p, REPORTS / name)] == [], REMEDY
