@@ -108,14 +108,14 @@ def _table_open(_: object, tokens: Sequence[Token], place: int, *__: object) -> 
 
 
 def _code(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
-    return f'<pre tabindex="0"><code>{escape(tokens[place].content)}</code></pre>\n'
+    return f'<pre tabindex="0"><code>{escape(tokens[place].content.rstrip())}</code></pre>\n'
 
 
 def _code_in_text(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
     """An option such as --no-cache is not broken at its hyphens."""
     whole = Markup('<span class="nobr">{}</span>')
     words = (whole.format(word) if "-" in word and len(word) < LONG else word for word in tokens[place].content.split(" "))
-    return Markup("<code>{}</code>").format(Markup(" ").join(words))
+    return f"<code>{Markup(' ').join(words)}</code>"
 
 
 def _with_anchors(tokens: Sequence[Token]) -> Contents:
