@@ -12,6 +12,7 @@ from itertools import combinations
 from disting.algebra.fractionfree import OutOfTimeError
 from disting.certainty import Certainty
 from disting.conditions.evidence import Ranks
+from disting.conditions.necessary import DEPENDENCES, RANK
 from disting.engine import Decisions, Progress, silent
 from disting.invariants.symbolic import rank_is_at_most
 from disting.model.chain import Chain
@@ -48,7 +49,7 @@ def prove_all(decided: Decisions, seconds: float = SECONDS, progress: Progress =
 
 def _claims(decided: Decisions) -> Iterator[tuple[tuple[int, int], Claim]]:
     for i, j in combinations(range(len(decided.subjects)), 2):
-        if decided.decided_by[i, j] in (4, 5):
+        if decided.rule(i, j) in (RANK.name, DEPENDENCES.name):
             claim = _claim(decided.verdict(i, j), decided.subjects[i].chain, decided.subjects[j].chain)
             if claim:
                 yield (i, j), claim

@@ -6,22 +6,24 @@ certainty. The evidence is not kept: `compare` gives it. A relation does not dep
 `catalogs.variants`), so the stored ones serve all three.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
+from string import ascii_letters
 
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
 from disting.certainty import Certainty
 from disting.comparison import name_of
+from disting.conditions.table import RULES
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
 from disting.packaged import intact_text
-from disting.verdict import RULE_NAMES, Query, Relation, View
+from disting.verdict import Query, Relation, View
 from disting.written import write_whole
 
 SCHEMA = 1
@@ -29,6 +31,17 @@ FILE = "candidates.jsonl"
 COMMAND = "disting catalog candidates"
 RELATIONS = {".": Relation.DISTINGUISHABLE, "=": Relation.INDISTINGUISHABLE, "?": Relation.UNDECIDED}
 SIGNS = {relation: sign for sign, relation in RELATIONS.items()}
+
+
+def _letters(names: Iterable[str]) -> dict[str, str]:
+    """A letter a rule: its first one, or, where another rule has that, one that none has."""
+    found = dict[str, str]()
+    for name in names:
+        found[name] = next(x for x in (name[0] + ascii_letters) if x not in found.values())
+    return found
+
+
+LETTERS = _letters(RULES)
 
 
 @dataclass(frozen=True)
@@ -52,7 +65,7 @@ class Matrix:
     def decided_by(self, left: Chain, right: Chain) -> str:
         """The deciding rule for the stored sensor quantity, "" if undecided."""
         sign = self._sign("decided_by", left, right)
-        return {"e": "exact", "?": ""}.get(sign, sign)
+        return {letter: name for name, letter in LETTERS.items()}.get(sign, "")
 
     def certainty(self, left: Chain, right: Chain) -> Certainty | None:
         """Certainty of the verdict, None if undecided; the error bound of BOUNDED ones is in the header."""
@@ -164,7 +177,7 @@ def _rows(decided: Decisions) -> tuple[list[Record], int]:
         {
             "left": i + 1,
             "relation": signs(lambda a, b: SIGNS[decided.relation(a, b)], i),
-            "decided_by": signs(lambda a, b: RULE_NAMES[int(decided.decided_by[a, b])], i),
+            "decided_by": signs(lambda a, b: LETTERS.get(decided.rule(a, b), ""), i),
             "representation": signs(lambda a, b: grades[a, b][0], i),
             "certainty": signs(lambda a, b: grades[a, b][1], i),
         }

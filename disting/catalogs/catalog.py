@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from disting.catalogs.export import Row, csv_text, inclusion_text, share_text
 from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
+from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
 from disting.identifiability import Identifiability
 from disting.model.chain import Chain
@@ -134,7 +135,7 @@ class Catalog:
     def counts(self, view: View = View.POSITIVE) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
         found = Counter(deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
-        return {"": 0} | dict(sorted(found.items()))
+        return {name: found[name] for name in ("", *RULES) if found[name] or not name}
 
     def matrix(self, view: View = View.POSITIVE) -> "pd.DataFrame":
         """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the diagonal."""

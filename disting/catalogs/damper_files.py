@@ -2,8 +2,8 @@
 
 `dampers-<masses>-<undamped|damped>.jsonl`: a header with the pairs of classes that are undecided, then a line a model of the
 family with a list for each of its sets of dampers, in the order of `DamperSets.ALL`: `columns` (buckets of the tests that the
-header names, null where not known), `group`, `renamed`, `free` and `rank`, as in `engine.classes`. The evidence is not kept:
-`compare` gives it.
+header names, 10 for the exact decision; null where not known), `group`, `renamed`, `free` and `rank`, as in `engine.classes`.
+The evidence is not kept: `compare` gives it.
 """
 
 import json
@@ -18,6 +18,8 @@ from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
+from disting.conditions.codec import WRITTEN
+from disting.conditions.rule import EXACT
 from disting.engine.classes import Classes
 from disting.errors import CatalogError
 from disting.model.family import Family
@@ -53,7 +55,7 @@ def text_of(found: DamperFamily, settings: Settings, *, patient: bool = False) -
     header |= {
         "command": f"{COMMAND} {family.n_masses}{' --patient' * patient}",
         "settings": settings.to_dict(),
-        "tests": list(classes.tests),
+        "tests": list(map(_written, classes.tests)),
     }
     header |= {"undecided": sorted(map(list, classes.open_groups))}
     records = [header]
@@ -95,6 +97,17 @@ def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: boo
     return path
 
 
+def _written(name: str) -> int | str:
+    """The name of a rule as the files have it: numbers of one digit, and the exact decision after those of the paper."""
+    if name == EXACT.name:
+        return WRITTEN
+    return int(name) if len(name) == 1 and name.isdecimal() else name
+
+
+def _read(written: int | str) -> str:
+    return EXACT.name if written == WRITTEN else str(written)
+
+
 def _family(family: Family, header: Record, models: Sequence[Record]) -> DamperFamily:
     """Raises ValueError or LookupError for records that do not belong together."""
     sets = DamperSets.ALL.of(family.n_masses)
@@ -107,4 +120,5 @@ def _family(family: Family, header: Record, models: Sequence[Record]) -> DamperF
     if columns.shape != (len(chains), len(header["tests"])) or any(a.shape != (len(chains),) for a in lists.values()):
         raise ValueError("sets of dampers are missing")
     undecided = frozenset((int(a), int(b)) for a, b in header["undecided"])
-    return DamperFamily(family, sets, Classes(chains, tuple(header["tests"]), columns, open_groups=undecided, **lists))
+    tests = tuple(map(_read, header["tests"]))
+    return DamperFamily(family, sets, Classes(chains, tests, columns, open_groups=undecided, **lists))

@@ -16,7 +16,7 @@ from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.verdict import RULE_NAMES, Query, Relation, Verdict, View
+from disting.verdict import Query, Relation, Verdict, View
 
 Masses = tuple[int, ...]
 COLUMNS = ("left", "right", "relation", "decided_by", "domain")
@@ -71,8 +71,7 @@ class DamperTable:
     def rows(self) -> Iterator[tuple[Masses, Masses, Relation, str]]:
         """Yield (left, right, relation, deciding rule) of all pairs, left before right."""
         for i, j in combinations(range(len(self.sets)), 2):
-            rule = RULE_NAMES[int(self.decided.decided_by[i, j])]
-            yield self.sets[i], self.sets[j], self.decided.relation(i, j), rule
+            yield self.sets[i], self.sets[j], self.decided.relation(i, j), self.decided.rule(i, j)
 
     def classes(self) -> tuple[tuple[Masses, ...], ...]:
         """The sets grouped by indistinguishability, in the order of their first members; an undecided pair joins no groups."""

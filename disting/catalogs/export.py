@@ -10,7 +10,7 @@ from disting.domain import Domain
 from disting.engine import Decisions, family_safety
 from disting.inclusion import Inclusion, Sense
 from disting.positivity import PositiveFinding
-from disting.verdict import RULE_NAMES, Relation, error_bound
+from disting.verdict import Relation, error_bound
 
 CSV_COLUMNS = (
     "left",
@@ -63,13 +63,13 @@ def decisions_csv(decided: Decisions) -> str:
             names[i],
             names[j],
             decided.relation(i, j),
-            RULE_NAMES[number],
+            rule,
             where,
             certainty,
             error_bound(certainty, safety),
             *rest(i, j),
         )
-        for i, j, number, where, certainty, safety in decided.grades()
+        for i, j, rule, where, certainty, safety in decided.grades()
     )
     return csv_text(graded)
 

@@ -10,11 +10,12 @@ from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Re
 from disting.certainty import Certainty
 from disting.conditions.admissible import NOT_REAL, positive_ways
 from disting.conditions.evidence import from_dict, to_dict
-from disting.conditions.table import NECESSARY
+from disting.conditions.rule import Role
+from disting.conditions.table import RULES
 from disting.domain import Domain
 from disting.inclusion import Inclusion, inclusions_from_dict
 from disting.positivity import PositiveFinding
-from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Relation, Step, Verdict, View, open_note
+from disting.verdict import FIBRE, PARAMETERS, Relation, Step, Verdict, View, open_note
 
 
 def stored_verdict(record: Record, view: View) -> Verdict:
@@ -46,7 +47,7 @@ def relation_of(step: dict[str, Any]) -> Relation:
         return Relation.UNDECIDED
     if "relation" in step:
         return Relation(step["relation"])
-    return Relation.DISTINGUISHABLE if int(step["decided_by"]) <= len(NECESSARY) else Relation.INDISTINGUISHABLE
+    return Relation.DISTINGUISHABLE if RULES[step["decided_by"]].role is Role.NECESSARY else Relation.INDISTINGUISHABLE
 
 
 def _plain(record: Record, view: View) -> Verdict:
@@ -66,8 +67,8 @@ def _positively(record: Record) -> tuple[str, dict[str, Any]]:
     f = positive_ways(here, there)
     if f.evidence is None:
         return "", {}
-    rule, relation = RULE_NAMES[f.number], Step(PARAMETERS, f).relation.value
-    plain = {"relation": relation, "decided_by": rule, "certainty": f.certainty.value, "safety": f.safety}
+    relation = Step(PARAMETERS, f).relation.value
+    plain = {"relation": relation, "decided_by": f.rule.name, "certainty": f.certainty.value, "safety": f.safety}
     return PARAMETERS, plain | {"evidence": to_dict(f.evidence)}
 
 

@@ -17,6 +17,7 @@ and the other none.
 from collections import Counter
 from dataclasses import dataclass, replace
 
+from disting.conditions.necessary import DEGREES, INVARIANTS
 from disting.engine import Engine
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain, Sensor
@@ -71,9 +72,10 @@ def originals_against_lagged(family: Family, engine: Engine | None = None) -> Co
     """Number of pairs (model of a family, any model of it with a lag) by relation and deciding rule."""
     engine, n = _by_degrees(engine or Engine()), len(family)
     names = [(f"A{i}{'+lag' * lag}", replace(chain, lag=lag)) for lag in (False, True) for i, chain in enumerate(family, 1)]
-    found = engine.decisions([engine.subject(*named) for named in names], Query(View.TF, conditions=(1, 2)))
+    query = Query(View.TF, conditions=(INVARIANTS.name, DEGREES.name))
+    found = engine.decisions([engine.subject(*named) for named in names], query)
     pairs = ((i, j) for i in range(n) for j in range(n, 2 * n))
-    return Counter((found.relation(i, j), str(found.decided_by[i, j])) for i, j in pairs)
+    return Counter((found.relation(i, j), found.rule(i, j)) for i, j in pairs)
 
 
 def _against_itself(family: Family, engine: Engine, **extra: bool) -> tuple[Verdict, ...]:

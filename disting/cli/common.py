@@ -7,15 +7,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from disting.certainty import USELESS
-from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.exact import EXACT
+from disting.conditions.table import RULES
 from disting.domain import Domain
 from disting.errors import InputError, shown
 from disting.model.family import MOST_MASSES
-from disting.verdict import RULE_NAMES, Query, Relation, View
+from disting.verdict import Query, Relation, View
 from disting.written import write_whole
 
-RULES = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with such parameters"}
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
 
 
@@ -29,7 +27,7 @@ def reference(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def query(conditions: tuple[int, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
+def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
     """Over positive parameters where no domain ("") is named, but the paper's view, over complex ones, where it is asked for.
 
     Conditions that are named decide alone: the exact decision belongs to the default.
@@ -55,11 +53,9 @@ def relations_in_words(found: Iterable[Relation]) -> str:
     return ", ".join(f"{counts[r]} {r}" for r in Relation if counts[r] or r is not Relation.SOMETIMES)
 
 
-def rules_in_words(counts: dict[str, int]) -> str:
+def rules_in_words(counts: dict[str, int], domain: Domain) -> str:
     """How many pairs each rule decides."""
-    parts = [f"{n} by condition {number}" for number, n in counts.items() if number.isdigit()]
-    parts += [f"{counts[rule]} by {text}" for rule, text in RULES.items() if counts.get(rule)]
-    return ", ".join(parts) or "none"
+    return ", ".join(f"{n} by {RULES[rule].in_words(domain)}" for rule, n in counts.items() if rule and n) or "none"
 
 
 def emitted(where: str, text: str) -> None:

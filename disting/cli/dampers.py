@@ -11,6 +11,7 @@ from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli.common import emitted, emitted_lines, joint_in_words, reference, relations_in_words
 from disting.cli.paths import written_file
 from disting.cli.work import engine_for
+from disting.conditions.table import RULES
 from disting.domain import Domain
 from disting.engine import classes_safety
 from disting.errors import InputError
@@ -113,7 +114,7 @@ def counted(found: DamperFamily) -> str:
 
 
 def _rule(rule: str) -> str:
-    return f"condition {rule}" if rule.isdigit() else "the exact decision"
+    return RULES[rule].in_words()
 
 
 def matrix(table: DamperTable, over_complex: DamperTable) -> str:

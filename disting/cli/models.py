@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Sequence
 from concurrent.futures import Executor
+from dataclasses import replace
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
@@ -13,19 +14,23 @@ from disting.invariants.profile import Profile
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 
+NOT_ASKED = "·"
+
 
 def run(options: argparse.Namespace) -> int:
     """List the models of one size."""
     family = Family(options.masses, options.damped)
     with engine_for(options) as (engine, pool, progress):
-        profiles = engine.profiles_of(family, executor=pool, progress=progress)
-        known = _identifiabilities(family, engine, pool, progress)
+        plain = Engine(replace(engine.settings, subset_limit=0), engine.store)  # no dependences are shown, which are dear
+        profiles = plain.profiles_of(family, executor=pool, progress=progress)
+        known = _identifiabilities(family, engine, pool, progress, options.identifiability)
     print(_table(family, profiles, known), end="")
     for gap in sorted({chain.gap for chain in family}):
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
     print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters")
-    print("sets = parameter sets, real or complex, with the same behaviour: 1 identifiable, ∞ not, ? not known")
+    said = "1 identifiable, ∞ not, ? not known" + f", {NOT_ASKED} not asked (--identifiability asks)" * (not known)
+    print(f"sets = parameter sets, real or complex, with the same behaviour: {said}")
     print(LEGEND)
     if options.identifiability:
         for number, found in enumerate(known, 1):
@@ -40,10 +45,11 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifi
 
     names = ("model", "gap", "act-", "act+", "meas-", "meas+", "degree", "free", "params", "rank", "sets", "drawing")
     table = Table(*names, box=None)
-    for number, (chain, profile, found) in enumerate(zip(family, profiles, known, strict=True), 1):
+    sets = [_sets(found) for found in known] or [NOT_ASKED] * len(family)
+    for number, (chain, profile, count) in enumerate(zip(family, profiles, sets, strict=True), 1):
         n, m = profile.degrees
         numbers = (number, *chain.indices[1:], f"{n}/{m}", len(profile.form), profile.n_parameters, profile.rank)
-        table.add_row(*map(str, numbers), _sets(found), text_drawing(chain).replace("[", r"\["))
+        table.add_row(*map(str, numbers), count, text_drawing(chain).replace("[", r"\["))
     console = Console(highlight=False)
     console.width = max(console.width, 74 + 8 * family.n_masses)  # drawings are not cut, they may run over
     with console.capture() as text:  # printed by print, so that a closed pipe ends this command as it ends the others
@@ -51,11 +57,13 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifi
     return text.get()
 
 
-def _identifiabilities(family: Family, engine: Engine, pool: Executor | None, progress: Progress) -> Sequence[Identifiability]:
-    """From the shipped catalogue where there is one."""
+def _identifiabilities(
+    family: Family, engine: Engine, pool: Executor | None, progress: Progress, wanted: bool
+) -> Sequence[Identifiability]:
+    """From the shipped catalogue where there is one; else, as that takes a second a model, where it is wanted."""
     if family.n_masses in SHIPPED_SIZES:
         return [row.identifiability for row in catalog(family.n_masses, damped=family.damped).rows]
-    return engine.identifiabilities(list(family), executor=pool, progress=progress)
+    return engine.identifiabilities(list(family), executor=pool, progress=progress) if wanted else ()
 
 
 def _sets(found: Identifiability) -> str:

@@ -19,12 +19,13 @@ from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 
 MODEL = "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the ground; +lag; +delay"
+NAMES = [c.rule.name for c in CONDITIONS]
 LIST = "decide by these conditions only, over complex parameters, such as 1-5,8; 1-9 is the paper's view"
 Groups = Any  # the object that argparse gives for sub-commands has no public type
 DESCRIPTION = "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
 EPILOG = (
     "conditions:\n"
-    + "\n".join(f"  {c.number}  {c.title}: {c.text}" for c in CONDITIONS)
+    + "\n".join(f"  {c.rule.name}  {c.rule.title}: {c.rule.text}" for c in CONDITIONS)
     + "\n\nexit status: 0 fine, 1 a failed verification, 2 bad usage or bad input"
 )
 
@@ -61,15 +62,16 @@ def _bounds(text: str) -> tuple[str, tuple[str, str]]:
     return match[1], (match[2], match[3])
 
 
-def _conditions(text: str) -> tuple[int, ...]:
-    """Numbers such as 1-5,8 as a sorted tuple."""
-    chosen: set[int] = set()
+def _conditions(text: str) -> tuple[str, ...]:
+    """Names and ranges such as 1-5,8, in the order of the table."""
+    chosen = set[str]()
     for part in text.split(","):
-        match = re.fullmatch(r"([1-9])(?:-([1-9]))?", part.strip())
-        if not match or int(match[2] or match[1]) < int(match[1]):
-            raise argparse.ArgumentTypeError(f"conditions are written like 1-5,8 with numbers 1 to 9, not {shown(text)}")
-        chosen |= set(range(int(match[1]), int(match[2] or match[1]) + 1))
-    return tuple(sorted(chosen))
+        low, _, high = part.strip().partition("-")
+        if not {low, high or low} <= set(NAMES) or NAMES.index(high or low) < NAMES.index(low):
+            known = f"the conditions {NAMES[0]} to {NAMES[-1]}"
+            raise argparse.ArgumentTypeError(f"conditions are written like 1-5,8, of {known}, not {shown(text)}")
+        chosen |= set(NAMES[NAMES.index(low) : NAMES.index(high or low) + 1])
+    return tuple(name for name in NAMES if name in chosen)
 
 
 MASSES = _whole(1, MOST_MASSES)

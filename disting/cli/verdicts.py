@@ -41,7 +41,7 @@ def _summary(decided: Decisions) -> str:
     pairs = list(combinations(range(len(decided.subjects)), 2))
     head = f"{len(decided.subjects)} models, {len(pairs)} pairs, over {decided.query.view.domain} parameters"
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
-    told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts())}"
+    told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts(), decided.query.view.domain)}"
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
     limits = f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else ""
     return f"{told}{limits}\n{joint_in_words(family_safety(decided))}"

@@ -23,6 +23,7 @@ from disting.conditions.evidence import Evidence, Renaming, Theorem
 from disting.conditions.exact import theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.reality import RealFactors, RealWitnesses
+from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.ways import BothWays, OddFibres, weakest
 from disting.errors import ContradictionError, InputError
 from disting.identifiability import Identifiability
@@ -31,7 +32,6 @@ from disting.positivity import PositiveFinding, Share, Values, always_real, posi
 from disting.question import Question
 from disting.settings import Settings
 
-ADMISSIBLE = 11  # number of this question, after the exact decision
 SAME = {Share.ALWAYS: Outcome.HOLDS, Share.SOMETIMES: Outcome.SOMETIMES, Share.NEVER: Outcome.FAILS}  # of both ways
 NOT_REAL = (
     "over real parameters no rational map is known, real factors are not known to exist or to lack, and the numbers of "

@@ -1,20 +1,25 @@
-"""Findings as JSON text and back, for a cache."""
+"""Findings of the exact decision as JSON text and back, for a cache and for files of settled decisions."""
 
 import json
 
 from disting.certainty import Certainty
 from disting.conditions.evidence import from_dict, to_dict
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
+
+WRITTEN = 10  # what the files have in the place of the rule: the exact decision comes after the nine conditions of the paper
 
 
 def finding_to_json(finding: Finding) -> str:
-    """Compact JSON text of a finding."""
+    """Compact JSON text of a finding of the exact decision."""
     evidence = to_dict(finding.evidence) if finding.evidence else None
-    data = [finding.number, finding.outcome, finding.certainty, finding.safety, evidence, finding.note]
+    data = [WRITTEN, finding.outcome, finding.certainty, finding.safety, evidence, finding.note]
     return json.dumps(data, separators=(",", ":"))
 
 
 def finding_from_json(text: str) -> Finding:
     """Inverse of `finding_to_json`; raises ValueError, KeyError or TypeError for what is none."""
-    number, outcome, certainty, safety, evidence, note = json.loads(text)
-    return Finding(number, Outcome(outcome), Certainty(certainty), safety, from_dict(evidence) if evidence else None, note)
+    written, outcome, certainty, safety, evidence, note = json.loads(text)
+    if written != WRITTEN:
+        raise ValueError("not a finding of the exact decision")
+    return Finding(EXACT, Outcome(outcome), Certainty(certainty), safety, from_dict(evidence) if evidence else None, note)

@@ -35,6 +35,7 @@ from disting import ideals
 from disting.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.conditions.evidence import DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised
 from disting.ideals.by_rows import differ_by_row
 from disting.ideals.full_parts import same_by_full_parts
@@ -51,7 +52,6 @@ from disting.synthesis.foster import are_foster, are_same_by_parts
 
 SAFETY = LEAST_SAFETY + 1  # wanted of a fibre: with the ranks that it rests on, the bound may lose one bit
 LIMITS = Limits(seconds=3600.0, entries=4_000_000, safety=SAFETY)  # of one ideal; work ends long before: runs repeat
-EXACT = 10  # number of the exact decision, after the nine conditions
 
 
 def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:

@@ -5,6 +5,7 @@ from enum import StrEnum
 
 from disting.certainty import Certainty, shortfall
 from disting.conditions.evidence import Evidence
+from disting.conditions.rule import Rule
 
 
 class Outcome(StrEnum):
@@ -22,12 +23,12 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Outcome of condition `number`; with BOUNDED the probability of error is at most 2**-safety. `note` says why not.
+    """Outcome of a rule; with BOUNDED the probability of error is at most 2**-safety. `note` says why not.
 
     A bounded outcome whose bound does not reach 2**-LEAST_SAFETY becomes ABANDONED, whoever makes the finding.
     """
 
-    number: int
+    rule: Rule
     outcome: Outcome
     certainty: Certainty = Certainty.PROVEN
     safety: int = 0

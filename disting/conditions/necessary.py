@@ -10,9 +10,15 @@ from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.certainty import Certainty, Grade, graded
 from disting.conditions.evidence import Counts, Evidence, Forms, Ranks
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import Role, Rule
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 
+INVARIANTS = Rule("1", Role.NECESSARY, "number of invariants", "equally many moment invariants")
+DEGREES = Rule("2", Role.NECESSARY, "degrees", "equally many numerator and denominator coefficients")
+FORM = Rule("3", Role.NECESSARY, "symbolic form", "the same invariants are constant")
+RANK = Rule("4", Role.NECESSARY, "generic rank", "equally many determinable parameters")
+DEPENDENCES = Rule("5", Role.NECESSARY, "dependences", "the same sets of invariants are independent")
 NO_DEGREES = "Markov parameters have no numerator and denominator, and equally many of them are compared"
 
 
@@ -43,12 +49,12 @@ def dependences(profile: Profile) -> Hashable:
 
 def condition_1(left: Profile, right: Profile) -> Finding:
     """Cond. 1: "The same number of moment invariants N_MI exist." Counted by polynomial degree."""
-    return _by_degree(1, left, right, number_of_invariants(left) == number_of_invariants(right))
+    return _by_degree(INVARIANTS, left, right, number_of_invariants(left) == number_of_invariants(right))
 
 
 def condition_2(left: Profile, right: Profile) -> Finding:
     """Cond. 2: "The same number of coefficients exist in numerator n and denominator m in both models." """
-    return _by_degree(2, left, right, numbers_of_coefficients(left) == numbers_of_coefficients(right))
+    return _by_degree(DEGREES, left, right, numbers_of_coefficients(left) == numbers_of_coefficients(right))
 
 
 def condition_3(left: Profile, right: Profile) -> Finding:
@@ -57,17 +63,17 @@ def condition_3(left: Profile, right: Profile) -> Finding:
     Values of constants do not enter here (condition 7 asks for them); an invariant that one model lacks is constant there.
     """
     if left.form == right.form:
-        return Finding(3, Outcome.HOLDS)
+        return Finding(FORM, Outcome.HOLDS)
     only = Forms(_ordered(left, left.form - right.form), _ordered(right, right.form - left.form))
-    return Finding(3, Outcome.FAILS, *form_grade(left, right), only)
+    return Finding(FORM, Outcome.FAILS, *form_grade(left, right), only)
 
 
 def condition_4(left: Profile, right: Profile) -> Finding:
     """Cond. 4: "The rank N_R of the Jacobian matrix J = dPhi/dp of the moment invariants is the same for both models." """
     if left.rank == right.rank:
-        return Finding(4, Outcome.HOLDS, *graded(left.rank_proven and right.rank_proven, _safety(left, right)))
+        return Finding(RANK, Outcome.HOLDS, *graded(left.rank_proven and right.rank_proven, _safety(left, right)))
     evidence = Ranks(left.labels, left.rank, right.rank, all_rows=True)
-    return Finding(4, Outcome.FAILS, *rank_grade(left, right), evidence)
+    return Finding(RANK, Outcome.FAILS, *rank_grade(left, right), evidence)
 
 
 def condition_5(left: Profile, right: Profile) -> Finding:
@@ -76,13 +82,13 @@ def condition_5(left: Profile, right: Profile) -> Finding:
     These sets are the bases of a matroid, compared by its canonical form. Constant invariants (zero rows) are left out.
     """
     if left.form != right.form or left.rank != right.rank:
-        return Finding(5, Outcome.INAPPLICABLE, note="condition 3 or 4 fails")
+        return Finding(DEPENDENCES, Outcome.INAPPLICABLE, note="condition 3 or 4 fails")
     if isinstance(left.matroid, Unsearched) or isinstance(right.matroid, Unsearched):
         reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, Unsearched)]
-        return Finding(5, Outcome.ABANDONED, note=reasons[0])
+        return Finding(DEPENDENCES, Outcome.ABANDONED, note=reasons[0])
     one, other = _restricted(left, left.matroid), _restricted(right, right.matroid)
     outcome, evidence = (Outcome.HOLDS, None) if one == other else (Outcome.FAILS, _unequal_rows(left, one, other))
-    return Finding(5, outcome, *dependence_grade(left, right), evidence)
+    return Finding(DEPENDENCES, outcome, *dependence_grade(left, right), evidence)
 
 
 def degree_grade(left: Profile, right: Profile) -> Grade:
@@ -121,12 +127,12 @@ def _unequal_rows(left: Profile, one: Matroid, other: Matroid) -> Evidence:
     return Ranks(tuple(labels[i] for i in rows), rank_in(one, rows), rank_in(other, rows), all_rows=False)
 
 
-def _by_degree(number: int, left: Profile, right: Profile, equal: bool) -> Finding:
+def _by_degree(rule: Rule, left: Profile, right: Profile, equal: bool) -> Finding:
     if Representation.MARKOV in (left.representation, right.representation):
-        return Finding(number, Outcome.INAPPLICABLE, note=NO_DEGREES)
+        return Finding(rule, Outcome.INAPPLICABLE, note=NO_DEGREES)
     if equal:
-        return Finding(number, Outcome.HOLDS)
-    return Finding(number, Outcome.FAILS, evidence=Counts(left.degrees, right.degrees))
+        return Finding(rule, Outcome.HOLDS)
+    return Finding(rule, Outcome.FAILS, evidence=Counts(left.degrees, right.degrees))
 
 
 def _ordered(profile: Profile, labels: frozenset[str]) -> tuple[str, ...]:

@@ -8,8 +8,9 @@ from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
 from disting.conditions.admissible import LACKING, POSITIVELY, Asked, positive_ways, real_finding
 from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import EXACT, exact_finding, mirrored, resting_on_ranks
+from disting.conditions.exact import exact_finding, mirrored, resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.domain import Domain
 from disting.identifiability import IDENTIFIABILITY, Identifiability
 from disting.invariants.profile import Profile, profile

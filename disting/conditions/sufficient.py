@@ -6,10 +6,13 @@ from disting.algebra.colouring import renamings
 from disting.certainty import Certainty
 from disting.conditions.evidence import FreeChoice, Renaming
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import Role, Rule
 from disting.conditions.subject import Subject
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import Profile
 
+RENAMING = Rule("6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical")
+FREE_CHOICE = Rule("7", Role.SUFFICIENT, "free choice", "as many determinable parameters as non-constant invariants")
 INCOMPLETE = "fewer than N_S1 + N_S2 Markov parameters are not exhaustive"
 CANDIDATES = 50  # of a renaming that are verified; a colouring leaves one or two in practice
 
@@ -21,11 +24,11 @@ def condition_6(left: Subject, right: Subject, exhaustive: bool) -> Finding:
     Symmetries of the class first (a theorem), then a search whose result is proven by expanding both transfer functions.
     """
     if not exhaustive:
-        return Finding(6, Outcome.INAPPLICABLE, note=INCOMPLETE)
+        return Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
     if left.canonical.chain == right.canonical.chain:
-        return Finding(6, Outcome.HOLDS, Certainty.THEOREM, evidence=_by_symmetry(left, right))
+        return Finding(RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=_by_symmetry(left, right))
     if left.colouring.fingerprint != right.colouring.fingerprint:
-        return Finding(6, Outcome.FAILS, note="no renaming exists")
+        return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
     return _searched(left, right)
 
 
@@ -37,19 +40,19 @@ def condition_7(left: Profile, right: Profile) -> Finding:
     by residues, so that what holds is proven.
     """
     if not left.describes_all(right):
-        return Finding(7, Outcome.INAPPLICABLE, note=INCOMPLETE)
+        return Finding(FREE_CHOICE, Outcome.INAPPLICABLE, note=INCOMPLETE)
     if left.form != right.form or _constants(left) != _constants(right):
-        return Finding(7, Outcome.FAILS, note="the constant invariants differ")
+        return Finding(FREE_CHOICE, Outcome.FAILS, note="the constant invariants differ")
     if not left.rank == right.rank == len(left.form):
         return Finding(
-            7,
+            FREE_CHOICE,
             Outcome.FAILS,
             note=f"{left.rank} and {right.rank} determinable parameters for {len(left.form)} invariants",
         )
     if not all(p.proven_zeros >= _constants(p).keys() for p in (left, right)):
-        return Finding(7, Outcome.INAPPLICABLE, note="not all constant invariants are known exactly")
+        return Finding(FREE_CHOICE, Outcome.INAPPLICABLE, note="not all constant invariants are known exactly")
     free = tuple(label for label in left.labels if label in left.form)
-    return Finding(7, Outcome.HOLDS, Certainty.PROVEN, evidence=FreeChoice(left.rank, free))
+    return Finding(FREE_CHOICE, Outcome.HOLDS, Certainty.PROVEN, evidence=FreeChoice(left.rank, free))
 
 
 def _by_symmetry(left: Subject, right: Subject) -> Renaming:
@@ -66,10 +69,10 @@ def _searched(left: Subject, right: Subject) -> Finding:
     for images in candidates[:CANDIDATES]:
         renaming = {name: names[1][image] for name, image in zip(names[0], images, strict=True)}
         if is_renaming(left.chain.structure, right.chain.structure, renaming):
-            return Finding(6, Outcome.HOLDS, Certainty.PROVEN, evidence=Renaming(tuple(renaming.items()), ()))
+            return Finding(RENAMING, Outcome.HOLDS, Certainty.PROVEN, evidence=Renaming(tuple(renaming.items()), ()))
     if len(candidates) > CANDIDATES:
-        return Finding(6, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings")
-    return Finding(6, Outcome.FAILS, note="no renaming exists")
+        return Finding(RENAMING, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings")
+    return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
 
 
 def _constants(profile: Profile) -> dict[str, str]:

@@ -20,10 +20,12 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import EXACT
+from disting.conditions.structural import SUBMODEL, SUPERMODEL
+from disting.conditions.sufficient import FREE_CHOICE, RENAMING
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.verdict import RULE_NAMES, Relation
+from disting.verdict import Relation
 
 Numbers = NDArray[np.int32]
 Masses = frozenset[int]
@@ -31,7 +33,7 @@ Masses = frozenset[int]
 
 @dataclass(frozen=True)
 class Classes:
-    """Models `chains`, in order; `tests` names the columns (condition number, EXACT for ranks of 1/G).
+    """Models `chains`, in order; `tests` names the rule of each column (the exact decision for ranks of 1/G).
 
     `columns[i, t]`: bucket of model i in test t, -1 where that is not known; `group[i]`: its class; `renamed[i]`: models of
     equal number are renamings of each other; `free[i]`: models of equal number, not -1, have a free choice (condition 7);
@@ -39,7 +41,7 @@ class Classes:
     """
 
     chains: tuple[Chain, ...]
-    tests: tuple[int, ...]
+    tests: tuple[str, ...]
     columns: Numbers
     group: Numbers
     renamed: Numbers
@@ -61,12 +63,12 @@ class Classes:
         here, there = self.columns[i], self.columns[j]
         differ = np.flatnonzero((here != there) & (here >= 0) & (there >= 0))
         if len(differ):
-            return Relation.DISTINGUISHABLE, RULE_NAMES[self.tests[int(differ[0])]]
+            return Relation.DISTINGUISHABLE, self.tests[int(differ[0])]
         a, b = sorted((int(self.group[i]), int(self.group[j])))
         if a == b:
             return Relation.INDISTINGUISHABLE, self._link(i, j)
         open_pair = (a, b) in self.open_groups
-        return (Relation.UNDECIDED, "") if open_pair else (Relation.DISTINGUISHABLE, RULE_NAMES[EXACT])
+        return (Relation.UNDECIDED, "") if open_pair else (Relation.DISTINGUISHABLE, EXACT.name)
 
     def classes(self) -> tuple[tuple[int, ...], ...]:
         """Classes of two or more mutually indistinguishable models, counted from 0."""
@@ -84,17 +86,17 @@ class Classes:
     def counts_by_rule(self) -> dict[str, int]:
         """Number of pairs by deciding rule, "" for the undecided ones: whole buckets at once."""
         parts, found = [np.arange(len(self))], Counter[str]()
-        for t, number in enumerate(self.tests):
+        for t, name in enumerate(self.tests):
             pieces = [_split(part, self.columns[part, t]) for part in parts]
             for part, split in zip(parts, pieces, strict=True):
-                found[RULE_NAMES[number]] += _pairs(len(part)) - sum(_pairs(len(p)) for p in split)
+                found[name] += _pairs(len(part)) - sum(_pairs(len(p)) for p in split)
             parts = [piece for split in pieces for piece in split]
         for members in self._members.values():
             found.update(self._link(i, j) for i, j in combinations(members, 2))
         counts = self.counts()
         found[""] = counts[Relation.UNDECIDED]
         inside = sum(_pairs(len(p)) for p in parts)
-        found[RULE_NAMES[EXACT]] += inside - counts[Relation.INDISTINGUISHABLE] - counts[Relation.UNDECIDED]
+        found[EXACT.name] += inside - counts[Relation.INDISTINGUISHABLE] - counts[Relation.UNDECIDED]
         return {rule: n for rule, n in sorted(found.items()) if n or not rule}
 
     def pairs(self) -> Iterator[tuple[int, int, Relation, str]]:
@@ -116,9 +118,9 @@ class Classes:
     def _link(self, i: int, j: int) -> str:
         """The rule that connects two models of one class."""
         if self.renamed[i] == self.renamed[j]:
-            return RULE_NAMES[6]
+            return RENAMING.name
         if self.free[i] == self.free[j] >= 0:
-            return RULE_NAMES[7]
+            return FREE_CHOICE.name
         return self._by_structure(i, j)
 
     def _by_structure(self, i: int, j: int) -> str:
@@ -128,10 +130,10 @@ class Classes:
         for base, own in self._turned(bases[1], yours):
             if base == bases[0]:
                 if mine <= own or own <= mine:
-                    return RULE_NAMES[8]
+                    return SUBMODEL.name
                 if own == yours and self._ranks.get((base, mine | own)) == self.rank[i]:
-                    return RULE_NAMES[9]
-        return RULE_NAMES[EXACT]
+                    return SUPERMODEL.name
+        return EXACT.name
 
     @staticmethod
     def _turned(base: Chain, masses: Masses) -> Iterator[tuple[Chain, Masses]]:

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.certainty import Certainty, Grade
-from disting.conditions.admissible import ADMISSIBLE, LACKING, POSITIVELY, needs_counts, resting_on, witness_ways
-from disting.conditions.exact import EXACT
+from disting.conditions.admissible import LACKING, POSITIVELY, needs_counts, resting_on, witness_ways
 from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE, Rule
 from disting.conditions.subject import EXACTLY, Subject
-from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
+from disting.conditions.table import NECESSARY, RULES, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
 from disting.identifiability import IDENTIFIABILITY
 from disting.inclusion import (
@@ -40,8 +40,11 @@ from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 from disting.positivity import PositiveFinding
 from disting.question import Chains, Question
-from disting.verdict import FIBRE, PARAMETERS, RULE_NAMES, Query, Relation, Step, Verdict, decide, verdict_of
+from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, decide, verdict_of
 
+NAMES = ("", *RULES)  # what the numbers in `decided_by` stand for
+NUMBERS = {name: number for number, name in enumerate(NAMES)}
+GRADES = {c.rule.name: c for c in NECESSARY}
 REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE, PARAMETERS)
 Numbers = NDArray[np.uint8]
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
@@ -51,7 +54,7 @@ Prefetch = Callable[[Sequence[Subject], Representation, int], None]
 
 @dataclass(frozen=True)
 class Decisions:
-    """For subjects i < j: `decided_by[i, j]` is the condition's number or 0, `representation[i, j]` indexes REPRESENTATIONS.
+    """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` REPRESENTATIONS.
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs whose bounded finding by a
     necessary condition was proven afterwards, `inclusions` the findings on pairs of unequal rank. `shares[i, j]` tells, for i
@@ -81,12 +84,14 @@ class Decisions:
 
     def relation(self, i: int, j: int) -> Relation:
         """Relation of subjects i and j (counted from 0, in any order)."""
-        number = self.decided_by[min(i, j), max(i, j)]
-        if number == 0:
+        i, j = min(i, j), max(i, j)
+        if not self.decided_by[i, j]:
             return Relation.UNDECIDED
-        if number >= EXACT:
-            return self.steps[min(i, j), max(i, j)].relation
-        return Relation.DISTINGUISHABLE if number <= len(NECESSARY) else Relation.INDISTINGUISHABLE
+        return self.steps[i, j].relation if (i, j) in self.steps else Relation.DISTINGUISHABLE
+
+    def rule(self, i: int, j: int) -> str:
+        """Name of the rule that decides subjects i and j, "" if none does."""
+        return NAMES[int(self.decided_by[min(i, j), max(i, j)])]
 
     def verdict(self, i: int, j: int) -> Verdict:
         """The verdict with its evidence; only the deciding condition is run."""
@@ -94,10 +99,10 @@ class Decisions:
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
             return self._included(i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain))
-        number, where = int(self.decided_by[i, j]), REPRESENTATIONS[self.representation[i, j]]
-        if number == 0:
+        rule, where = self.rule(i, j), REPRESENTATIONS[self.representation[i, j]]
+        if not rule:
             return decide(left, right, self.query)
-        finding = NECESSARY[number - 1].check(self.profile(where, i), self.profile(where, j))
+        finding = GRADES[rule].check(self.profile(where, i), self.profile(where, j))
         if (i, j) in self.proven:
             finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
         return self._included(i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain))
@@ -120,13 +125,13 @@ class Decisions:
             return (found.image if sense is Sense.IMAGE else found.closure).inclusion
         if {(i, j), (j, i)} <= self.shares.keys():
             return Inclusion.EQUAL
-        number, steps = self.decided_by[i, j], self.steps
-        if number >= ADMISSIBLE or (number and (i, j) in steps and steps[i, j].relation is Relation.INDISTINGUISHABLE):
+        step = self.steps.get((i, j))
+        if step and (step.finding.rule is ADMISSIBLE or step.relation is Relation.INDISTINGUISHABLE):
             return Inclusion.EQUAL
-        return Inclusion.NEITHER if number else Inclusion.UNKNOWN
+        return Inclusion.NEITHER if self.decided_by[i, j] else Inclusion.UNKNOWN
 
-    def grades(self) -> Iterator[tuple[int, int, int, str, str, int]]:
-        """Yield (i, j, number, representation, certainty, safety) of all pairs, without evidence."""
+    def grades(self) -> Iterator[tuple[int, int, str, str, str, int]]:
+        """Yield (i, j, rule, representation, certainty, safety) of all pairs, without evidence."""
         profiles: dict[tuple[int, int], Profile] = {}
 
         def profile(where: int, i: int) -> Profile:
@@ -136,20 +141,20 @@ class Decisions:
             return profiles[where, i]
 
         for i, j in combinations(range(len(self.subjects)), 2):
-            number, where = int(self.decided_by[i, j]), int(self.representation[i, j])
+            rule, where = self.rule(i, j), int(self.representation[i, j])
             grade: Grade | tuple[str, int] = ("", 0)
             if (i, j) in self.proven:
                 grade = (Certainty.PROVEN, 0)
             elif (i, j) in self.steps:
                 grade = (self.steps[i, j].finding.certainty, self.steps[i, j].finding.safety)
-            elif number:
-                grade = NECESSARY[number - 1].grade(profile(where, i), profile(where, j))
-            yield i, j, number, REPRESENTATIONS[where], str(grade[0]), grade[1]
+            elif rule:
+                grade = GRADES[rule].grade(profile(where, i), profile(where, j))
+            yield i, j, rule, REPRESENTATIONS[where], str(grade[0]), grade[1]
 
     def counts(self) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
         found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=1)
-        return {RULE_NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
+        return {NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
 
 
 def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask: Ask) -> Decisions:
@@ -233,7 +238,7 @@ def _admissible(result: Decisions, ask: Ask) -> None:
         known = step.relation is not Relation.UNDECIDED
         if known:
             result.steps[int(i), int(j)] = step
-        result.decided_by[i, j] = step.finding.number if known else 0
+        result.decided_by[i, j] = NUMBERS[step.finding.rule.name] if known else 0
         result.representation[i, j] = REPRESENTATIONS.index(PARAMETERS if known else "")
 
 
@@ -251,11 +256,11 @@ def _necessary(result: Decisions, open_pairs: NDArray[np.bool_], r: Representati
     count = _count(r, result.query, result.subjects)
     profiles = {int(i): result.subjects[i].profile(r, count) for i in active}
     for condition in NECESSARY:
-        if condition.number in result.query.conditions:
+        if result.query.asks(condition.rule):
             buckets = _buckets(profiles, condition.key, len(result.subjects))
             known = buckets >= 0
             differ = (buckets[:, None] != buckets[None, :]) & known[:, None] & known[None, :] & open_pairs
-            _settle(result, open_pairs, differ, condition.number, r.value)
+            _settle(result, open_pairs, differ, condition.rule, r.value)
 
 
 def _buckets(profiles: dict[int, Profile], key: Callable[[Profile], Hashable], n: int) -> NDArray[np.int64]:
@@ -272,13 +277,13 @@ def _buckets(profiles: dict[int, Profile], key: Callable[[Profile], Hashable], n
 def _sufficient(result: Decisions, open_pairs: NDArray[np.bool_], r: Representation) -> None:
     count = _count(r, result.query, result.subjects)
     for condition in SUFFICIENT:
-        if condition.number in result.query.conditions:
+        if result.query.asks(condition.rule):
             _each(result, open_pairs, r.value, lambda a, b, c=condition: c.check(a, b, r, count))
 
 
 def _structural(result: Decisions, open_pairs: NDArray[np.bool_]) -> None:
     for condition in STRUCTURAL:
-        if condition.number in result.query.conditions:
+        if result.query.asks(condition.rule):
             _each(result, open_pairs, STRUCTURE, condition.check)
 
 
@@ -287,11 +292,11 @@ def _each(result: Decisions, open_pairs: NDArray[np.bool_], representation: str,
         step = Step(representation, check(result.subjects[i], result.subjects[j]))  # type: ignore[arg-type]
         if step.relation is not Relation.UNDECIDED:
             result.steps[int(i), int(j)] = step
-            _settle(result, open_pairs, (i, j), step.finding.number, representation)
+            _settle(result, open_pairs, (i, j), step.finding.rule, representation)
 
 
-def _settle(result: Decisions, open_pairs: NDArray[np.bool_], pairs: Where, number: int, where: str) -> None:
-    result.decided_by[pairs] = number
+def _settle(result: Decisions, open_pairs: NDArray[np.bool_], pairs: Where, rule: Rule, where: str) -> None:
+    result.decided_by[pairs] = NUMBERS[rule.name]
     result.representation[pairs] = REPRESENTATIONS.index(where)
     open_pairs[pairs] = False
 

@@ -22,12 +22,12 @@ from itertools import combinations
 import numpy as np
 
 from disting.certainty import Certainty
-from disting.conditions.exact import EXACT
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.quick import INVERSELY, QUICKLY
+from disting.conditions.rule import EXACT
 from disting.conditions.subject import Subject
 from disting.conditions.sufficient import condition_6
-from disting.conditions.table import NECESSARY
+from disting.conditions.table import NECESSARY, Necessary
 from disting.engine.classes import Classes, without_dampers
 from disting.engine.engine import Engine, Progress, silent
 from disting.errors import ContradictionError, InputError
@@ -38,7 +38,8 @@ from disting.question import Question
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
 Key = Callable[[int], Hashable]
-TESTS = (1, 2, 3, 4, 5, 3, 4, 5, EXACT)  # transfer function, Markov parameters, 1/G
+OF_MARKOV = tuple(c for c in NECESSARY if not c.of_degrees)
+TESTS = (*(c.rule.name for c in (*NECESSARY, *OF_MARKOV)), EXACT.name)  # transfer function, Markov parameters, 1/G
 
 
 def classes(
@@ -59,10 +60,10 @@ def classes(
     count = 2 * max(s.chain.structure.n_states for s in work.subjects)
     everyone = range(len(work.subjects))
     profiles = work.profiles(everyone, Representation.TF, 0, executor, progress)
-    work.split_by(profiles, range(5), 0)
+    work.split_by(profiles, NECESSARY, 0)
     work.link(profiles)
     several = [i for bucket in work.buckets(everyone) for i in bucket if len(bucket) > 1 and work.free[i] < 0]
-    work.split_by(work.profiles(several, Representation.MARKOV, count, executor, progress), range(2, 5), 3)
+    work.split_by(work.profiles(several, Representation.MARKOV, count, executor, progress), OF_MARKOV, len(NECESSARY))
     work.rename()
     _invert(work, executor, progress)
     for question in (QUICKLY, *more):
@@ -103,10 +104,10 @@ class _Work:
         self.engine.prefetch(structures, r, count, executor, progress)
         return {i: self.subjects[i].profile(r, count) for i in chosen}
 
-    def split_by(self, profiles: dict[int, Profile], conditions: Iterable[int], shift: int) -> None:
-        """Columns of necessary conditions, one after another."""
-        for number in conditions:
-            self.fill(number + shift, {i: NECESSARY[number].key(p) for i, p in profiles.items()})
+    def split_by(self, profiles: dict[int, Profile], conditions: Iterable[Necessary], first: int) -> None:
+        """Columns of necessary conditions, from the `first` one on."""
+        for column, condition in enumerate(conditions, first):
+            self.fill(column, {i: condition.key(p) for i, p in profiles.items()})
 
     def fill(self, column: int, values: dict[int, Hashable]) -> None:
         """Bucket numbers in one column; a bucket in which a value is not known is not split."""

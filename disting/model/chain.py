@@ -8,14 +8,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.constraints import Indices, violated
 from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
-
-if TYPE_CHECKING:
-    from disting.identifiability import Identifiability
 
 
 class Sensor(StrEnum):
@@ -85,16 +81,6 @@ class Chain:
     def collocated(self) -> bool:
         """Force and sensor at the same place (marked with an asterisk in Table 3)."""
         return (self.act_minus, self.act_plus) == (self.meas_minus, self.meas_plus)
-
-    def identifiability(self) -> "Identifiability":
-        """Which parameters the behaviour of this chain determines, and how many parameter vectors have the same behaviour.
-
-        >>> Chain(3, meas_plus=3).identifiability().combinations[0]
-        'm1 + m2 + m3'
-        """
-        from disting.identifiability import identifiability  # a layer above, here for convenience
-
-        return identifiability(self)
 
     def __str__(self) -> str:
         ports = f"force {self.act_plus}-{self.act_minus}, sensor {self.meas_plus}-{self.meas_minus}"

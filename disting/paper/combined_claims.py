@@ -13,7 +13,7 @@ from disting.paper.verdict_claims import MISREAD
 from disting.paper.words import counted, named, told, undecided
 from disting.verdict import Relation, View
 
-FIG_13 = {0: 9, 1: 168, 4: 151, 5: 34, 6: 7, 7: 37}
+FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}
 
 
 def condition_9_holds(findings: Findings) -> Found:
@@ -36,7 +36,7 @@ def _condition_9(findings: Findings, n_masses: int) -> list[Holding]:
 def figure_13(findings: Findings) -> Found:
     """Undamped 4-mass models, all conditions."""
     catalog = findings.catalog(4)
-    found = {int(number or 0): n for number, n in catalog.counts(View.COMBINED).items() if n}
+    found = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
     left = sum(v.relation is Relation.UNDECIDED for *_, v in catalog.pairs(View.EXACT))
     return Found(f"{told(found)}; the exact decision leaves {left}", found == FIG_13)
 
@@ -57,7 +57,7 @@ def eleven_and_thirteen(findings: Findings) -> Found:
 
 def condition_6_damped(findings: Findings) -> Found:
     """Damped pairs that condition 6 decides."""
-    decided = [counted(findings.picture(n, True, View.TF))[6] for n in (3, 4)]
+    decided = [counted(findings.picture(n, True, View.TF))["6"] for n in (3, 4)]
     return Found(f"it decides {named(decided)} damped pairs of 3 and 4 masses", decided == [0, 0])
 
 

@@ -3,35 +3,36 @@
 from collections.abc import Sequence
 from itertools import combinations
 
+from disting.conditions.table import RULES
 from disting.engine import Decisions
 
 Pair = tuple[int, int]
 
 
-def counted(found: Decisions) -> dict[int, int]:
-    """Pairs by deciding condition, undecided ones under 0."""
-    return {int(number or 0): n for number, n in found.counts().items() if n}
+def counted(found: Decisions) -> dict[str, int]:
+    """Pairs by deciding condition, undecided ones under ""."""
+    return {rule: n for rule, n in found.counts().items() if n}
 
 
-def told(counts: dict[int, int]) -> str:
+def told(counts: dict[str, int]) -> str:
     """Counts in words.
 
-    >>> told({1: 26, 0: 3})
+    >>> told({"1": 26, "": 3})
     '26 by condition 1, 3 undecided'
     """
-    decided = [f"{counts[number]} by condition {number}" for number in sorted(counts) if number]
-    return ", ".join([*decided, f"{counts.get(0, 0)} undecided"])
+    decided = [f"{counts[rule]} by {RULES[rule].in_words()}" for rule in sorted(counts) if rule]
+    return ", ".join([*decided, f"{counts.get('', 0)} undecided"])
 
 
-def deciding(found: Decisions) -> dict[Pair, int]:
-    """Number of the deciding condition of every pair of models, 0 where it is undecided."""
+def deciding(found: Decisions) -> dict[Pair, str]:
+    """The deciding condition of every pair of models, "" where it is undecided."""
     pairs = combinations(range(len(found.subjects)), 2)
-    return {(i + 1, j + 1): int(found.decided_by[i, j]) for i, j in pairs}
+    return {(i + 1, j + 1): found.rule(i, j) for i, j in pairs}
 
 
 def undecided(found: Decisions) -> set[Pair]:
     """The pairs that stay open."""
-    return {pair for pair, number in deciding(found).items() if number == 0}
+    return {pair for pair, rule in deciding(found).items() if not rule}
 
 
 def named(numbers: Sequence[object]) -> str:

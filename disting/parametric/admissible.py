@@ -12,10 +12,10 @@ from itertools import islice
 
 from disting.algebra.sampling import residues
 from disting.certainty import Certainty
-from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.evidence import Theorem
 from disting.conditions.explicit import NoEquivalent
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.witnesses import Point, Witnesses
 from disting.domain import Domain
 from disting.errors import ContradictionError

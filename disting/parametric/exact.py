@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 from disting.certainty import Certainty
-from disting.conditions.exact import EXACT, SAFETY
+from disting.conditions.exact import SAFETY
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.ideals import CoefficientMap, Decision, Limits, Membership, decide
 from disting.parametric.model import Model
 

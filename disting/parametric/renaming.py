@@ -14,7 +14,7 @@ from disting.algebra.sampling import about, digest, prime
 from disting.certainty import Certainty
 from disting.conditions.evidence import Renaming
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.sufficient import CANDIDATES
+from disting.conditions.sufficient import CANDIDATES, RENAMING
 from disting.parametric.model import Model, Terms
 from disting.parametric.samples import evaluated
 
@@ -22,17 +22,17 @@ from disting.parametric.samples import evaluated
 def condition_6(left: Model, right: Model) -> Finding:
     """A renaming that makes both transfer functions identical, or the proof that there is none."""
     if (left.degrees, len(left.parameters)) != (right.degrees, len(right.parameters)):
-        return Finding(6, Outcome.FAILS, note="no renaming exists")
+        return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
     modulus = prime(about("renaming", *sorted(digest(*m.content) for m in (left, right))))
     here, there = (_Columns((*m.numerator_terms, *m.denominator_terms), modulus) for m in (left, right))
     candidates = list(islice(renamings(here, there, len(left.parameters)), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:
         pairs = tuple((name, right.parameters[image]) for name, image in zip(left.parameters, images, strict=True))
         if is_renaming(left, right, dict(pairs)):
-            return Finding(6, Outcome.HOLDS, Certainty.PROVEN, evidence=Renaming(pairs, ()))
+            return Finding(RENAMING, Outcome.HOLDS, Certainty.PROVEN, evidence=Renaming(pairs, ()))
     if len(candidates) > CANDIDATES:
-        return Finding(6, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings")
-    return Finding(6, Outcome.FAILS, note="no renaming exists")
+        return Finding(RENAMING, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings")
+    return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
 
 
 def is_renaming(left: Model, right: Model, renaming: dict[str, str]) -> bool:

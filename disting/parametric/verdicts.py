@@ -8,12 +8,12 @@ with and without an admissible equivalent are looked for otherwise (see `admissi
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-from disting.conditions.admissible import ADMISSIBLE
 from disting.conditions.evidence import Constants, Renaming
-from disting.conditions.exact import EXACT, resting_on_ranks
+from disting.conditions.exact import resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.sufficient import INCOMPLETE, condition_7
-from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE
+from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.sufficient import FREE_CHOICE, INCOMPLETE, RENAMING, condition_7
+from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT, Sufficient
 from disting.domain import Domain
 from disting.errors import ContradictionError
 from disting.invariants.profile import Profile
@@ -83,23 +83,29 @@ def steps(pair: Pair) -> Iterator[Step]:
             yield Step(FIBRE, _exact(pair))
         elif representation == STRUCTURE:
             for condition in STRUCTURAL:
-                if condition.number in pair.query.conditions:
-                    yield Step(STRUCTURE, Finding(condition.number, Outcome.INAPPLICABLE, note=NO_ELEMENTS))
+                if pair.query.asks(condition.rule):
+                    yield Step(STRUCTURE, Finding(condition.rule, Outcome.INAPPLICABLE, note=NO_ELEMENTS))
         else:
             yield from (Step(representation, found) for found in _conditions(pair, Representation(representation)))
 
 
 def _conditions(pair: Pair, representation: Representation) -> Iterator[Finding]:
-    asked = pair.query.conditions
     for condition in NECESSARY:
-        if condition.number in asked:
+        if pair.query.asks(condition.rule):
             yield condition.check(*pair.profiles(representation))
-    if 6 in asked:
-        one, other = pair.profiles(representation)
-        whole = one.describes_all(other)
-        yield condition_6(pair.left, pair.right) if whole else Finding(6, Outcome.INAPPLICABLE, note=INCOMPLETE)
-    if 7 in asked:
-        yield condition_7(*pair.profiles(representation))
+    for other in SUFFICIENT:
+        if pair.query.asks(other.rule):
+            yield _sufficient(other, pair, representation)
+
+
+def _sufficient(condition: Sufficient, pair: Pair, representation: Representation) -> Finding:
+    one, other = pair.profiles(representation)
+    if condition.rule is FREE_CHOICE:
+        return condition_7(one, other)
+    if condition.rule is not RENAMING:
+        return Finding(condition.rule, Outcome.INAPPLICABLE, note="it is asked of chains")
+    whole = one.describes_all(other)
+    return condition_6(pair.left, pair.right) if whole else Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
 
 
 def _exact(pair: Pair) -> Finding:
@@ -127,15 +133,14 @@ def _decided(pair: Pair) -> Verdict:
         if step.relation is not Relation.UNDECIDED:
             return verdict_of(*pair.names, step)
         if step.finding.outcome is Outcome.ABANDONED:
-            rule = "the exact decision" if step.finding.number == EXACT else f"condition {step.finding.number}"
-            notes.append(f"{rule} was abandoned ({step.representation}): {step.finding.note}")
+            notes.append(f"{step.finding.rule.in_words()} was abandoned ({step.representation}): {step.finding.note}")
     return Verdict(*pair.names, Relation.UNDECIDED, notes=tuple(notes))
 
 
 def _audited(pair: Pair) -> None:
     deciding = [step for step in steps(pair) if step.relation is not Relation.UNDECIDED]
     if len({step.relation for step in deciding}) > 1:
-        found = ", ".join(f"{s.relation} by condition {s.finding.number} ({s.representation})" for s in deciding)
+        found = ", ".join(f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding)
         raise ContradictionError(f"{' and '.join(pair.names)}: {found}")
 
 

@@ -13,18 +13,20 @@ from numpy.typing import NDArray
 
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import Masses
-from disting.conditions import CONDITIONS
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import EXACT
+from disting.conditions.structural import SUBMODEL, SUPERMODEL
+from disting.conditions.sufficient import FREE_CHOICE, RENAMING
+from disting.conditions.table import CONDITIONS
 from disting.engine.classes import Classes
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.report.payload import packed, script_json
-from disting.report.words import SIGNS, rule_in_words
-from disting.verdict import RULE_NAMES
 
 Numbers = NDArray[np.int64]
 Rule = tuple[str, str, str]
 """Sign in a field, name in words, and what the condition asks for."""
+LINKS = {"renaming": RENAMING, "free": FREE_CHOICE, "submodel": SUBMODEL, "supermodel": SUPERMODEL, "exact": EXACT}
+"""Rules that link the models of one class, as the page's script calls them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +69,9 @@ def payload(found: DamperFamily, **more: object) -> Markup:
         "damped": found.family.damped,
         "sets": [bits(masses) for masses in found.sets],
         "structures": [[chain.gap, mirror(chain), len(chain.structure.elements)] for chain in found.family],
-        "tests": [RULE_NAMES[number] for number in classes.tests],
+        "tests": classes.tests,
         "rules": rules(),
+        "links": {name: rule.name for name, rule in LINKS.items()},
         "several": by_size.several,
         "classes": len(by_size.first),
         "columns": [_packed(column + 1) for column in classes.columns[by_size.first].T],
@@ -102,9 +105,8 @@ def mirror(chain: Chain) -> int:
 
 def rules() -> dict[str, Rule]:
     """What the page says of every rule."""
-    said = {str(c.number): (str(c.number), f"condition {c.number}, {c.title}", c.text) for c in CONDITIONS}
-    exact = RULE_NAMES[EXACT]
-    return said | {exact: (SIGNS[exact], rule_in_words(exact), "")}
+    said = {c.rule.name: (c.rule.sign, f"{c.rule.in_words()}, {c.rule.title}", c.rule.text) for c in CONDITIONS}
+    return said | {EXACT.name: (EXACT.sign, EXACT.in_words(), "")}
 
 
 def open_classes(classes: Classes, by_size: Numbered) -> list[tuple[int, int]]:

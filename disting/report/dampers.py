@@ -9,15 +9,17 @@ from itertools import groupby
 
 from disting.catalogs.damper_family import DamperFamily, Name
 from disting.catalogs.dampers import spelled
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import EXACT
+from disting.conditions.table import RULES
 from disting.model.chain import Chain
 from disting.report.damper_drawing import SharedDrawing, definitions, ground_dampers, height_with_dampers, shared
 from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.model import Drawing
+from disting.report.page import decides
 from disting.report.words import plural
-from disting.verdict import RULE_NAMES, Relation
+from disting.verdict import Relation
 
 LISTED = 24  # undecided pairs of classes up to this number are listed
 SHOWN_AT_ONCE = 12  # classes; more are folded away
@@ -106,9 +108,9 @@ def structures(found: DamperFamily, by_size: Numbered, drawings: tuple[SharedDra
 def counts(found: DamperFamily) -> list[Count]:
     """Pairs by deciding rule: those that prove distinguishable, those that prove indistinguishable, the undecided ones."""
     number, same = found.found.counts_by_rule(), found.found.counts()[Relation.INDISTINGUISHABLE]
-    said, exact = rules(), RULE_NAMES[EXACT]
-    by_exact = same - sum(number.get(rule, 0) for rule in "6789")
-    parts = {rule: (_decides(rule), number.get(rule, 0)) for rule in said if rule != exact}
+    said, exact = rules(), EXACT.name
+    parts = {rule: (decides(RULES[rule]), number.get(rule, 0)) for rule in said if rule != exact}
+    by_exact = same - sum(n for relation, n in parts.values() if relation is Relation.INDISTINGUISHABLE)
     rows = [(rule, relation, n) for rule, (relation, n) in parts.items()]
     rows += [
         (exact, Relation.DISTINGUISHABLE, number.get(exact, 0) - by_exact),
@@ -136,10 +138,6 @@ def _group(found: DamperFamily, by_size: Numbered, number: int) -> Group:
 def _short(name: Name) -> str:
     """A model as deep links name it, such as 17+b1+b3."""
     return "+".join([str(name[0]), *(f"b{mass}" for mass in name[1])])
-
-
-def _decides(rule: str) -> Relation:
-    return Relation.DISTINGUISHABLE if rule <= "5" else Relation.INDISTINGUISHABLE
 
 
 def _title(words: str) -> str:

@@ -13,7 +13,7 @@ from disting.report.fields import CORNERS, FILLS, LETTERS, corner, field, legend
 from disting.report.png import png
 from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Text
 from disting.report.svg import svg
-from disting.report.words import SIGNS, VIEW_TITLES, headline, title
+from disting.report.words import VIEW_TITLES, headline, sign, title
 from disting.verdict import Relation, View
 
 TOP = 88.0  # room for the figure's and the panels' titles, at letter size 1
@@ -121,7 +121,7 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
     return Text(
         x + half,
         y + half,
-        SIGNS.get(verdict.decided_by, verdict.decided_by),
+        sign(verdict.decided_by),
         0.62 * grid.cell,
         LETTERS.get(verdict.relation, Ink.LINE),
     )

@@ -7,19 +7,17 @@ drawing shows is said in text too: by the field under the cursor, by the panel o
 from dataclasses import dataclass
 
 from disting.catalogs import Catalog
-from disting.conditions import CONDITIONS
-from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import EXACT, Role, Rule
+from disting.conditions.table import RULES
 from disting.model.chain import Chain
 from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.model import Drawing, folder_of, model_of
 from disting.report.payload import payload
-from disting.report.words import SIGNS, VIEW_TITLES, headline, listed, plural, short_title, title, totals
-from disting.verdict import RULE_NAMES, Relation, View
+from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
+from disting.verdict import Relation, View
 
-RULES = {RULE_NAMES[EXACT]: "by the exact decision", RULE_NAMES[ADMISSIBLE]: "by their positive equivalents"}
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
 BELOW, ABOVE = VIEWS  # shown first
 
@@ -91,25 +89,20 @@ def summary(catalog: Catalog, view: View) -> str:
     """
     found = {name: n for name, n in catalog.counts(view).items() if n}
     left = found.pop("", 0)
-    others = [(found.pop(rule, 0), text) for rule, text in RULES.items()]
     first = iter(["pairs by condition "])
-    parts = [f"{n} {next(first, 'by ')}{name}" for name, n in sorted(found.items())]
-    parts += [f"{n} {text}" for n, text in others if n]
+    by_name = [name for name in found if RULES[name].role is not Role.DECISION]
+    parts = [f"{found[name]} {next(first, 'by ')}{name}" for name in by_name]
+    parts += [f"{n} by {RULES[name].in_words(view.domain)}" for name, n in found.items() if name not in by_name]
     return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."
 
 
 def counts(catalog: Catalog) -> list[Count]:
     """Pairs by condition and view, every condition named, the undecided ones last."""
     found = [catalog.counts(view) for view in VIEW_TITLES]
-    rows = [(str(c.number), c.title, c.text, _decides(c.number)) for c in CONDITIONS]
-    by_exact = "all parameters with the other model's transfer function, at a random choice of its own"
-    rows += [(RULE_NAMES[EXACT], "exact decision", by_exact, Relation.DISTINGUISHABLE)]
-    grounds = "theorems, order of poles and zeros, certified points"
-    rows += [(RULE_NAMES[ADMISSIBLE], "positive equivalents", grounds, Relation.INDISTINGUISHABLE)]
-    rows += [("", "undecided", "nothing decides", Relation.UNDECIDED)]
+    rows = [(rule.name, rule.sign, rule.title, rule.text, decides(rule)) for rule in RULES.values()]
+    rows += [("", "", "undecided", "nothing decides", Relation.UNDECIDED)]
     return [
-        Count(SIGNS.get(name, name), title, text, relation, tuple(f.get(name, 0) for f in found))
-        for name, title, text, relation in rows
+        Count(sign, title, text, relation, tuple(f.get(name, 0) for f in found)) for name, sign, title, text, relation in rows
     ]
 
 
@@ -124,5 +117,7 @@ def example(catalog: Catalog) -> Drawing:
     return Drawing(0, draw(chain))
 
 
-def _decides(condition: int) -> Relation:
-    return Relation.DISTINGUISHABLE if condition <= 5 else Relation.INDISTINGUISHABLE
+def decides(rule: Rule) -> Relation:
+    """What a rule decides; of those that decide either way, what they mostly do."""
+    apart = rule is EXACT or rule.role is Role.NECESSARY
+    return Relation.DISTINGUISHABLE if apart else Relation.INDISTINGUISHABLE

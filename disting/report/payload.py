@@ -12,12 +12,13 @@ from itertools import groupby
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
-from disting.conditions.admissible import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.table import RULES
 from disting.positivity import Share
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, probability
-from disting.verdict import RULE_NAMES, Verdict, View
+from disting.verdict import Verdict, View
 
 CERTAINTIES = {
     "proven": "Proven by exact computation.",
@@ -61,6 +62,7 @@ def payload(catalog: Catalog, domains: Sequence[Over], **more: object) -> Markup
         "blocks": {of.view.value: of.blocks for of in domains},
         "said": RELATIONS_SAID,
         "titles": VIEW_TITLES,
+        "signs": {rule.name: rule.sign for rule in RULES.values()},
         "texts": list(texts.numbers),
         "entries": rows,
         "views": views,
@@ -112,7 +114,7 @@ def _entry(verdict: Verdict) -> Entry:
 
 def _shares(verdict: Verdict) -> Iterator[str]:
     """Which positive models of each side have positive equivalents, where the evidence does not say so already."""
-    if verdict.decided_by == RULE_NAMES[ADMISSIBLE]:
+    if verdict.decided_by == ADMISSIBLE.name:
         return
     for found, given, other in ((verdict.left_positive, "{L}", "{R}"), (verdict.right_positive, "{R}", "{L}")):
         if found is not None:

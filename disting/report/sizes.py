@@ -18,8 +18,8 @@ from disting.report.environment import render
 from disting.report.fields import CORNERS, LETTERS, corner, field
 from disting.report.scene import PAGE_PALETTE, Anchor, Ink, Layer, Rect, Scene, Text
 from disting.report.svg import body, number
-from disting.report.words import SIGNS, probability
-from disting.verdict import RULE_NAMES, Verdict
+from disting.report.words import probability, sign
+from disting.verdict import Verdict
 from disting.written import write_whole
 
 CELL = 24.0
@@ -133,12 +133,11 @@ def _at(column: int, row: int) -> tuple[float, float]:
 
 def _sign(decided: Decisions, column: int, row: int) -> Text:
     """⊂ or the sign of the deciding rule."""
-    rule = RULE_NAMES[int(decided.decided_by[column, row])]
     x, y = _at(column, row)
     inside = INSIDE.get(decided.inclusion(column, row, Sense.CLOSURE), "")
     half = (CELL - 1) / 2
     ink = LETTERS.get(decided.relation(column, row), Ink.LINE)
-    return Text(x + half, y + half, inside or SIGNS.get(rule, rule), 0.58 * CELL, ink, bold=bool(inside))
+    return Text(x + half, y + half, inside or sign(decided.rule(column, row)), 0.58 * CELL, ink, bold=bool(inside))
 
 
 def _labels(names: list[str]) -> Iterator[Text]:

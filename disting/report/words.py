@@ -3,12 +3,11 @@
 import re
 
 from disting.catalogs import Catalog
-from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.exact import EXACT
+from disting.conditions.table import RULES
 from disting.domain import Domain
 from disting.invariants.expanded import transfer_function
 from disting.model.chain import Chain
-from disting.verdict import RULE_NAMES, Relation, View
+from disting.verdict import Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
@@ -22,7 +21,6 @@ SAID = {relation: relation.value for relation in Relation} | {
     Relation.SOMETIMES: "sometimes indistinguishable",
 }
 """Relations as pages name them."""
-SIGNS = {RULE_NAMES[EXACT]: "E", RULE_NAMES[ADMISSIBLE]: "+"}  # what a field of the matrix shows; else the condition's number
 
 
 def title(catalog: Catalog) -> str:
@@ -72,11 +70,19 @@ def coefficients(chain: Chain) -> tuple[str, ...]:
 def rule_in_words(decided_by: str) -> str:
     """What decided, in words.
 
-    >>> rule_in_words("4"), rule_in_words(RULE_NAMES[EXACT])
+    >>> rule_in_words("4"), rule_in_words("exact")
     ('condition 4', 'the exact decision')
     """
-    named = {RULE_NAMES[EXACT]: "the exact decision", RULE_NAMES[ADMISSIBLE]: "equivalents with positive parameters"}
-    return named.get(decided_by, f"condition {decided_by}")
+    return RULES[decided_by].in_words()
+
+
+def sign(decided_by: str) -> str:
+    """What a field of a matrix shows, nothing of an undecided pair.
+
+    >>> sign("4"), sign("exact"), sign("")
+    ('4', 'E', '')
+    """
+    return RULES[decided_by].sign if decided_by else ""
 
 
 def _readable(expression: str) -> str:

@@ -1,5 +1,6 @@
 """The verdict on a pair: what may decide (`query`), what is found (`result`), and from findings to it (`cascade`)."""
 
+from disting.verdict.cascade import PROVES as PROVES
 from disting.verdict.cascade import Step as Step
 from disting.verdict.cascade import audit as audit
 from disting.verdict.cascade import decide as decide
@@ -10,7 +11,6 @@ from disting.verdict.cascade import with_inclusion as with_inclusion
 from disting.verdict.query import ALL_CONDITIONS as ALL_CONDITIONS
 from disting.verdict.query import FIBRE as FIBRE
 from disting.verdict.query import PARAMETERS as PARAMETERS
-from disting.verdict.query import RULE_NAMES as RULE_NAMES
 from disting.verdict.query import Query as Query
 from disting.verdict.query import View as View
 from disting.verdict.result import Relation as Relation

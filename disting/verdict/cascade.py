@@ -11,17 +11,25 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from disting.certainty import Certainty
-from disting.conditions.admissible import ADMISSIBLE, resting_on
-from disting.conditions.exact import EXACT
+from disting.conditions.admissible import resting_on
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import Role
 from disting.conditions.subject import Subject
-from disting.conditions.table import CONDITIONS, NECESSARY, STRUCTURE, Necessary, Structural, Sufficient
+from disting.conditions.table import CONDITIONS, STRUCTURE, Necessary, Structural, Sufficient
 from disting.domain import Domain
 from disting.errors import ContradictionError
 from disting.inclusion import Inclusion, Inclusions, inclusions
 from disting.invariants.sample import Representation
-from disting.verdict.query import FIBRE, PARAMETERS, RULE_NAMES, Query
+from disting.verdict.query import FIBRE, PARAMETERS, Query
 from disting.verdict.result import Relation, Verdict
+
+_APART, _SAME = {Outcome.FAILS: Relation.DISTINGUISHABLE}, {Outcome.HOLDS: Relation.INDISTINGUISHABLE}
+PROVES: dict[Role, dict[Outcome, Relation]] = {
+    Role.NECESSARY: _APART,
+    Role.SUFFICIENT: _SAME,
+    Role.STRUCTURAL: _SAME,
+    Role.DECISION: _APART | _SAME | {Outcome.SOMETIMES: Relation.SOMETIMES},
+}  # what an outcome proves; others prove nothing
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,14 +42,7 @@ class Step:
     @property
     def relation(self) -> Relation:
         """What this finding alone decides."""
-        number, outcome = self.finding.number, self.finding.outcome
-        if outcome is Outcome.SOMETIMES:
-            return Relation.SOMETIMES
-        if outcome is Outcome.FAILS and (number <= len(NECESSARY) or number in (EXACT, ADMISSIBLE)):
-            return Relation.DISTINGUISHABLE
-        if outcome is Outcome.HOLDS and number > len(NECESSARY):
-            return Relation.INDISTINGUISHABLE
-        return Relation.UNDECIDED
+        return PROVES[self.finding.rule.role].get(self.finding.outcome, Relation.UNDECIDED)
 
 
 def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
@@ -49,7 +50,7 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
     count = query.count(left, right)
     for representation in query.view.representations:
         for condition in CONDITIONS:
-            if condition.number in query.conditions:
+            if query.asks(condition.rule):
                 yield from _step(condition, left, right, representation, count)
         if representation == FIBRE:
             yield Step(FIBRE, left.exact(right))
@@ -112,23 +113,23 @@ def _decided(left: Subject, right: Subject, query: Query) -> Verdict:
 
 
 def _rule(step: Step) -> str:
-    number = step.finding.number
-    return "the exact decision" if number == EXACT else f"condition {number} on {step.representation}"
+    rule = step.finding.rule
+    return rule.in_words() if rule.role is Role.DECISION else f"{rule.in_words()} on {step.representation}"
 
 
 def audit(left: Subject, right: Subject, query: Query) -> Verdict:
     """Run every condition in every representation; raise ContradictionError where two decide differently."""
     deciding = [step for step in steps(left, right, query) if step.relation is not Relation.UNDECIDED]
     if len({step.relation for step in deciding}) > 1:
-        found = ", ".join(f"{s.relation} by condition {s.finding.number} ({s.representation})" for s in deciding)
+        found = ", ".join(f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding)
         raise ContradictionError(f"{left.name} and {right.name}: {found}")
     return decide(left, right, query)
 
 
 def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLEX) -> Verdict:
     """The verdict that a deciding step gives."""
-    f, rule = step.finding, RULE_NAMES[step.finding.number]
-    return Verdict(left, right, step.relation, rule, step.representation, f.certainty, f.safety, f.evidence, domain)
+    f = step.finding
+    return Verdict(left, right, step.relation, f.rule.name, step.representation, f.certainty, f.safety, f.evidence, domain)
 
 
 def _step(

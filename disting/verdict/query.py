@@ -7,15 +7,13 @@ speak of generic complex parameters.
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.conditions.admissible import ADMISSIBLE
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import Rule
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, STRUCTURE
 from disting.domain import Domain
 from disting.errors import InputError
 
-ALL_CONDITIONS = tuple(c.number for c in CONDITIONS)
-RULE_NAMES = {0: "", **{n: str(n) for n in ALL_CONDITIONS}, EXACT: "exact", ADMISSIBLE: "admissible"}  # what `decided_by` says
+ALL_CONDITIONS = tuple(c.rule.name for c in CONDITIONS)
 FIBRE = "fibre"  # the representation of the exact decision
 PARAMETERS = "parameters"  # and of the question whether equivalents have admissible parameters
 
@@ -49,22 +47,28 @@ class View(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """What may be used to decide: the view, the conditions' numbers, the number of Markov parameters (0 = all).
+    """What may be used to decide: the view, the conditions' names, the number of Markov parameters (0 = all).
 
     `inclusion`: after the exact decision, say also whose models lie in the other's closure and which positive models have
     positive equivalents; this is most of the work.
     """
 
     view: View = View.POSITIVE
-    conditions: tuple[int, ...] = ALL_CONDITIONS
+    conditions: tuple[str, ...] = ALL_CONDITIONS
     markov: int = 0
     inclusion: bool = True
 
     def __post_init__(self) -> None:
-        if not set(self.conditions) <= set(ALL_CONDITIONS):
-            raise InputError(f"conditions are numbered 1 to 9, not {sorted(set(self.conditions) - set(ALL_CONDITIONS))}")
+        object.__setattr__(self, "conditions", tuple(map(str, self.conditions)))  # numbers do as well as names
+        unknown = [name for name in self.conditions if name not in ALL_CONDITIONS]
+        if unknown:
+            raise InputError(f"conditions are {', '.join(ALL_CONDITIONS)}, not {', '.join(unknown)}")
         if self.markov < 0:
             raise InputError(f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}")
+
+    def asks(self, rule: Rule) -> bool:
+        """Whether this condition may decide."""
+        return rule.name in self.conditions
 
     @property
     def tells_inclusion(self) -> bool:

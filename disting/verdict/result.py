@@ -7,11 +7,11 @@ from disting.certainty import Certainty
 from disting.conditions.evidence import Evidence
 from disting.conditions.evidence import from_dict as evidence_from
 from disting.conditions.evidence import to_dict as evidence_to
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import EXACT, Role
+from disting.conditions.table import RULES
 from disting.domain import Domain
 from disting.inclusion import Inclusion, Inclusions, inclusions_from_dict, inclusions_to_dict
 from disting.positivity import PositiveFinding
-from disting.verdict.query import RULE_NAMES
 
 
 class Relation(StrEnum):
@@ -53,7 +53,7 @@ def error_bound(certainty: str, safety: int) -> str:
 class Verdict:
     """Relation of a pair with its proof.
 
-    `decided_by`: the condition's number, "exact", "admissible", or "" if undecided; `representation`: "tf", "markov",
+    `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided; `representation`: "tf", "markov",
     "structure", "fibre", "parameters" or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes`
     names what was abandoned. `image` tells, over complex parameters, whose generic models have equivalents on the other side,
     elements finite and not zero; `closure` whose are limits of models there; for models of unequal rank `inclusions` says why.
@@ -104,13 +104,14 @@ class Verdict:
     @property
     def rule(self) -> str:
         """What decided, in words; "" if nothing did."""
-        if self.decided_by.isdigit():
+        if not self.decided_by:
+            return ""
+        rule = RULES[self.decided_by]
+        if rule.role is not Role.DECISION:
             where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
-            return f"condition {self.decided_by}, {where}"
-        if self.decided_by == RULE_NAMES[EXACT]:
-            grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence else ""
-            return f"exact decision, {grounds}" if grounds else "exact decision"
-        return f"equivalents with {self.domain} parameters" if self.decided_by else ""
+            return f"{rule.in_words()}, {where}"
+        grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence and rule is EXACT else ""
+        return ", ".join(filter(None, [rule.in_words(self.domain).removeprefix("the "), grounds]))
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""

@@ -5,6 +5,7 @@ from fractions import Fraction
 import pytest
 
 from disting import Chain, Query, Relation, View, compare
+from disting.identifiability import identifiability
 from tests.against_programs.draws import Tally, cases
 from tests.oracles.plain_chains import drawn_chain, plain_chain
 from tests.oracles.plain_models import by_fibres, shaped_zeros
@@ -64,7 +65,7 @@ def test_numbers_of_parameter_vectors(record_property):
         if true is None:
             tally["open in Singular"] += 1
             continue
-        found = chain.identifiability()
+        found = identifiability(chain)
         tally.check(found.rank == len(chain.parameters) - true.dimension, f"{label}: {chain}: rank {found.rank}, {true}")
         if true.dimension == 0:
             most = true.count if found.most is None else found.most

@@ -16,6 +16,13 @@ def test_models_lists_the_family():
     assert "parameters, gap 1: m1 m2 m3 k01 k23 d01 d23" in done.stdout
 
 
+def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
+    listed = disting("models", 6, "--no-cache").stdout
+    assert "· not asked (--identifiability asks)" in listed and "A98" not in listed
+    rows = [line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line]
+    assert len(rows) == 157 and {row[10] for row in rows} == {"·"}
+
+
 def test_compare_explains_one_pair():
     done = called("compare", "3:1", "3:4", "--damped")
     assert done.returncode == 0

@@ -11,6 +11,7 @@ from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.evidence import Ranks
 from disting.conditions.exact import by_synthesis
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.symmetry import canonical
 from disting.positivity import PositiveFinding, positive_finding
@@ -28,19 +29,19 @@ LONG = [
 @pytest.mark.parametrize("safety", [-3, 0, 1, 99])
 @pytest.mark.parametrize("outcome", [Outcome.HOLDS, Outcome.FAILS, Outcome.SOMETIMES])
 def test_a_finding_below_the_floor_is_abandoned(outcome, safety):
-    found = Finding(5, outcome, Certainty.BOUNDED, safety, RANKS)
+    found = Finding(EXACT, outcome, Certainty.BOUNDED, safety, RANKS)
     assert (found.outcome, found.certainty, found.safety, found.evidence) == (Outcome.ABANDONED, Certainty.PROVEN, 0, None)
     assert ("2^-99" in found.note) == (safety == 99)
-    assert replace(Finding(5, outcome, evidence=RANKS), certainty=Certainty.BOUNDED, safety=safety) == found
+    assert replace(Finding(EXACT, outcome, evidence=RANKS), certainty=Certainty.BOUNDED, safety=safety) == found
 
 
 def test_a_finding_at_the_floor_stands():
-    found = Finding(5, Outcome.FAILS, Certainty.BOUNDED, LEAST_SAFETY, RANKS)
+    found = Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, LEAST_SAFETY, RANKS)
     assert found.outcome is Outcome.FAILS and finding_from_json(finding_to_json(found)) == found
 
 
 def test_a_stored_finding_below_the_floor_is_not_believed():
-    text = finding_to_json(Finding(5, Outcome.FAILS, Certainty.BOUNDED, 100, RANKS)).replace("100", "99")
+    text = finding_to_json(Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, 100, RANKS)).replace("100", "99")
     assert finding_from_json(text).outcome is Outcome.ABANDONED
 
 
@@ -53,7 +54,7 @@ def test_positive_equivalents_and_inclusion_keep_to_the_floor():
 
 def test_only_bounded_findings_have_a_bound():
     with pytest.raises(ValueError, match="bounded"):
-        Finding(5, Outcome.HOLDS, Certainty.PROVEN, 120)
+        Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN, 120)
     assert shortfall(Certainty.THEOREM, 0) == shortfall(None, 0) == ""
 
 

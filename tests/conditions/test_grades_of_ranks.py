@@ -9,6 +9,7 @@ from disting.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
 from disting.cli.common import joint_in_words
 from disting.conditions.exact import by_synthesis, resting_on_ranks
 from disting.conditions.finding import Finding
+from disting.conditions.rule import EXACT
 from disting.engine import family_safety
 from disting.invariants.sample import Representation
 from disting.parametric import Model, compare
@@ -53,7 +54,7 @@ def test_only_equality_needs_ranks_and_only_those_that_are_not_proven(outcome):
     """Where one closure is not in the other they differ, whatever the ranks."""
     unproven, proven = handmade(RANK_1_OF_2), handmade([[1, 0], [0, 1]])
     assert proven.rank_proven and not unproven.rank_proven
-    bounded, certain = Finding(10, outcome, Certainty.BOUNDED, 105), Finding(10, outcome)
+    bounded, certain = Finding(EXACT, outcome, Certainty.BOUNDED, 105), Finding(EXACT, outcome)
     assert resting_on_ranks(bounded, proven, proven) == bounded
     assert resting_on_ranks(certain, unproven, unproven) == certain
     joined = resting_on_ranks(bounded, proven, unproven)

@@ -8,7 +8,7 @@ import pytest
 from disting import CONDITIONS, Certainty, Chain, Engine, Family, Finding, Outcome, Query, Relation, Settings, View, compare
 from disting.conditions import sufficient
 from disting.conditions.evidence import Counts, Forms, Ranks
-from disting.conditions.necessary import condition_1, condition_2, condition_3, condition_4, condition_5
+from disting.conditions.necessary import INVARIANTS, condition_1, condition_2, condition_3, condition_4, condition_5
 from disting.conditions.structural import condition_8, condition_9
 from disting.conditions.sufficient import condition_6, condition_7
 from disting.invariants.profile import Unsearched, profile
@@ -346,24 +346,24 @@ def test_the_bounds_of_8_and_9_cover_all_profiles():
 
 
 def test_the_table_is_in_the_order_of_the_paper():
-    assert [c.number for c in CONDITIONS] == [1, 2, 3, 4, 5, 6, 7, 8, 9]
-    assert len({c.title for c in CONDITIONS}) == 9
+    assert [c.rule.name for c in CONDITIONS] == list("123456789")
+    assert len({c.rule.title for c in CONDITIONS}) == 9
 
 
 def test_every_condition_reports_under_its_own_number():
     tf, chains = handmade(INDEPENDENT), subjects(Chain(2), Chain(2))
     necessary = [c(tf, tf) for c in (condition_1, condition_2, condition_3, condition_4, condition_5)]
     findings = [*necessary, condition_6(*chains, True), condition_7(tf, tf), condition_8(*chains), condition_9(*chains)]
-    assert [f.number for f in findings] == [1, 2, 3, 4, 5, 6, 7, 8, 9]
+    assert [f.rule.name for f in findings] == list("123456789")
 
 
 def test_a_finding_is_neither_true_nor_false():
     with pytest.raises(TypeError, match="outcome"):
-        bool(Finding(1, HOLDS))
+        bool(Finding(INVARIANTS, HOLDS))
 
 
 @pytest.mark.parametrize(("certainty", "safety"), [(Certainty.PROVEN, 5), (Certainty.THEOREM, 1)])
 def test_a_finding_has_an_error_bound_exactly_if_it_is_bounded(certainty, safety):
     with pytest.raises(ValueError, match="error bound"):
-        Finding(1, HOLDS, certainty, safety)
-    assert Finding(1, HOLDS, Certainty.BOUNDED, 0).outcome is Outcome.ABANDONED
+        Finding(INVARIANTS, HOLDS, certainty, safety)
+    assert Finding(INVARIANTS, HOLDS, Certainty.BOUNDED, 0).outcome is Outcome.ABANDONED

@@ -9,6 +9,7 @@ from disting.catalogs.damper_family import damper_family
 from disting.certainty import LEAST_SAFETY
 from disting.conditions import Outcome
 from disting.conditions.quick import QUICKLY
+from disting.conditions.rule import EXACT
 from disting.conditions.structural import condition_8, condition_9
 from disting.engine.engine import question_key
 from disting.engine.grouping import classes
@@ -39,7 +40,7 @@ def test_an_answer_that_may_be_wrong_too_often_is_none(outcome):
         subjects = [engine.subject(str(i), c) for i, c in enumerate(chains)]
         for i, j in combinations(range(3), 2):
             key = question_key(QUICKLY, subjects[i].in_order(subjects[j]), engine.settings)
-            engine.answers[key] = Finding(10, outcome, Certainty.BOUNDED, safety)
+            engine.answers[key] = Finding(EXACT, outcome, Certainty.BOUNDED, safety)
         return {relation for *_, relation, _ in classes(chains, engine).pairs()}
 
     decided = Relation.INDISTINGUISHABLE if outcome is Outcome.HOLDS else Relation.DISTINGUISHABLE

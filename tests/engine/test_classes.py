@@ -26,6 +26,7 @@ from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.dampers import DamperSets, dampers
 from disting.conditions import Outcome
 from disting.conditions.quick import QUICKLY, quick_finding, quick_profile
+from disting.conditions.rule import EXACT
 from disting.engine.engine import question_key
 from disting.engine.grouping import classes
 from disting.errors import ContradictionError
@@ -54,8 +55,7 @@ def test_as_the_decision_pair_by_pair_says(three):
     rules = {}
     for i, j, relation, rule in three.found.pairs():
         assert relation is decided.relation(i, j)
-        number = int(decided.decided_by[i, j])
-        expected = "exact" if number > 9 else str(number)
+        expected = decided.rule(i, j)
         if rule != expected:
             assert {rule, expected} <= LOOSE
             rules[i, j] = (rule, expected)
@@ -148,7 +148,7 @@ def answered(chains, outcomes):
     subjects = [engine.subject(str(i), c) for i, c in enumerate(chains)]
     for (i, j), outcome in outcomes.items():
         bounded = outcome is not Outcome.ABANDONED
-        finding = Finding(10, outcome, Certainty.BOUNDED if bounded else Certainty.PROVEN, 120 * bounded)
+        finding = Finding(EXACT, outcome, Certainty.BOUNDED if bounded else Certainty.PROVEN, 120 * bounded)
         engine.answers[question_key(QUICKLY, subjects[i].in_order(subjects[j]), engine.settings)] = finding
     return engine
 

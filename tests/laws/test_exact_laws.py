@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from disting import Chain, Query, Relation, Verdict, View
 from disting.conditions.evidence import FibreAt
-from disting.conditions.exact import EXACT
-from disting.verdict import RULE_NAMES, audit, decide, steps
+from disting.conditions.rule import EXACT
+from disting.verdict import audit, decide, steps
 from tests.laws.pairs import ENGINE, PAPER, WITNESS, family, quick, similar_pairs, subject
 
 ONLY = Query(View.EXACT, inclusion=False)
@@ -40,7 +40,7 @@ PAIRS = range(1 + sum(count for _, _, count in FAMILIES))
 def test_what_is_open_is_settled_alike_from_both_sides(number):
     left, right = open_pairs()[number]
     there, back = decide(left, right, ONLY), decide(right, left, ONLY)
-    assert there.decided_by == back.decided_by == RULE_NAMES[EXACT]
+    assert there.decided_by == back.decided_by == EXACT.name
     assert there.relation is back.relation is not Relation.UNDECIDED
 
 
@@ -98,7 +98,7 @@ def test_it_never_contradicts_a_condition(pair):
 @given(pair=similar_pairs().map(rigid), markov=st.sampled_from([0, 3]))
 def test_it_is_the_last_to_report(pair, markov):
     found = list(steps(*(subject(chain) for chain in pair), Query(markov=markov)))
-    assert [(s.representation, s.finding.number) for s in found].index(("fibre", EXACT)) == len(found) - 1
+    assert [(s.representation, s.finding.rule) for s in found].index(("fibre", EXACT)) == len(found) - 1
     assert bool(found[-1].finding.evidence) == (found[-1].relation is not Relation.UNDECIDED)
 
 

@@ -46,7 +46,7 @@ def counts(*args, **kwargs):
 def numbers(found):
     """Pairs (i, j) of model numbers by deciding condition."""
     size = len(found.subjects)
-    return {(i + 1, j + 1): int(found.decided_by[i, j]) for i, j in combinations(range(size), 2)}
+    return {(i + 1, j + 1): int(found.rule(i, j) or 0) for i, j in combinations(range(size), 2)}
 
 
 def profiles(chains, representation=Representation.TF, count=0):

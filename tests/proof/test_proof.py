@@ -93,9 +93,9 @@ def _poly(expression, ring):
 def test_every_rank_verdict_of_these_classes_is_proven(n, damped):
     before = decided(n, damped)
     after = prove_all(before)
-    for i, j, number, _, certainty, safety in after.grades():
+    for i, j, rule, _, certainty, safety in after.grades():
         assert after.relation(i, j) is before.relation(i, j)
-        if number in (4, 5):
+        if rule in ("4", "5"):
             assert (certainty, safety) == (Certainty.PROVEN, 0)
             assert after.verdict(i, j).certainty is Certainty.PROVEN
             assert after.verdict(i, j).evidence == before.verdict(i, j).evidence

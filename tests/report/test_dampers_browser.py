@@ -11,7 +11,7 @@ from disting.catalogs import catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.dampers import DamperSets
-from disting.conditions.exact import EXACT
+from disting.conditions.rule import EXACT
 from disting.engine.classes import Classes
 from disting.model.family import Family
 from disting.report import damper_page, write_report
@@ -50,7 +50,7 @@ def large() -> DamperFamily:
     rank = random.integers(10, 12, len(chains)).astype(np.int32)
     classes = Classes(
         chains=chains,
-        tests=(1, 2, 3, 4, 5, 3, 4, 5, EXACT),
+        tests=(*"12345345", EXACT.name),
         columns=buckets[group],
         group=group,
         renamed=(group * 12 + random.integers(0, 12, len(chains))).astype(np.int32),

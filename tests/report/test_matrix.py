@@ -11,7 +11,7 @@ from disting.catalogs import Catalog, catalog
 from disting.report import matrix_png, matrix_svg
 from disting.report.matrix import WIDEST_PNG, figure, thumbnail
 from disting.report.scene import Ink, Rect, Text, extent
-from disting.report.words import SIGNS, VIEW_TITLES, totals
+from disting.report.words import VIEW_TITLES, sign, totals
 from disting.verdict import Relation
 
 
@@ -31,7 +31,7 @@ def test_the_numbers_are_the_counts_of_the_catalogue(shipped: Catalog) -> None:
     for view in VIEW_TITLES:
         layer = next(layer for layer in figure(shipped).layers if layer.name == f"{view}-numbers")
         shown = Counter(shape.text for shape in layer.shapes if isinstance(shape, Text))
-        assert shown == {SIGNS.get(name, name): n for name, n in shipped.counts(view).items() if name and n}
+        assert shown == {sign(name): n for name, n in shipped.counts(view).items() if name and n}
 
 
 def test_nothing_leaves_the_figure(shipped: Catalog) -> None:

@@ -9,8 +9,8 @@ from disting.catalogs.dampers import DamperTable, spelled
 from disting.engine import Decisions
 from disting.report.fields import CORNERS, LETTERS, corner, field, legend, legend_entry, legend_width
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
-from disting.report.words import SIGNS
-from disting.verdict import RULE_NAMES, Relation, View
+from disting.report.words import sign
+from disting.verdict import Relation, View
 
 MARGIN = 16.0
 HEAD = 26.0  # a panel's title
@@ -31,23 +31,19 @@ class Panel:
 def of_decisions(title: str, found: Decisions, names: Sequence[str] = ()) -> Panel:
     """Every pair of a list of models; the sign is the condition's number."""
     pairs = combinations(range(len(found.subjects)), 2)
-    fields = {(i, j): (found.relation(i, j), _sign(RULE_NAMES[int(found.decided_by[i, j])])) for i, j in pairs}
+    fields = {(i, j): (found.relation(i, j), sign(found.rule(i, j))) for i, j in pairs}
     return Panel(title, tuple(names or (s.name for s in found.subjects)), fields)
 
 
 def of_catalog(title: str, catalog: Catalog, view: View) -> Panel:
     """Every pair of a catalogue in one view."""
     names = tuple(f"A{number}" for number in range(1, len(catalog.family) + 1))
-    return Panel(title, names, {(i - 1, j - 1): (v.relation, _sign(v.decided_by)) for i, j, v in catalog.pairs(view)})
+    return Panel(title, names, {(i - 1, j - 1): (v.relation, sign(v.decided_by)) for i, j, v in catalog.pairs(view)})
 
 
 def of_dampers(title: str, table: DamperTable) -> Panel:
     """Every pair of sets of ground dampers."""
     return of_decisions(title, table.decided, tuple(map(spelled, table.sets)))
-
-
-def _sign(decided_by: str) -> str:
-    return SIGNS.get(decided_by, decided_by)
 
 
 def triangles(title: str, panels: Sequence[Panel], columns: int, cell: float) -> Scene:
@@ -74,14 +70,14 @@ def _panel(panel: Panel, x: float, y: float, cell: float) -> Iterator[Layer]:
     places = {(i, j): (x + i * cell, y + j * cell) for i, j in panel.fields}
     by_relation = sorted(panel.fields.items(), key=lambda item: list(Relation).index(item[1][0]))
     marked = [(places[pair], relation) for pair, (relation, _) in by_relation if relation in CORNERS]
-    signs = [(places[pair], relation, sign) for pair, (relation, sign) in by_relation if sign]
+    signs = [(places[pair], relation, mark) for pair, (relation, mark) in by_relation if mark]
     half = (cell - 1) / 2
     yield Layer("title", (Text(x, y - 4, panel.title, 13, anchor=Anchor.START, bold=True),))
     yield Layer("names", tuple(_names(panel.names, x, y, cell)))
     yield Layer("fields", tuple(s for pair, (relation, _) in by_relation for s in field(*places[pair], relation, cell)))
     yield Layer("corners", tuple(corner(*place, relation, cell) for place, relation in marked))
     yield Layer(
-        "signs", tuple(Text(a + half, b + half, sign, 0.62 * cell, LETTERS[relation]) for (a, b), relation, sign in signs)
+        "signs", tuple(Text(a + half, b + half, mark, 0.62 * cell, LETTERS[relation]) for (a, b), relation, mark in signs)
     )
 
 

@@ -2,7 +2,7 @@
 // both have a bucket and these differ, else undecided if their pair is open, else distinguishable by the exact decision; the
 // models of one class are indistinguishable, by the rule that links them.
 const createClasses = (data) => {
-  const EXACT = "exact", DISTINGUISHABLE = 0, INDISTINGUISHABLE = 1, UNDECIDED = 3;
+  const { exact: EXACT, renaming, free: freely, submodel, supermodel } = data.links, DISTINGUISHABLE = 0, INDISTINGUISHABLE = 1, UNDECIDED = 3;
   const each = data.sets.length, count = data.structures.length * each, tests = [...data.tests, EXACT];
   const [group, renamed, free, rank] = ["group", "renamed", "free", "rank"].map((name) => unpacked(data[name], count));
   const columns = data.columns.map((column) => unpacked(column, data.classes));
@@ -28,12 +28,12 @@ const createClasses = (data) => {
   const byStructure = (i, j) => {
     if (structure(i) !== structure(j)) return EXACT;
     const [gap, fold] = data.structures[structure(i)], mine = data.sets[i % each], yours = data.sets[j % each];
-    if (within(mine, yours)) return "8";
+    if (within(mine, yours)) return submodel;
     const both = setNumber.get(mine | yours);
-    if (both !== undefined && rank[structure(i) * each + both] === rank[i]) return "9";
-    return fold && within(mine, turned(yours, gap, fold)) ? "8" : EXACT;
+    if (both !== undefined && rank[structure(i) * each + both] === rank[i]) return supermodel;
+    return fold && within(mine, turned(yours, gap, fold)) ? submodel : EXACT;
   };
-  const link = (i, j) => (renamed[i] === renamed[j] ? "6" : free[i] && free[i] === free[j] ? "7" : byStructure(i, j));
+  const link = (i, j) => (renamed[i] === renamed[j] ? renaming : free[i] && free[i] === free[j] ? freely : byStructure(i, j));
 
   return {
     count,

@@ -30,8 +30,8 @@ const createDamperPanel = (data, classes, models) => {
   const show = (...names) => ["left-figure", "right-figure", "facts", "command"].forEach((part) => (slot(part).hidden = !names.includes(part)));
   const NOT_ASKED = "Positive parameters are not asked here; the command below asks.";
   const REASONS = {
-    distinguishable: (rule) => (rule === "exact" ? "No necessary condition separates them, but the exact decision does: with generic parameters, complex or positive, at least one of them has a transfer function that the other cannot have." : `Indistinguishable models must have this in common: ${data.rules[rule][2]}. These two have not.`),
-    indistinguishable: (rule) => (rule === "exact" ? `The exact decision links them, directly or through other models of their group: over complex parameters they can have the very same transfer function. ${NOT_ASKED}` : `${data.rules[rule][2][0].toUpperCase()}${data.rules[rule][2].slice(1)}. So over complex parameters they can have the very same transfer function. ${NOT_ASKED}`),
+    distinguishable: (rule) => (rule === data.links.exact ? "No necessary condition separates them, but the exact decision does: with generic parameters, complex or positive, at least one of them has a transfer function that the other cannot have." : `Indistinguishable models must have this in common: ${data.rules[rule][2]}. These two have not.`),
+    indistinguishable: (rule) => (rule === data.links.exact ? `The exact decision links them, directly or through other models of their group: over complex parameters they can have the very same transfer function. ${NOT_ASKED}` : `${data.rules[rule][2][0].toUpperCase()}${data.rules[rule][2].slice(1)}. So over complex parameters they can have the very same transfer function. ${NOT_ASKED}`),
     undecided: () => "Neither the conditions nor the exact decision settled their groups in the time that was given. With more time the command below may.",
   };
   const fact = (i) => {

@@ -2,7 +2,6 @@
   const data = JSON.parse(byId("data").textContent);
   const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula", "rule"];
   const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
-  const SIGNS = { exact: "E", admissible: "+" };
   const kind = data.damped ? "damped" : "undamped";
   const folder = `models/${data.masses}-${kind}`;
   const said = { above: byId("above"), below: byId("below") };
@@ -78,8 +77,7 @@
       return (i, j) => codes[place(i, j)];
     },
     sign: (i, j, view) => {
-      const by = data.texts[data.entries[entry(i, j, view)][1]];
-      return SIGNS[by] || by;
+      return data.signs[data.texts[data.entries[entry(i, j, view)][1]]] || "";
     },
     label,
     onMove: (i, j, view) => (byId("readout").textContent = label(i, j, view)),

@@ -1,0 +1,85 @@
+"""A condition is a row of the table, and nothing else: rows written into a copy of the package are at work everywhere."""
+
+import csv
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import disting
+
+MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
+RULES = """
+from disting.certainty import Certainty, graded
+from disting.conditions.evidence import Theorem
+from disting.conditions.finding import Outcome
+from disting.conditions.rule import Role
+
+ALWAYS = Rule("10", Role.NECESSARY, "a matter of course", "both are models")
+NEVER = Rule("11", Role.NECESSARY, "beside the point", "both are something else")
+MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked ones", "the mark", "M")
+
+
+def _marked(left: Subject, right: Subject) -> Finding:
+    if {left.name, right.name} != {"A1", "A11"}:
+        return Finding(MARKED, Outcome.INAPPLICABLE, note="not marked")
+    return Finding(MARKED, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("duality"))
+
+
+"""
+NECESSARY = """    Necessary(ALWAYS, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(ALWAYS, Outcome.HOLDS)),
+    Necessary(NEVER, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(NEVER, Outcome.INAPPLICABLE)),
+)
+SUFFICIENT = ("""
+STRUCTURAL = """    Structural(MARKED, _marked),
+)
+CONDITIONS"""
+
+
+@pytest.fixture(scope="module")
+def copied(tmp_path_factory):
+    """A copy of the package whose table has three rows more, and no other line that differs."""
+    folder = tmp_path_factory.mktemp("rows")
+    shipped = Path(disting.__file__).parent
+    shutil.copytree(shipped, folder / "disting", ignore=shutil.ignore_patterns("__pycache__"))
+    if (shipped.parent / "catalog").is_dir():
+        shutil.copytree(shipped.parent / "catalog", folder / "catalog")
+    table = folder / "disting" / "conditions" / "table.py"
+    text = table.read_text(encoding="utf-8")
+    for old, new in (("\n_n = ", RULES + "_n = "), (")\nSUFFICIENT = (", NECESSARY), (")\nCONDITIONS", STRUCTURAL)):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    table.write_text(text, encoding="utf-8")
+    return folder
+
+
+def run(folder, *arguments):
+    environment = {**os.environ, "PYTHONPATH": str(folder), "DISTING_CACHE": "off"}
+    command = [sys.executable, "-m", "disting", *arguments]
+    done = subprocess.run(command, env=environment, cwd=folder, capture_output=True, encoding="utf-8", timeout=600, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def rows(folder, *arguments):
+    found = csv.DictReader(run(folder, "verdicts", "3", "--damped", "--no-cache", "--csv", "-", *arguments).splitlines())
+    return {(row["left"], row["right"]): row for row in found}
+
+
+def test_it_changes_no_other_verdict(copied):
+    before, after = (rows(folder, "--conditions", "1-9") for folder in (Path(disting.__file__).parents[1], copied))
+    assert before == after and before[MARKED]["relation"] == "undecided"
+    every = rows(copied, "--conditions", "1-marked")
+    assert {pair for pair in every if every[pair] != before[pair]} == {MARKED}
+    assert (every[MARKED]["relation"], every[MARKED]["decided_by"]) == ("indistinguishable", "marked")
+
+
+def test_it_is_told_everywhere(copied):
+    assert "10  a matter of course: both are models" in run(copied, "--help")
+    assert "1 by the mark" in run(copied, "verdicts", "3", "--damped", "--no-cache", "--domain", "complex")
+    run(copied, "report", "3", "--out", "site")
+    page = (copied / "site" / "chains-3-damped.html").read_text(encoding="utf-8")
+    assert "a matter of course" in page and '"marked":"M"' in page
