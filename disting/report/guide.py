@@ -92,7 +92,7 @@ def guide_page(name: str, text: str, known: Container[str]) -> GuidePage:
 
 def _parser() -> MarkdownIt:
     """CommonMark with tables, without HTML; what may be wider than a phone scrolls in a box of its own."""
-    parser = MarkdownIt("commonmark", {"html": False}).enable("table")
+    parser = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")  # nothing is fetched
     parser.add_render_rule("table_open", _table_open)
     parser.add_render_rule("table_close", lambda *_: "</table>\n</div>\n")
     parser.add_render_rule("code_inline", _code_in_text)
