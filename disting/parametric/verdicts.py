@@ -15,7 +15,6 @@ from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.sufficient import FREE_CHOICE, INCOMPLETE, RENAMING, condition_7
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT, Sufficient
 from disting.domain import Domain
-from disting.errors import ContradictionError
 from disting.invariants.profile import Profile
 from disting.invariants.sample import Representation
 from disting.parametric.admissible import admissible_finding
@@ -24,7 +23,7 @@ from disting.parametric.model import Model
 from disting.parametric.profiles import profile, proven_constants
 from disting.parametric.renaming import condition_6
 from disting.settings import Settings
-from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, verdict_of
+from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, agreed, first, open_note, verdict_of
 
 NO_ELEMENTS = "general models have no elements to be left out"
 
@@ -64,8 +63,8 @@ def compare(
     """
     pair = Pair(left, right, query or Query(), settings or Settings())
     if audit:
-        _audited(pair)
-    found, domain = _decided(pair), pair.query.view.domain
+        agreed(*pair.names, steps(pair))
+    found, domain = first(*pair.names, steps(pair)), pair.query.view.domain
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
     return _admissible(pair, found, domain)
@@ -127,23 +126,6 @@ def _constants(pair: Pair) -> Finding:
     return Finding(EXACT, Outcome.FAILS, evidence=evidence)
 
 
-def _decided(pair: Pair) -> Verdict:
-    notes: list[str] = []
-    for step in steps(pair):
-        if step.relation is not Relation.UNDECIDED:
-            return verdict_of(*pair.names, step)
-        if step.finding.outcome is Outcome.ABANDONED:
-            notes.append(f"{step.finding.rule.in_words()} was abandoned ({step.representation}): {step.finding.note}")
-    return Verdict(*pair.names, Relation.UNDECIDED, notes=tuple(notes))
-
-
-def _audited(pair: Pair) -> None:
-    deciding = [step for step in steps(pair) if step.relation is not Relation.UNDECIDED]
-    if len({step.relation for step in deciding}) > 1:
-        found = ", ".join(f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding)
-        raise ContradictionError(f"{' and '.join(pair.names)}: {found}")
-
-
 def _admissible(pair: Pair, found: Verdict, domain: Domain) -> Verdict:
     """Over real or positive parameters: a renaming is a bijection there too; points with and without equivalents come next."""
     if isinstance(found.evidence, Renaming) and found.certainty:
@@ -152,5 +134,4 @@ def _admissible(pair: Pair, found: Verdict, domain: Domain) -> Verdict:
         finding = admissible_finding(pair.left, pair.right, domain, pair.settings.seed)
     if finding.outcome is not Outcome.ABANDONED:
         return verdict_of(*pair.names, Step(PARAMETERS, finding), domain)
-    note = f"over complex parameters they are indistinguishable; {finding.note}"
-    return Verdict(*pair.names, Relation.UNDECIDED, domain=domain, notes=(note,))
+    return Verdict(*pair.names, Relation.UNDECIDED, domain=domain, notes=(open_note(finding.note),))

@@ -2,8 +2,10 @@
 
 from disting.verdict.cascade import PROVES as PROVES
 from disting.verdict.cascade import Step as Step
+from disting.verdict.cascade import agreed as agreed
 from disting.verdict.cascade import audit as audit
 from disting.verdict.cascade import decide as decide
+from disting.verdict.cascade import first as first
 from disting.verdict.cascade import open_note as open_note
 from disting.verdict.cascade import steps as steps
 from disting.verdict.cascade import verdict_of as verdict_of

@@ -7,7 +7,7 @@ All of it is over the complex numbers: distinguishable models are so over real a
 points are Zariski dense), while for indistinguishable ones the admissible values are asked for (see `conditions.admissible`).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from disting.certainty import Certainty
@@ -58,7 +58,7 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
 
 def decide(left: Subject, right: Subject, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
-    found, domain = _decided(left, right, query), query.view.domain
+    found, domain = first(left.name, right.name, steps(left, right, query)), query.view.domain
     if query.tells_inclusion:
         found = with_inclusion(found, left.rank == right.rank, lambda: inclusions(left, right))
         found = _with_shares(found, left, right)
@@ -102,14 +102,15 @@ def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], Inc
     return replace(verdict, image=found.image.inclusion, closure=found.closure.inclusion, inclusions=found)
 
 
-def _decided(left: Subject, right: Subject, query: Query) -> Verdict:
+def first(left: str, right: str, found: Iterable[Step]) -> Verdict:
+    """The verdict over complex parameters of the first step that decides; undecided, it names what was abandoned."""
     notes: list[str] = []
-    for step in steps(left, right, query):
+    for step in found:
         if step.relation is not Relation.UNDECIDED:
-            return verdict_of(left.name, right.name, step)
+            return verdict_of(left, right, step)
         if step.finding.outcome is Outcome.ABANDONED:
             notes.append(f"{_rule(step)} was abandoned: {step.finding.note}")
-    return Verdict(left.name, right.name, Relation.UNDECIDED, notes=tuple(notes))
+    return Verdict(left, right, Relation.UNDECIDED, notes=tuple(notes))
 
 
 def _rule(step: Step) -> str:
@@ -119,11 +120,16 @@ def _rule(step: Step) -> str:
 
 def audit(left: Subject, right: Subject, query: Query) -> Verdict:
     """Run every condition in every representation; raise ContradictionError where two decide differently."""
-    deciding = [step for step in steps(left, right, query) if step.relation is not Relation.UNDECIDED]
-    if len({step.relation for step in deciding}) > 1:
-        found = ", ".join(f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding)
-        raise ContradictionError(f"{left.name} and {right.name}: {found}")
+    agreed(left.name, right.name, steps(left, right, query))
     return decide(left, right, query)
+
+
+def agreed(left: str, right: str, found: Iterable[Step]) -> None:
+    """Raise ContradictionError where two steps decide differently."""
+    deciding = [step for step in found if step.relation is not Relation.UNDECIDED]
+    if len({step.relation for step in deciding}) > 1:
+        told = ", ".join(f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding)
+        raise ContradictionError(f"{left} and {right}: {told}")
 
 
 def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLEX) -> Verdict:

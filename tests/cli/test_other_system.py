@@ -24,7 +24,7 @@ for name in MODULES:
     sys.modules.pop(name, None)
 sys.meta_path.insert(0, Finder())
 for name in ("fork", "killpg", "getuid", "geteuid", "getgid", "setsid", "getpgid", "mkfifo", "nice", "register_at_fork",
-             "sched_getaffinity", "statvfs", "getloadavg", "wait4", "chown", "fchmod"):
+             "sched_getaffinity", "statvfs", "getloadavg", "wait4", "chown"):
     delattr(os, name) if hasattr(os, name) else None
 for name in ("SIGHUP", "SIGKILL", "SIGALRM", "SIGVTALRM", "SIGPIPE", "SIGUSR1", "setitimer", "alarm", "pthread_sigmask"):
     delattr(signal, name) if hasattr(signal, name) else None
