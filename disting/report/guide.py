@@ -136,7 +136,8 @@ def _with_anchors(tokens: Sequence[Token]) -> Contents:
 
 def _with_names_of_columns(tokens: Sequence[Token]) -> None:
     """Give every cell of a wordy table the name of its column, which stands before it where rows are stacked."""
-    table, names, cells = tokens[0], [], []
+    table, names = tokens[0], list[str]()
+    cells = list[tuple[Token, Token]]()
     for token, inner in pairwise(tokens):
         if token.type == "table_open":
             table, names, cells = token, [], []
