@@ -95,7 +95,8 @@ class Catalog:
     def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
         """Relation of two models, without building the verdict."""
         low, high = sorted((left, right))
-        return relation_of(deciding(self._pair(low, high), view)[1])
+        known = self._known.get((low, high, view))
+        return relation_of(deciding(self._pair(low, high), view)[1]) if known is None else known.relation
 
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
@@ -178,7 +179,18 @@ class Catalog:
         chain, count = self.family[number], len(record["parameters"])
         return ModelRow(number, chain, numerator, denominator, count, record["rank"], group, known)
 
+    @cached_property
+    def _known(self) -> dict[tuple[int, int, View], Verdict]:
+        """Verdicts that were asked for; pages ask for each a few times."""
+        return {}
+
     def _verdict(self, record: Record, view: View) -> Verdict:
+        key = (record["left"], record["right"], view)
+        if key not in self._known:
+            self._known[key] = self._read(record, view)
+        return self._known[key]
+
+    def _read(self, record: Record, view: View) -> Verdict:
         try:
             return stored_verdict(record, view)
         except (KeyError, TypeError, ValueError, AttributeError) as reason:

@@ -113,7 +113,12 @@ class Classes:
 
     @cached_property
     def _ranks(self) -> dict[tuple[Chain, Masses], int]:
-        return {(without_dampers(c), frozenset(c.ground_dampers)): int(r) for c, r in zip(self.chains, self.rank, strict=True)}
+        sets = (frozenset(c.ground_dampers) for c in self.chains)
+        return {(base, masses): int(r) for base, masses, r in zip(self._bases, sets, self.rank, strict=True)}
+
+    @cached_property
+    def _bases(self) -> tuple[Chain, ...]:
+        return tuple(map(without_dampers, self.chains))
 
     def _link(self, i: int, j: int) -> str:
         """The rule that connects two models of one class."""
@@ -125,7 +130,7 @@ class Classes:
 
     def _by_structure(self, i: int, j: int) -> str:
         """8 where one set of ground dampers contains the other, 9 where their union has the same rank."""
-        bases = [without_dampers(self.chains[k]) for k in (i, j)]
+        bases = [self._bases[k] for k in (i, j)]
         mine, yours = (frozenset(self.chains[k].ground_dampers) for k in (i, j))
         for base, own in self._turned(bases[1], yours):
             if base == bases[0]:
