@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from enum import StrEnum
 from fractions import Fraction
+from math import ceil, log2
 
 LEAST_SAFETY = 100  # bits: what is wrong with a larger probability than 2**-100, or could be, is not said
 USELESS = -1  # bits of a bound that says nothing; 0 bits are those of a statement that needs no bound
@@ -59,3 +60,14 @@ def joint_safety(safeties: Iterable[int]) -> int:
     if not total:
         return 0
     return int(1 / total).bit_length() - 1 if 2 * total <= 1 else USELESS
+
+
+def weakest(*grades: Grade) -> Grade:
+    """Grade of a statement that rests on all of these: error probabilities add up.
+
+    >>> weakest((Certainty.THEOREM, 0), (Certainty.BOUNDED, 120), (Certainty.BOUNDED, 140))
+    (<Certainty.BOUNDED: 'bounded'>, 119)
+    """
+    certainty = max((c for c, _ in grades), key=list(Certainty).index)  # the strongest comes first
+    bits = [b for c, b in grades if c is Certainty.BOUNDED]
+    return certainty, min(bits) - ceil(log2(len(bits))) if certainty is Certainty.BOUNDED else 0

@@ -11,9 +11,9 @@ from itertools import combinations
 
 from disting.algebra.fractionfree import OutOfTimeError
 from disting.certainty import Certainty
-from disting.conditions.evidence import Ranks
 from disting.conditions.necessary import DEPENDENCES, RANK
 from disting.engine import Decisions, Progress, silent
+from disting.evidence.conditions import Ranks
 from disting.invariants.symbolic import rank_is_at_most
 from disting.model.chain import Chain
 from disting.model.structure import Structure

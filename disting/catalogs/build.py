@@ -7,10 +7,10 @@ from pathlib import Path
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, SCHEMA, Record, lines, name_of
 from disting.catalogs.provenance import write_provenance
-from disting.conditions.evidence import to_dict
 from disting.conditions.subject import Subject
 from disting.domain import Domain
 from disting.engine import Decisions, Engine, Progress, silent
+from disting.evidence.plain import to_dict
 from disting.identifiability import Identifiability
 from disting.inclusion import inclusions_to_dict
 from disting.invariants.sample import Representation

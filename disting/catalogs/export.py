@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 from disting.certainty import Certainty
 from disting.domain import Domain
 from disting.engine import Decisions, family_safety
+from disting.evidence.positive import PositiveFinding
 from disting.inclusion import Inclusion, Sense
-from disting.positivity import PositiveFinding
 from disting.verdict import Relation, error_bound
 
 CSV_COLUMNS = (

@@ -9,12 +9,13 @@ from typing import Any
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
 from disting.certainty import Certainty
 from disting.conditions.admissible import NOT_REAL, positive_ways
-from disting.conditions.evidence import from_dict, to_dict
 from disting.conditions.rule import Role
 from disting.conditions.table import RULES
 from disting.domain import Domain
+from disting.evidence.kinds import evidence_from
+from disting.evidence.plain import to_dict
+from disting.evidence.positive import PositiveFinding
 from disting.inclusion import Inclusion, inclusions_from_dict
-from disting.positivity import PositiveFinding
 from disting.verdict import FIBRE, PARAMETERS, Relation, Step, Verdict, View, open_note
 
 
@@ -55,7 +56,7 @@ def _plain(record: Record, view: View) -> Verdict:
     where, step = deciding(record, view)
     if not step:
         return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_notes(record, view))
-    certainty, evidence = Certainty(step["certainty"]), from_dict(step["evidence"])
+    certainty, evidence = Certainty(step["certainty"]), evidence_from(step["evidence"])
     return Verdict(*names, relation_of(step), step["decided_by"], where, certainty, step["safety"], evidence, view.domain)
 
 

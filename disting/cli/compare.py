@@ -9,10 +9,10 @@ from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import query, reference
 from disting.cli.work import engine_for
 from disting.comparison import compare
-from disting.conditions.ways import BothWays
 from disting.domain import Domain
 from disting.equivalence import chain_of
 from disting.errors import InputError, listed
+from disting.evidence.real import BothWays
 from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing

@@ -18,17 +18,19 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from disting.certainty import Certainty, Grade
-from disting.conditions.evidence import Evidence, Renaming, Theorem
+from disting.certainty import Certainty, Grade, weakest
 from disting.conditions.exact import theorem
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.reality import RealFactors, RealWitnesses
 from disting.conditions.rule import ADMISSIBLE
-from disting.conditions.ways import BothWays, OddFibres, weakest
 from disting.errors import ContradictionError, InputError
+from disting.evidence.conditions import Renaming
+from disting.evidence.decision import Theorem
+from disting.evidence.kinds import Evidence
+from disting.evidence.positive import PositiveFinding, Share, Values
+from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.identifiability import Identifiability
 from disting.model.chain import Chain
-from disting.positivity import PositiveFinding, Share, Values, always_real, positive_finding, real_witness
+from disting.positivity import always_real, positive_finding, real_witness
 from disting.question import Question
 from disting.settings import Settings
 

@@ -3,9 +3,10 @@
 import json
 
 from disting.certainty import Certainty
-from disting.conditions.evidence import from_dict, to_dict
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.evidence.kinds import evidence_from
+from disting.evidence.plain import to_dict
 
 WRITTEN = 10  # what the files have in the place of the rule: the exact decision comes after the nine conditions of the paper
 
@@ -22,4 +23,4 @@ def finding_from_json(text: str) -> Finding:
     written, outcome, certainty, safety, evidence, note = json.loads(text)
     if written != WRITTEN:
         raise ValueError("not a finding of the exact decision")
-    return Finding(EXACT, Outcome(outcome), Certainty(certainty), safety, from_dict(evidence) if evidence else None, note)
+    return Finding(EXACT, Outcome(outcome), Certainty(certainty), safety, evidence_from(evidence) if evidence else None, note)

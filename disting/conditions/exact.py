@@ -33,10 +33,11 @@ from dataclasses import replace
 
 from disting import ideals
 from disting.certainty import LEAST_SAFETY, Certainty, joint_safety
-from disting.conditions.evidence import DeadTime, FibreAt, Theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.ideals import Limits, Refuted, Shared, Solved, chains_told_apart, coefficient_map, normalised
+from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.ideals import Refuted, Shared, Solved
+from disting.ideals import Limits, chains_told_apart, coefficient_map, normalised
 from disting.ideals.by_rows import differ_by_row
 from disting.ideals.full_parts import same_by_full_parts
 from disting.ideals.rows import DampedRow

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.certainty import Certainty, shortfall
-from disting.conditions.evidence import Evidence
 from disting.conditions.rule import Rule
+from disting.evidence.kinds import Evidence
 
 
 class Outcome(StrEnum):

@@ -8,9 +8,10 @@ from collections.abc import Hashable
 
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.certainty import Certainty, Grade, graded
-from disting.conditions.evidence import Counts, Evidence, Forms, Ranks
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
+from disting.evidence.conditions import Counts, Forms, Ranks
+from disting.evidence.kinds import Evidence
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 

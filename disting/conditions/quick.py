@@ -11,10 +11,10 @@ from contextlib import contextmanager
 
 from disting.certainty import Certainty
 from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.evidence import Theorem
 from disting.conditions.exact import by_full_parts, by_ideals, by_shares, by_synthesis, theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.evidence.decision import Theorem
 from disting.ideals import Limits
 from disting.invariants.codec import profile_from_json, profile_to_json
 from disting.invariants.inverse import inverse_profile

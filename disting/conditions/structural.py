@@ -8,10 +8,10 @@ so the set of behaviours of the submodel lies in the closure of the other's. Bot
 from dataclasses import replace
 
 from disting.certainty import Grade, graded
-from disting.conditions.evidence import Embedding, Supermodel
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
 from disting.conditions.subject import Subject
+from disting.evidence.conditions import Embedding, Supermodel
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation
 

@@ -12,13 +12,13 @@ from disting.conditions.exact import exact_finding, mirrored, resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.domain import Domain
+from disting.evidence.positive import PositiveFinding, Values
 from disting.identifiability import IDENTIFIABILITY, Identifiability
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
-from disting.positivity import PositiveFinding, Values
 from disting.question import Answerer, Question, computed
 from disting.settings import Settings
 

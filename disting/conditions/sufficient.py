@@ -4,10 +4,10 @@ from itertools import islice
 
 from disting.algebra.colouring import renamings
 from disting.certainty import Certainty
-from disting.conditions.evidence import FreeChoice, Renaming
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
 from disting.conditions.subject import Subject
+from disting.evidence.conditions import FreeChoice, Renaming
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import Profile
 

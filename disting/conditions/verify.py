@@ -4,35 +4,17 @@ from dataclasses import dataclass, field, replace
 from math import comb
 
 from disting.conditions.admissible import real_factors
-from disting.conditions.evidence import (
-    ByConditions,
-    Constants,
-    Counts,
-    DeadTime,
-    Embedding,
-    Evidence,
-    Explicit,
-    FibreAt,
-    Forms,
-    FreeChoice,
-    NoEquivalent,
-    Ranks,
-    Renaming,
-    Supermodel,
-    Theorem,
-)
 from disting.conditions.exact import rational_part, theorem
-from disting.conditions.reality import RealFactors, RealWitnesses
-from disting.conditions.ways import BothWays, OddFibres
-from disting.conditions.witnesses import Witnesses
+from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
+from disting.evidence.ideals import ByRow, FullParts, Refuted, Shared, Solved
+from disting.evidence.kinds import ByConditions, Evidence
+from disting.evidence.positive import Share
+from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.ideals import (
-    ByRow,
-    FullParts,
     Limits,
     Membership,
-    Refuted,
-    Shared,
-    Solved,
     chains_told_apart,
     coefficient_map,
     confirms,
@@ -48,7 +30,7 @@ from disting.invariants.sample import Representation, Sample
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.positivity import Share, confirms_real, proves
+from disting.positivity import confirms_real, proves
 from disting.settings import Settings
 from disting.synthesis.decide import Grounds
 from disting.synthesis.fibre import fibre

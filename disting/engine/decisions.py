@@ -20,6 +20,7 @@ from disting.conditions.rule import ADMISSIBLE, Rule
 from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, RULES, STRUCTURAL, STRUCTURE, SUFFICIENT
 from disting.domain import Domain
+from disting.evidence.positive import PositiveFinding
 from disting.identifiability import IDENTIFIABILITY
 from disting.inclusion import (
     CLOSURE,
@@ -38,7 +39,6 @@ from disting.inclusion import (
 )
 from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
-from disting.positivity import PositiveFinding
 from disting.question import Chains, Question
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, decide, verdict_of
 

@@ -20,8 +20,9 @@ from disting.catalogs import candidates as stored
 from disting.conditions.subject import Subject
 from disting.engine import Engine
 from disting.errors import CatalogError
+from disting.evidence.positive import Share
 from disting.model.chain import Chain
-from disting.positivity import Share, renamings
+from disting.positivity import renamings
 from disting.verdict import Query, Relation, View
 
 Limits = Mapping[str, tuple[float, float]]

@@ -4,15 +4,11 @@ For any two models that are given as coefficient maps, not only chains; chains w
 Independent of `disting.synthesis`.
 """
 
-from disting.ideals.by_parts import ByParts as ByParts
 from disting.ideals.by_parts import PartsDecision as PartsDecision
-from disting.ideals.by_parts import PartStep as PartStep
-from disting.ideals.by_parts import Vanishing as Vanishing
 from disting.ideals.by_parts import confirms_by_parts as confirms_by_parts
 from disting.ideals.by_parts import decide_by_parts as decide_by_parts
 from disting.ideals.by_parts import included_by_parts as included_by_parts
 from disting.ideals.by_parts import refuted_by_parts as refuted_by_parts
-from disting.ideals.by_rows import ByRow as ByRow
 from disting.ideals.by_rows import confirms_row as confirms_row
 from disting.ideals.by_rows import differ_by_row as differ_by_row
 from disting.ideals.by_shares import chains_told_apart as chains_told_apart
@@ -20,14 +16,9 @@ from disting.ideals.decide import Decision as Decision
 from disting.ideals.decide import Limits as Limits
 from disting.ideals.decide import Membership as Membership
 from disting.ideals.decide import decide as decide
-from disting.ideals.evidence import Evidence as Evidence
-from disting.ideals.evidence import Refuted as Refuted
-from disting.ideals.evidence import Solved as Solved
-from disting.ideals.evidence import confirms as confirms
 from disting.ideals.fibre_ideal import generic_rank as generic_rank
-from disting.ideals.full_parts import FullParts as FullParts
 from disting.ideals.full_parts import same_by_full_parts as same_by_full_parts
-from disting.ideals.shares import Shared as Shared
 from disting.ideals.system import CoefficientMap as CoefficientMap
 from disting.ideals.system import coefficient_map as coefficient_map
 from disting.ideals.system import normalised as normalised
+from disting.ideals.verify import confirms as confirms

@@ -13,76 +13,21 @@ to do with much smaller maps than those of whole chains.
 
 from dataclasses import dataclass, replace
 from math import comb
-from typing import ClassVar
 
 from flint import fmpz_mpoly
 
+from disting.evidence.ideals import ByParts, PartStep, Shown, Solved, Vanishing
 from disting.ideals.decide import Limits, Membership, decide
-from disting.ideals.evidence import Refuted, Solved, confirms
 from disting.ideals.fibre_ideal import generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
 from disting.ideals.parts import Parts, Split, gap, has_relation, is_plain, parts, power, relative_degree, splits
 from disting.ideals.system import CoefficientMap
+from disting.ideals.verify import confirms
 from disting.model.structure import Structure
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 SPARE_BITS = 3  # for up to eight statements: at most two parts in three splits, and the ranks that they rest on
 RANK_POINTS = 3  # one misses a rank with less than 2^-50, so that three are surer than the ideals
-
-
-@dataclass(frozen=True, slots=True)
-class Vanishing:
-    """Markov parameter `index` of a part is a product of elements and has to be zero, or is zero and has to be something."""
-
-    kind: ClassVar[str] = "vanishing"
-    index: int
-
-
-Shown = Vanishing | Solved | Refuted
-
-
-@dataclass(frozen=True, slots=True)
-class PartStep:
-    """What is shown of one part of the searched chain in one split."""
-
-    split: str
-    part: str
-    shown: Shown
-
-
-@dataclass(frozen=True, slots=True)
-class ByParts:
-    """In each split a part that cannot be, or in one split two parts that can; `left_given`: the right model is searched."""
-
-    kind: ClassVar[str] = "by-parts"
-    left_given: bool
-    steps: tuple[PartStep, ...]
-
-    @property
-    def is_member(self) -> bool:
-        """Whether it speaks for inclusion."""
-        return bool(self.steps) and all(isinstance(s.shown, Solved) for s in self.steps)
-
-    @property
-    def is_proven(self) -> bool:
-        """Whether nothing is left to chance."""
-        return all(isinstance(s.shown, Vanishing) for s in self.steps)
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found, part by part."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        told = "; ".join(_told(step, searched) for step in self.steps)
-        if self.is_member:
-            return f"Both parts of {searched} can have, at least in the limit, the receptances that add up to {given}: {told}."
-        start = f"The poles of each part of a generic {given} stay together in an equivalent {searched}"
-        if not self.steps:
-            return f"{start}, and no choice of parts has as many poles as the grounded part of {searched}."
-        return f"{start}, so its parts have given receptances: {told}."
-
-    @property
-    def formula(self) -> str:
-        """The sum of both parts."""
-        return "R₂(q) + F₂(q) = R₁(p) + F₁(p)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,22 +212,3 @@ def _confirms(shown: Shown, wanted: CoefficientMap, part: CoefficientMap) -> boo
         return confirms(shown, wanted, part)
     again = decide(wanted, part, equal_rank=equal, seed="verify", limits=Limits(seconds=600, entries=10**9, safety=1))
     return again.membership is Membership.EXCLUDED
-
-
-def _told(step: PartStep, searched: str) -> str:
-    part = f"the {step.part} part of {searched}"
-    match step.shown:
-        case Vanishing():
-            found = f"Markov parameter {step.shown.index} of {part} is a product of elements and had to be zero, or the reverse"
-        case Solved():
-            found = f"{part} was solved for {len(step.shown.labels)} random receptances modulo random primes"
-        case Refuted():
-            found = f"{part} was refuted for {len(step.shown.labels)} random receptances modulo random primes"
-    return f"{_SPLITS[step.split]}, {found}"
-
-
-_SPLITS = {
-    "same": "with the same parts",
-    "exchanged": "with the parts exchanged but for a rigid body",
-    "rigid": "with a rigid body as the free part",
-}

@@ -10,9 +10,7 @@ searched one. Both have equally many parameters and, where the rank is full, clo
 So an answer that two rows of full rank differ refutes it, whichever of the two is the given one.
 """
 
-from dataclasses import dataclass
-from typing import ClassVar
-
+from disting.evidence.ideals import ByRow
 from disting.ideals.by_parts import not_covered, vanishing_step
 from disting.ideals.parts import gap, is_plain, parts, power, splits
 from disting.ideals.row_answers import known_answers
@@ -21,40 +19,6 @@ from disting.ideals.zeros import Branched, confirms_branches
 from disting.model.structure import Structure
 
 PARTS = ("grounded", "free")
-
-
-@dataclass(frozen=True, slots=True)
-class ByRow:
-    """Exact decision: the `part` of both chains ("grounded", "free", "whole") is a row of so many masses, with a wall or not.
-
-    A generic one with the ports `given` is none with the ports `searched`: see `zeros.Branched` for the rest.
-    """
-
-    kind: ClassVar[str] = "row"
-    part: str
-    wall: bool
-    masses: int
-    given: tuple[int, int]
-    searched: tuple[int, int]
-    label: str
-    branches: int
-    degree: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found of the rows, and why it decides."""
-        ports = (f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched))
-        where = "are one row" if self.part == "whole" else f"have a {self.part} part"
-        rest = "" if self.part == "whole" else " An equivalent model would have the same poles in each of its parts."
-        return (
-            f"{left} and {right} {where} of {self.masses} masses{' with the wall' if self.wall else ''}.{rest} For random "
-            f"elements modulo a random prime, a row with {next(ports)} has no equivalent with {next(ports)}: of the "
-            f"ways to give the zeros to the factors of its numerator, all {self.branches} that need be tried are contradictory."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The fibre is empty."""
-        return "N₂(q) = Π(s − z), D₂(q) = D₁(p₀): 1 ∈ I for each choice of zeros"
 
 
 def differ_by_row(a: Structure, b: Structure) -> ByRow | None:

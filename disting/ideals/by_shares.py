@@ -13,10 +13,11 @@ and those of F; equal ranks of H and one common part mean equal ranks of the oth
 
 from dataclasses import replace
 
+from disting.evidence.ideals import Shared
 from disting.ideals.factored import FactoredMap, factored
 from disting.ideals.monodromy import poles_are_inseparable
 from disting.ideals.parts import gap
-from disting.ideals.shares import Shared, told_apart
+from disting.ideals.shares import told_apart
 from disting.ideals.system import Span, rows
 from disting.model.structure import Structure
 

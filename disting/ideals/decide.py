@@ -19,9 +19,9 @@ from time import process_time
 
 from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
+from disting.evidence.ideals import Refuted, Solved
 from disting.ideals.bounds import safety_of_empty, safety_of_member
 from disting.ideals.elimination import Basis, Sparse, TooLarge, basis_steps
-from disting.ideals.evidence import Evidence, Refuted, Solved
 from disting.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
 from disting.ideals.points import free_variable, solution
 from disting.ideals.system import CoefficientMap, matched
@@ -56,7 +56,7 @@ class Decision:
 
     membership: Membership
     safety: int = 0
-    evidence: Evidence | None = None
+    evidence: Solved | Refuted | None = None
     reason: str = ""
 
     def __bool__(self) -> bool:

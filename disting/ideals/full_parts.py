@@ -13,34 +13,12 @@ constant: where they are equal, fullness is proven, nothing is left to chance.
 
 from dataclasses import dataclass
 from functools import cache
-from typing import ClassVar
 
 from disting.algebra.symbols import symbols
+from disting.evidence.ideals import SAME, FullParts
 from disting.ideals.fibre_ideal import generic_rank
 from disting.ideals.system import Span, Terms, receptance_of_row, rows, separated
 from disting.model.structure import Element, Structure
-
-_FULL = "have as many determinable parameters as coefficients ({})"
-SAME = 0  # in place of the number of coefficients of a part
-
-
-@dataclass(frozen=True, slots=True)
-class FullParts:
-    """Exact decision: `free` coefficients of each part, as many as its rank; 0 where both chains have the very same part."""
-
-    kind: ClassVar[str] = "full-parts"
-    free: tuple[int, ...]
-
-    def sentence(self, left: str, right: str) -> str:
-        """Part by part."""
-        parts = zip(("grounded", "free"), self.free, strict=True)
-        told = [f"the {name} parts are equal" if n == SAME else f"both {name} parts {_FULL.format(n)}" for name, n in parts]
-        return f"In {left} and {right} {' and '.join(told)}, so each can have the parts of the other."
-
-    @property
-    def formula(self) -> str:
-        """Rank and number of coefficients of the parts that are not equal."""
-        return ", ".join(f"N_R = {n} = |Φ_{name}|" for name, n in zip("RF", self.free, strict=True) if n != SAME)
 
 
 def same_by_full_parts(a: Structure, b: Structure, label: str = "full parts") -> FullParts | None:

@@ -19,14 +19,13 @@ of phi and trivial on theta, its conjugates generate 1 x S_n, and the group is S
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations, permutations
 from math import ceil, lcm, log2
-from typing import ClassVar
 
 from flint import fmpz_mod_poly
 
 from disting.algebra.sampling import prime, residues
+from disting.evidence.ideals import Shared
 from disting.ideals.bounds import safety_of_empty
 from disting.ideals.elimination import Basis, TooLarge, basis_steps
 from disting.ideals.factored import FactoredMap, Share, Values, shared_fibre, values
@@ -38,37 +37,6 @@ BITS = 192  # of the prime: one point gives more than 100 bits
 DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720 for six roots
 PATTERNS = 400  # points at which the Galois group is looked at
 ENTRIES = (40_000, 400_000, 4_000_000)  # of one matrix: little is lost where one direction is much dearer than the other
-
-
-@dataclass(frozen=True, slots=True)
-class Shared:
-    """No way to share out the roots of N at the prime and point of `label` leaves parameters of the searched row.
-
-    `part`: the row in question where both chains have the other one in common ("grounded", "free"), "" for whole chains;
-    `shares` that were refuted, each standing for its type, in degree `degree` at most.
-    """
-
-    kind: ClassVar[str] = "shared"
-    left_given: bool
-    part: str
-    label: str
-    shares: int
-    degree: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        where = f"The {self.part} parts decide, the others are the same. " if self.part else ""
-        return (
-            f"{where}For one choice of random parameters of {given} modulo a random prime of {BITS} bits, no parameters of "
-            f"{searched}, in any extension, have the same receptance: each of the {self.shares} ways in which the numerator's "
-            "roots could be shared out among its factors leads to a contradiction."
-        )
-
-    @property
-    def formula(self) -> str:
-        """Every share's ideal is everything."""
-        return f"1 ∈ ⟨θ₂ − θ, φ₂ − φ, D₂ − D₁⟩ for {self.shares} shares"
 
 
 def told_apart(left: FactoredMap, right: FactoredMap, seed: str, entries: Sequence[int] = ENTRIES) -> tuple[Shared, int] | None:

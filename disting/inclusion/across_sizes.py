@@ -20,10 +20,10 @@ from itertools import permutations, product
 
 from disting.algebra.sampling import about
 from disting.certainty import Certainty
-from disting.conditions.evidence import Counts
 from disting.conditions.exact import rational_part, theorem
 from disting.conditions.subject import Subject
-from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.conditions import Counts
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.limit_fibre import contained
 from disting.inclusion.limits import follows, reached

@@ -2,20 +2,13 @@
 
 from dataclasses import astuple
 
-from disting.conditions.evidence import Counts
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
-from disting.ideals import Solved
+from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.conditions import Counts
+from disting.evidence.ideals import Solved
+from disting.evidence.kinds import AcrossSizes
 from disting.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins
-from disting.inclusion.across_sizes_evidence import (
-    AcrossSizes,
-    Limit,
-    LimitFibre,
-    Meeting,
-    PartLimit,
-    PoleSharing,
-    TooLarge,
-)
 from disting.inclusion.limit_fibre import contains
 from disting.inclusion.limits import follows
 from disting.inclusion.meeting import Room, room

@@ -31,6 +31,7 @@ from functools import lru_cache
 
 from disting.algebra.sampling import about, prime, residues
 from disting.certainty import LEAST_SAFETY, joint_safety
+from disting.evidence.limits import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
 from disting.ideals import CoefficientMap, normalised
 from disting.ideals.fibre_ideal import evaluated, generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
@@ -38,7 +39,6 @@ from disting.ideals.parts import gap, has_relation, is_plain, parts, power, spli
 from disting.ideals.system import terms
 from disting.inclusion.end_rows import end_resultant
 from disting.inclusion.inner_rows import inner_resultant
-from disting.inclusion.outside_evidence import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
 from disting.inclusion.row_equations import equation_safety, row_equation
 from disting.inclusion.rows import FREE, Row, rows_of
 from disting.invariants.powers import powers

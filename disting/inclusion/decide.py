@@ -14,16 +14,18 @@ kept. Chains of different sizes are compared in `across_sizes`: there CLOSURE is
 from dataclasses import replace
 
 from disting.certainty import Certainty
-from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
-from disting.ideals import ByParts, Limits, Refuted, Solved, coefficient_map, decide_by_parts, included_by_parts, normalised
+from disting.evidence.across_sizes import LimitFibre, PoleSharing
+from disting.evidence.decision import FibreAt
+from disting.evidence.ideals import ByParts, Refuted, Solved
+from disting.evidence.kinds import InclusionEvidence
+from disting.evidence.limits import Outside, PartsInside, RelativeDegrees
+from disting.ideals import Limits, coefficient_map, decide_by_parts, included_by_parts, normalised
 from disting.ideals import Membership as Reached
 from disting.ideals import decide as decide_ideal
 from disting.inclusion.across_sizes import by_computing, by_sizes
-from disting.inclusion.across_sizes_evidence import LimitFibre, PoleSharing
 from disting.inclusion.closures import of_closure
-from disting.inclusion.evidence import InclusionEvidence, RelativeDegrees
 from disting.inclusion.finding import (
     Inclusion,
     InclusionFinding,
@@ -34,7 +36,6 @@ from disting.inclusion.finding import (
     inclusions_to_json,
 )
 from disting.inclusion.image import of_image
-from disting.inclusion.outside_evidence import Outside, PartsInside
 from disting.inclusion.profiles import by_profiles
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain

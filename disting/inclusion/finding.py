@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.certainty import Certainty, shortfall
-from disting.inclusion.evidence import (
+from disting.evidence.kinds import (
     InclusionEvidence,
-    evidence_from_dict,
-    evidence_to_dict,
     excludes_equivalents,
     excludes_limits,
+    inclusion_evidence_from,
     tells_equivalents,
     tells_limits,
 )
+from disting.evidence.plain import to_dict
 
 
 class Inclusion(StrEnum):
@@ -132,13 +132,13 @@ def inclusion_to_dict(found: InclusionFinding) -> dict[str, object]:
     """Plain data, ready for JSON."""
     certainty = found.certainty.value if found.certainty else ""
     head = {"inclusion": found.inclusion.value, "certainty": certainty, "safety": found.safety}
-    return head | {"evidence": evidence_to_dict(found.evidence), "reason": found.reason}
+    return head | {"evidence": to_dict(found.evidence) if found.evidence else {}, "reason": found.reason}
 
 
 def inclusion_from_dict(data: dict[str, object]) -> InclusionFinding:
     """Inverse of `inclusion_to_dict`; raises KeyError, TypeError or ValueError for what is none."""
     plain, certainty = data["evidence"], data["certainty"]
-    evidence = evidence_from_dict(plain) if isinstance(plain, dict) and plain else None
+    evidence = inclusion_evidence_from(plain) if isinstance(plain, dict) and plain else None
     grade = Certainty(str(certainty)) if certainty else None
     return InclusionFinding(Inclusion(str(data["inclusion"])), grade, int(str(data["safety"])), evidence, str(data["reason"]))
 

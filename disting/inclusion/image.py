@@ -16,9 +16,10 @@ from dataclasses import replace
 from math import ceil, log2
 
 from disting.certainty import LEAST_SAFETY, Certainty
-from disting.conditions.evidence import FibreAt
 from disting.conditions.exact import rational_part
-from disting.ideals import Limits, Refuted, decide, normalised, refuted_by_parts
+from disting.evidence.decision import FibreAt
+from disting.evidence.ideals import Refuted
+from disting.ideals import Limits, decide, normalised, refuted_by_parts
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.profiles import by_relative_degrees
 from disting.invariants.powers import powers

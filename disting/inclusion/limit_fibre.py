@@ -14,7 +14,8 @@ from itertools import combinations, islice, product
 from math import ceil, log2
 
 from disting.certainty import LEAST_SAFETY
-from disting.ideals import Decision, Limits, Membership, Solved, coefficient_map, confirms, decide
+from disting.evidence.ideals import Solved
+from disting.ideals import Decision, Limits, Membership, coefficient_map, confirms, decide
 from disting.inclusion.limits import Step, follows, reached
 from disting.inclusion.meeting import least_rank, most_rank
 from disting.inclusion.rows import Row, rows_of

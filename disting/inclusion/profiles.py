@@ -11,8 +11,8 @@ from typing import TypeVar
 
 from disting.algebra.matroid import Matroid, rank_in
 from disting.certainty import Certainty
-from disting.conditions.evidence import Counts, Labels
-from disting.inclusion.evidence import FullImage, LargerProjection, RelativeDegrees
+from disting.evidence.conditions import Counts, Labels
+from disting.evidence.limits import FullImage, LargerProjection, RelativeDegrees
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.invariants.profile import Profile
 from disting.model.chain import Chain

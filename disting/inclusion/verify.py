@@ -3,26 +3,18 @@
 from dataclasses import replace
 from math import comb
 
-from disting.conditions.evidence import Counts, FibreAt, FreeChoice, Labels
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
 from disting.conditions.verify import POINTS, Witness
-from disting.ideals import (
-    ByParts,
-    Limits,
-    Membership,
-    Refuted,
-    Solved,
-    coefficient_map,
-    confirms_by_parts,
-    decide,
-    normalised,
-)
-from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
+from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
+from disting.evidence.conditions import Counts, FreeChoice, Labels
+from disting.evidence.decision import FibreAt
+from disting.evidence.ideals import ByParts, Refuted, Solved
+from disting.evidence.kinds import InclusionEvidence
+from disting.evidence.limits import FullImage, LargerProjection, Outside, PartsInside, RelativeDegrees
+from disting.ideals import Limits, Membership, coefficient_map, confirms_by_parts, decide, normalised
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
 from disting.inclusion.closures import confirms_parts
-from disting.inclusion.evidence import FullImage, InclusionEvidence, LargerProjection, RelativeDegrees
-from disting.inclusion.outside_evidence import Outside, PartsInside
 from disting.inclusion.profiles import degrees_refute, ordered
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation

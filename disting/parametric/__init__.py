@@ -1,6 +1,6 @@
 """General parametric models: any rational transfer function with parameters, compared as chains are."""
 
-from disting.conditions.witnesses import Witnesses as Witnesses
+from disting.evidence.general import Witnesses as Witnesses
 from disting.parametric.admissible import confirms as confirms
 from disting.parametric.alternatives import Alternatives as Alternatives
 from disting.parametric.alternatives import alternatives as alternatives

@@ -12,13 +12,12 @@ from itertools import islice
 
 from disting.algebra.sampling import residues
 from disting.certainty import Certainty
-from disting.conditions.evidence import Theorem
-from disting.conditions.explicit import NoEquivalent
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
-from disting.conditions.witnesses import Point, Witnesses
 from disting.domain import Domain
 from disting.errors import ContradictionError
+from disting.evidence.decision import Theorem
+from disting.evidence.general import NoEquivalent, Point, Witnesses
 from disting.parametric.equivalent import spelled
 from disting.parametric.fibre import Extent, solved
 from disting.parametric.formulas import explicit, fit

@@ -3,8 +3,8 @@
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
-from disting.conditions.explicit import Explicit, Formula, NoEquivalent
 from disting.domain import Domain
+from disting.evidence.general import Explicit, Formula, NoEquivalent
 from disting.parametric.between import End, Path
 from disting.parametric.expansion import Expansion
 from disting.parametric.expression import tree

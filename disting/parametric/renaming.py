@@ -12,9 +12,9 @@ from itertools import islice
 from disting.algebra.colouring import renamings
 from disting.algebra.sampling import about, digest, prime
 from disting.certainty import Certainty
-from disting.conditions.evidence import Renaming
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.sufficient import CANDIDATES, RENAMING
+from disting.evidence.conditions import Renaming
 from disting.parametric.model import Model, Terms
 from disting.parametric.samples import evaluated
 

@@ -8,13 +8,14 @@ with and without an admissible equivalent are looked for otherwise (see `admissi
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-from disting.conditions.evidence import Constants, Renaming
 from disting.conditions.exact import resting_on_ranks
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.sufficient import FREE_CHOICE, INCOMPLETE, RENAMING, condition_7
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT, Sufficient
 from disting.domain import Domain
+from disting.evidence.conditions import Renaming
+from disting.evidence.general import Constants
 from disting.invariants.profile import Profile
 from disting.invariants.sample import Representation
 from disting.parametric.admissible import admissible_finding

@@ -1,7 +1,5 @@
 """Positive equivalents: which positive models of one chain have the behaviour of a positive model of another one."""
 
-from disting.positivity.evidence import Evidence as Evidence
-from disting.positivity.evidence import Values as Values
 from disting.positivity.finding import positive_finding as positive_finding
 from disting.positivity.ranges import Ranges as Ranges
 from disting.positivity.ranges import confirms_within as confirms_within
@@ -11,8 +9,5 @@ from disting.positivity.ranges import within_ranges as within_ranges
 from disting.positivity.real import always_real as always_real
 from disting.positivity.real import confirms_real as confirms_real
 from disting.positivity.real import real_witness as real_witness
-from disting.positivity.result import Empirical as Empirical
-from disting.positivity.result import PositiveFinding as PositiveFinding
-from disting.positivity.result import Share as Share
 from disting.positivity.verify import confirms as confirms
 from disting.positivity.verify import proves as proves

@@ -25,12 +25,22 @@ from dataclasses import replace
 from disting.algebra.sampling import about
 from disting.certainty import Certainty
 from disting.errors import InputError
+from disting.evidence.decision import Theorem
+from disting.evidence.positive import (
+    Empirical,
+    EmptyFibre,
+    Excluded,
+    Interlacing,
+    PartWords,
+    Points,
+    PositiveEvidence,
+    PositiveFinding,
+    Share,
+)
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
-from disting.positivity.evidence import Evidence, Excluded, Interlacing, NoEquivalent, PartWords, Points, SameByTheorem
 from disting.positivity.parts import Obstacle, distances, obstacle, only_parts_sum_to_zero, parts, swap_fails
 from disting.positivity.points import equivalent, random_point, spelled
-from disting.positivity.result import Empirical, PositiveFinding, Share
 from disting.positivity.words import Words, words
 from disting.settings import Settings
 from disting.synthesis.decide import Membership, member, point_bits, rational_point, safety_of_point
@@ -57,7 +67,7 @@ def positive_finding(given: Chain, other: Chain, settings: Settings | None = Non
     seed = (settings or Settings()).seed
     named = theorem(given, other)
     if named:
-        return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=SameByTheorem(named))
+        return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Theorem(named))
     if not all(is_plain(c) for c in (given, other)):
         return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
     against = obstacle(given, other)
@@ -144,7 +154,7 @@ def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
         return share
     first, empirical = _sampled(given, other, seed, DAMPED_TRIES if given.damped else TRIES)
     if Answer.YES in first and Answer.NO in first:
-        evidence: Evidence = Points(first[Answer.YES], first[Answer.NO])
+        evidence: PositiveEvidence = Points(first[Answer.YES], first[Answer.NO])
         return PositiveFinding(Share.SOMETIMES, Certainty.PROVEN, evidence=evidence, empirical=empirical)
     return PositiveFinding(Share.UNKNOWN, empirical=empirical, reason="no theorem applies; random points are no proof")
 
@@ -156,7 +166,7 @@ def _never(given: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
         yield PositiveFinding(Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point)))
     found = member(given, other, seed)
     if found.membership is Membership.EXCLUDED:
-        yield PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety_of_point(other), NoEquivalent(spelled(found.point)))
+        yield PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety_of_point(other), EmptyFibre(spelled(found.point)))
 
 
 def _sampled(given: Chain, other: Chain, seed: str, tries: int) -> tuple[dict[Answer, tuple[tuple[str, str], ...]], Empirical]:

@@ -7,8 +7,8 @@ from math import frexp, ldexp
 from flint import fmpq
 
 from disting.algebra.sampling import residues
+from disting.evidence.positive import Values
 from disting.model.chain import Chain
-from disting.positivity.evidence import Values
 from disting.positivity.parts import Point, distances, parts, receptances
 from disting.positivity.words import word, words
 from disting.synthesis.fibre import fibre

@@ -19,14 +19,13 @@ from flint import arb, fmpq
 
 from disting.certainty import LEAST_SAFETY, Certainty, Grade, graded
 from disting.errors import InputError, shown
+from disting.evidence.positive import BoxMap, Empirical, Excluded, Points, PositiveFinding, Share
 from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical, forms
-from disting.positivity.evidence import BoxMap, Excluded, Points
 from disting.positivity.finding import is_plain, positive_finding, refuse
 from disting.positivity.parts import Obstacle, Point
 from disting.positivity.points import Range, equivalent, random_point, read, spelled
-from disting.positivity.result import Empirical, PositiveFinding, Share
 from disting.positivity.witness import DRAWS, bits, drawn_near, is_long
 from disting.settings import Settings
 from disting.synthesis.construction import is_untested

@@ -38,8 +38,8 @@ from collections.abc import Iterator
 from flint import acb, ctx
 
 from disting.algebra.sampling import residues
+from disting.evidence.positive import Values
 from disting.model.chain import Chain
-from disting.positivity.evidence import Values
 from disting.positivity.parts import Point, distances, parts, receptances
 from disting.positivity.points import random_point, read, spelled
 from disting.synthesis.ball import Ball, Imprecise, Poly, product, roots, shifted

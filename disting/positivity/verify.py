@@ -1,28 +1,38 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
 from disting.certainty import Certainty
+from disting.evidence.decision import Theorem
+from disting.evidence.positive import (
+    BoxMap,
+    EmptyFibre,
+    Excluded,
+    Interlacing,
+    Points,
+    PositiveEvidence,
+    PositiveFinding,
+    Share,
+    Values,
+)
 from disting.model.chain import Chain
-from disting.positivity.evidence import BoxMap, Evidence, Excluded, Interlacing, NoEquivalent, Points, SameByTheorem, Values
 from disting.positivity.finding import part_words, refuse, theorem, without_dead_time
 from disting.positivity.parts import Obstacle, obstacle, only_parts_sum_to_zero, swap_fails
 from disting.positivity.points import equivalent, read
-from disting.positivity.result import PositiveFinding, Share
 from disting.synthesis.decide import safety_of_point
 from disting.synthesis.fibre import fibre
 from disting.synthesis.result import Answer, Status
 from disting.synthesis.target import target
 
 
-def confirms(evidence: Evidence, given: Chain, other: Chain) -> bool:
+def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
     """Whether the evidence is true of the two chains; statements about ranges are confirmed by `confirms_within`."""
     refuse(given, other)
     given, other = without_dead_time(given), without_dead_time(other)
     match evidence:
-        case SameByTheorem():
+        case Theorem():
             return evidence.name != "" and theorem(given, other) == evidence.name
         case Excluded():
             return _excluded(evidence, given, other)
-        case NoEquivalent():
+        case EmptyFibre():
             return _is_of(evidence.point, given) and _is_empty(evidence.point, given, other)
         case Interlacing():
             return _interlaced(evidence, given, other)
@@ -41,14 +51,14 @@ def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
     return bounded and confirms(evidence, given, other)
 
 
-def _shown(evidence: Evidence) -> tuple[Share, Certainty]:
+def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
     """Share that evidence of this kind shows, and how surely."""
     match evidence:
-        case SameByTheorem() | BoxMap():
+        case Theorem() | BoxMap():
             return Share.ALWAYS, Certainty.THEOREM
         case Excluded():
             return Share.NEVER, Certainty.PROVEN if evidence.point else Certainty.THEOREM
-        case NoEquivalent():
+        case EmptyFibre():
             return Share.NEVER, Certainty.BOUNDED
         case Interlacing():
             return Share.SOMETIMES if any(p.lacking for p in evidence.parts) else Share.ALWAYS, Certainty.THEOREM

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from disting.catalogs import Catalog
 from disting.domain import Domain
-from disting.positivity import Share
+from disting.evidence.positive import Share
 from disting.report.words import totals
 from disting.verdict import Relation, View
 

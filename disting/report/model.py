@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.catalogs import Catalog, ModelRow
+from disting.evidence.positive import PositiveFinding, Share
 from disting.identifiability import Level
 from disting.inclusion import Inclusion
 from disting.model.drawing import text_drawing
-from disting.positivity import PositiveFinding, Share
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.formulas import Correspondence, combinations, correspondence, written

@@ -14,7 +14,7 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.table import RULES
-from disting.positivity import Share
+from disting.evidence.positive import Share
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, probability

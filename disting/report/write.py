@@ -12,6 +12,7 @@ from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.report.dampers import damper_page
 from disting.report.environment import source
+from disting.report.guide import guide_files
 from disting.report.index import Link, index
 from disting.report.matrix import figure, figure_png
 from disting.report.model import folder_of, model_page
@@ -20,6 +21,11 @@ from disting.report.svg import svg
 from disting.written import write_whole
 
 STYLE = "models/style.css"
+GUIDE: Link = (
+    "guide/index.html",
+    "Guide",
+    "what a verdict says, how to read a fit, how it works, how fast and how reliable it is",
+)
 LINKS: tuple[Link, ...] = (
     ("sizes-undamped.html", "Different sizes, undamped", "which smaller models are limits of larger ones"),
     ("sizes-damped.html", "Different sizes, damped", "which smaller models are limits of larger ones"),
@@ -31,7 +37,7 @@ LINKS: tuple[Link, ...] = (
 
 
 def write_report(catalogs: Sequence[Catalog], out: Path, dampers: Sequence[DamperFamily] = ()) -> list[Path]:
-    """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, and index.html.
+    """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, the guide, and index.html.
 
     Of families with ground dampers, `dampers`, a page each. The same catalogues give the same bytes. `out` is made if it does
     not exist; other files in it stay as they are, and the index leads to the pages of shipped catalogues and to other known
@@ -40,11 +46,11 @@ def write_report(catalogs: Sequence[Catalog], out: Path, dampers: Sequence[Dampe
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
     families = sorted([*dampers, *_dampers_beside(dampers, out)], key=lambda f: (f.family.n_masses, f.family.damped))
-    links = [link for link in LINKS if (out / link[0]).is_file()]
+    links = [GUIDE, *(link for link in LINKS if (out / link[0]).is_file())]
     names = {c.name for c in listed}
     with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
     files = [file for c in catalogs for file in _files(c, with_dampers)]
-    files += [_damper_file(f, names) for f in dampers]
+    files += [*(_damper_file(f, names) for f in dampers), *guide_files()]
     style, start = source("style.css") + source("model.css"), index(listed, links, families)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]
     for folder in {(out / name).parent for name, _ in files}:

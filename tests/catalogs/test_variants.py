@@ -14,9 +14,11 @@ from disting.catalogs.variants import (
     with_and_without_dead_time,
     with_and_without_lag,
 )
-from disting.conditions.evidence import DeadTime, from_dict, to_dict
 from disting.conditions.exact import exact_finding, mirrored
 from disting.conditions.verify import Witness
+from disting.evidence.decision import DeadTime
+from disting.evidence.kinds import evidence_from
+from disting.evidence.plain import to_dict
 from disting.settings import Settings
 
 APART = Relation.DISTINGUISHABLE
@@ -70,7 +72,7 @@ def test_the_exact_decision_knows_the_theorem():
     assert (found.outcome, found.certainty, found.evidence) == ("fails", Certainty.THEOREM, DeadTime(False))
     assert mirrored(found) == exact_finding(other, plain, Settings())
     assert "B has a dead time, A has none" in found.evidence.sentence("A", "B")
-    assert from_dict(to_dict(found.evidence)) == found.evidence
+    assert evidence_from(to_dict(found.evidence)) == found.evidence
     witness = Witness()
     assert witness.confirms(found.evidence, "fibre", plain, other)
     assert not witness.confirms(found.evidence, "fibre", other, plain)

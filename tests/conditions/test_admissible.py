@@ -13,17 +13,18 @@ from disting.catalogs import Catalog
 from disting.catalogs.build import build
 from disting.catalogs.export import decisions_csv
 from disting.catalogs.verify import false_evidence
+from disting.certainty import weakest
 from disting.conditions.admissible import by_counts, positive_share, positive_ways, resting_on
-from disting.conditions.evidence import from_dict, to_dict
-from disting.conditions.reality import RealFactors
 from disting.conditions.verify import Witness
-from disting.conditions.ways import BothWays, OddFibres, weakest
 from disting.domain import Domain
+from disting.evidence.kinds import evidence_from
+from disting.evidence.plain import to_dict
+from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
+from disting.evidence.real import BothWays, OddFibres, RealFactors
 from disting.identifiability import identifiability
 from disting.inclusion import Inclusion
 from disting.model.symmetry import canonical
-from disting.positivity import PositiveFinding, Share, positive_finding, proves
-from disting.positivity.evidence import NoEquivalent
+from disting.positivity import positive_finding, proves
 from disting.report.domains import VIEWS, over
 from disting.report.payload import payload
 from disting.settings import Settings
@@ -77,7 +78,7 @@ def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
     assert 0 < low < v.right_positive.empirical.hits / 100 < high < 1
     assert f"empirically {low:.0%} to {high:.0%}" in v.sentence
     assert Witness().confirms(v.evidence, v.representation, a, b)
-    assert Verdict.from_dict(v.to_dict()) == v and from_dict(to_dict(v.evidence)) == v.evidence
+    assert Verdict.from_dict(v.to_dict()) == v and evidence_from(to_dict(v.evidence)) == v.evidence
 
 
 @settings(max_examples=30, deadline=None)
@@ -153,7 +154,7 @@ def test_altered_evidence_of_a_verdict_is_refused():
 def test_a_smaller_error_than_the_bound_is_refused():
     family = Family(3, damped=True)
     found = positive_finding(family[1], family[4])
-    assert isinstance(found.evidence, NoEquivalent) and proves(found, family[1], family[4])
+    assert isinstance(found.evidence, EmptyFibre) and proves(found, family[1], family[4])
     assert not proves(replace(found, safety=found.safety + 1), family[1], family[4])
 
 

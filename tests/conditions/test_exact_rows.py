@@ -8,11 +8,12 @@ from disting import Engine, Query, Relation
 from disting.certainty import Certainty
 from disting.conditions import exact
 from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.evidence import from_dict
 from disting.conditions.exact import by_row, exact_finding
 from disting.conditions.finding import Outcome
 from disting.conditions.verify import Witness
-from disting.ideals import ByRow, Limits
+from disting.evidence.ideals import ByRow
+from disting.evidence.kinds import evidence_from
+from disting.ideals import Limits
 from disting.ideals.by_rows import row_pairs
 from disting.model.chain import Chain
 from disting.settings import Settings
@@ -55,7 +56,7 @@ def test_an_installed_program_changes_no_verdict(name, monkeypatch, tmp_path):
 
 def test_a_stored_verdict_by_a_program_is_refused_with_the_reason():
     with pytest.raises(ValueError, match="external program"):
-        from_dict({"kind": "program", "program": "msolve", "left_given": True, "label": "x"})
+        evidence_from({"kind": "program", "program": "msolve", "left_given": True, "label": "x"})
 
 
 def test_rows_of_chains_that_the_theorem_does_not_cover_decide_nothing():

@@ -8,15 +8,14 @@ import pytest
 from disting import Certainty, Chain, Relation, Settings, compare
 from disting.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.evidence import Ranks
 from disting.conditions.exact import by_synthesis
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.evidence.conditions import Ranks
+from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.symmetry import canonical
-from disting.positivity import PositiveFinding, positive_finding
-from disting.positivity.evidence import NoEquivalent
-from disting.positivity.result import Share
+from disting.positivity import positive_finding
 from tests.conditions.handmade import handmade
 
 RANKS = Ranks(("b0",), 1, 0, all_rows=False)
@@ -46,7 +45,7 @@ def test_a_stored_finding_below_the_floor_is_not_believed():
 
 
 def test_positive_equivalents_and_inclusion_keep_to_the_floor():
-    never = PositiveFinding(Share.NEVER, Certainty.BOUNDED, 99, NoEquivalent(()))
+    never = PositiveFinding(Share.NEVER, Certainty.BOUNDED, 99, EmptyFibre(()))
     assert (never.share, never.certainty, never.evidence) == (Share.UNKNOWN, None, None) and "2^-99" in never.reason
     neither = InclusionFinding(Inclusion.NEITHER, certainty=Certainty.BOUNDED, safety=99, evidence=RANKS)
     assert (neither.inclusion, neither.certainty, neither.evidence) == (Inclusion.UNKNOWN, None, None)

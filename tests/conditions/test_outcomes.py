@@ -7,10 +7,10 @@ import pytest
 
 from disting import CONDITIONS, Certainty, Chain, Engine, Family, Finding, Outcome, Query, Relation, Settings, View, compare
 from disting.conditions import sufficient
-from disting.conditions.evidence import Counts, Forms, Ranks
 from disting.conditions.necessary import INVARIANTS, condition_1, condition_2, condition_3, condition_4, condition_5
 from disting.conditions.structural import condition_8, condition_9
 from disting.conditions.sufficient import condition_6, condition_7
+from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.invariants.profile import Unsearched, profile
 from disting.invariants.sample import Representation
 from tests.conditions.handmade import handmade, markov

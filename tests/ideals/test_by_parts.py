@@ -9,10 +9,10 @@ from flint import nmod_poly
 from sympy.polys.numberfields.galoisgroups import galois_group
 
 from disting.algebra.sampling import prime, residues
+from disting.evidence.ideals import Vanishing
 from disting.ideals import (
     Limits,
     Membership,
-    Vanishing,
     confirms_by_parts,
     decide_by_parts,
     generic_rank,

@@ -6,7 +6,8 @@ import pytest
 
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
-from disting.ideals import CoefficientMap, Limits, Membership, Refuted, Solved, coefficient_map, confirms, decide, generic_rank
+from disting.evidence.ideals import Refuted, Solved
+from disting.ideals import CoefficientMap, Limits, Membership, coefficient_map, confirms, decide, generic_rank
 from disting.ideals import normalised as normal
 from disting.model.chain import Chain
 from disting.model.family import Family

@@ -10,7 +10,8 @@ from disting import Certainty, Chain, Family, Outcome, Query, Relation, View, co
 from disting.catalogs.dampers import DamperSets
 from disting.conditions.exact import by_full_parts, by_ideals
 from disting.conditions.verify import Witness
-from disting.ideals import FullParts, Limits, same_by_full_parts
+from disting.evidence.ideals import FullParts
+from disting.ideals import Limits, same_by_full_parts
 from disting.settings import Settings
 
 LIMITS = Limits(seconds=60.0, entries=500_000, safety=100)

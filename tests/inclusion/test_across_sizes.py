@@ -7,11 +7,11 @@ from itertools import product
 import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
-from disting.conditions.evidence import Counts
-from disting.ideals import Solved
+from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.conditions import Counts
+from disting.evidence.ideals import Solved
 from disting.inclusion import Sense, confirms, inclusions
 from disting.inclusion.across_sizes import by_sizes, exceeds, included, twins
-from disting.inclusion.across_sizes_evidence import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
 from disting.inclusion.finding import inclusion_from_json, inclusion_to_json
 from disting.inclusion.limit_fibre import tells
 from disting.inclusion.limits import is_limit

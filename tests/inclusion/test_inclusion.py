@@ -7,8 +7,10 @@ import pytest
 
 from disting import Engine, Family, Query, Relation, View, compare
 from disting.certainty import Certainty
-from disting.conditions.evidence import Counts
-from disting.ideals import Vanishing, coefficient_map, included_by_parts, refuted_by_parts
+from disting.evidence.conditions import Counts
+from disting.evidence.ideals import Vanishing
+from disting.evidence.limits import FullImage, LargerProjection, Outside, PartsInside, RelativeDegrees, Why
+from disting.ideals import coefficient_map, included_by_parts, refuted_by_parts
 from disting.inclusion import (
     Inclusion,
     InclusionFinding,
@@ -20,8 +22,6 @@ from disting.inclusion import (
     inclusions_to_dict,
 )
 from disting.inclusion.decide import CLOSURE_LIMITS
-from disting.inclusion.evidence import FullImage, LargerProjection, RelativeDegrees
-from disting.inclusion.outside_evidence import Outside, PartsInside, Why
 from disting.inclusion.profiles import by_relative_degrees, part_falls
 from disting.model.chain import Chain, Sensor
 

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 
 from disting import Chain, Family, Query, Relation, View
-from disting.conditions.evidence import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel
 from disting.conditions.verify import Witness
+from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel
 from disting.verdict import steps
 from tests.laws.pairs import (
     EXAMPLES,

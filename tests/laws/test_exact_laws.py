@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from disting import Chain, Query, Relation, Verdict, View
-from disting.conditions.evidence import FibreAt
 from disting.conditions.rule import EXACT
+from disting.evidence.decision import FibreAt
 from disting.verdict import audit, decide, steps
 from tests.laws.pairs import ENGINE, PAPER, WITNESS, family, quick, similar_pairs, subject
 

@@ -4,7 +4,7 @@ from hypothesis import given
 
 from disting import Relation
 from disting.certainty import Certainty
-from disting.conditions.evidence import Renaming
+from disting.evidence.conditions import Renaming
 from disting.model.symmetry import forms
 from tests.laws.pairs import WITNESS, any_pair, mirrored, often, quick, similar_pairs, verdict, with_examples
 from tests.laws.strategies import chains

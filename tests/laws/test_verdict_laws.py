@@ -9,7 +9,9 @@ from hypothesis import given
 
 from disting import Chain, Engine, Family, Query, Relation, Verdict, View, compare
 from disting.certainty import Certainty
-from disting.conditions.evidence import ByDecision, Counts, from_dict, to_dict
+from disting.evidence.conditions import Counts
+from disting.evidence.kinds import ByDecision, evidence_from
+from disting.evidence.plain import to_dict
 from disting.verdict.result import GROUNDS
 from tests.laws.pairs import any_pair, often, quick, verdict, with_examples
 
@@ -21,7 +23,7 @@ def test_verdicts_survive_json(pair):
     found = verdict(*pair)
     assert Verdict.from_dict(json.loads(json.dumps(found.to_dict()))) == found
     if found.evidence:
-        assert from_dict(json.loads(json.dumps(to_dict(found.evidence)))) == found.evidence
+        assert evidence_from(json.loads(json.dumps(to_dict(found.evidence)))) == found.evidence
 
 
 @pytest.mark.parametrize("data", [{}, {"left": "a"}, {"kind": "counts"}])
@@ -33,7 +35,7 @@ def test_other_data_is_no_verdict(data):
 @pytest.mark.parametrize("data", [{}, {"kind": "other"}, {"kind": "counts"}, {"kind": "counts", "left": 1, "right": 2, "x": 3}])
 def test_other_data_is_no_evidence(data):
     with pytest.raises((KeyError, TypeError)):
-        from_dict(data)
+        evidence_from(data)
 
 
 @quick

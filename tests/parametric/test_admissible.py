@@ -6,10 +6,11 @@ import pytest
 
 from disting import Certainty, Query, Relation, View
 from disting.algebra.rational_function import RationalFunction
-from disting.conditions.evidence import NoEquivalent, Renaming
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
 from disting.errors import ContradictionError
+from disting.evidence.conditions import Renaming
+from disting.evidence.general import NoEquivalent
 from disting.parametric import Model, Witnesses, alternatives, compare, confirms, is_explicit, is_without
 from disting.parametric.admissible import of_ways, points
 from disting.parametric.cases import Case, Search

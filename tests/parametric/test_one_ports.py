@@ -6,7 +6,9 @@ import pytest
 import sympy as sp
 
 from disting import Certainty, Query, Relation, View
-from disting.conditions.evidence import Explicit, Renaming, Theorem
+from disting.evidence.conditions import Renaming
+from disting.evidence.decision import Theorem
+from disting.evidence.general import Explicit
 from disting.parametric import Model, compare
 from disting.parametric.one_ports import fills, same_one_ports
 

@@ -7,7 +7,7 @@ import sympy as sp
 
 from disting import Certainty, Family, Query, Relation, View
 from disting import compare as compare_chains
-from disting.conditions.evidence import Renaming
+from disting.evidence.conditions import Renaming
 from disting.invariants.sample import Representation
 from disting.parametric import Model, compare, findings, local_identifiability
 from disting.parametric.profiles import profile, proven_constants

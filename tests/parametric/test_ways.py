@@ -11,10 +11,10 @@ import sympy as sp
 from disting import Certainty, Family, Query, Relation, View
 from disting import compare as compare_chains
 from disting.algebra.rational_function import RationalFunction
-from disting.conditions.explicit import Explicit
 from disting.conditions.finding import Outcome
 from disting.domain import Domain
 from disting.errors import InputError
+from disting.evidence.general import Explicit
 from disting.parametric import Model, alternatives, compare, confirms, is_explicit
 from disting.parametric.admissible import points
 from disting.parametric.between import path

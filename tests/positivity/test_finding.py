@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
+from disting.evidence.decision import Theorem
+from disting.evidence.positive import Empirical, EmptyFibre, Excluded, Interlacing, Points, PositiveFinding, Share
 from disting.model.symmetry import canonical
-from disting.positivity import Empirical, PositiveFinding, Share, confirms, positive_finding
-from disting.positivity.evidence import Excluded, Interlacing, NoEquivalent, Points, SameByTheorem
+from disting.positivity import confirms, positive_finding
 from disting.positivity.parts import obstacle, only_parts_sum_to_zero
 from disting.positivity.points import equivalent, random_point, read
 from disting.settings import Settings
@@ -66,7 +67,7 @@ def test_catalogues_have_no_open_pair(n, damped):
         found = positive_finding(given, other)
         assert found.certainty is Certainty.THEOREM and confirms(found.evidence, given, other)
         assert PositiveFinding.from_json(found.to_json()) == found
-        shares[found.evidence.name if isinstance(found.evidence, SameByTheorem) else found.share.value] += 1
+        shares[found.evidence.name if isinstance(found.evidence, Theorem) else found.share.value] += 1
     assert shares == SHARES[n, damped]
 
 
@@ -176,7 +177,7 @@ def test_empty_fibre_is_bounded():
     family = Family(3, damped=True)
     found = positive_finding(family[1], family[4])
     assert found.share is Share.NEVER and found.certainty is Certainty.BOUNDED and found.safety >= 100
-    assert isinstance(found.evidence, NoEquivalent) and confirms(found.evidence, family[1], family[4])
+    assert isinstance(found.evidence, EmptyFibre) and confirms(found.evidence, family[1], family[4])
 
 
 def test_whole_against_sum():
@@ -210,10 +211,10 @@ def test_false_evidence_is_refused():
     nothing_lacking = replace(evidence, parts=tuple(replace(p, lacking=()) for p in evidence.parts))
     negative = replace(evidence, without=(("m1", "-1"), *evidence.without[1:]))
     assert confirms(evidence, six, two)
-    assert not any(confirms(e, six, two) for e in (swapped, nothing_lacking, negative, SameByTheorem("Foster")))
+    assert not any(confirms(e, six, two) for e in (swapped, nothing_lacking, negative, Theorem("Foster")))
     assert not confirms(Excluded("residues"), six, two)
     with pytest.raises(ValueError, match="no evidence is called"):
-        SameByTheorem("")
+        Theorem("")
     assert not confirms(Points(evidence.without, evidence.with_one), six, two)
     damped = Family(3, damped=True)
     shared = positive_finding(damped[7], damped[6]).evidence

@@ -5,8 +5,8 @@ from fractions import Fraction
 import pytest
 
 from disting import Certainty, Chain, Family, InputError
-from disting.positivity import PositiveFinding, Share, confirms_within, ranges, within_ranges
-from disting.positivity.evidence import BoxMap, Points
+from disting.evidence.positive import BoxMap, Points, PositiveFinding, Share
+from disting.positivity import confirms_within, ranges, within_ranges
 from disting.positivity.points import random_point, read
 from disting.positivity.ranges import equivalent_within
 from disting.synthesis import Answer

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 
 from disting import Chain, Family, Query, Relation, View, compare
-from disting.conditions.evidence import from_dict, to_dict
-from disting.conditions.reality import RealFactors
 from disting.conditions.verify import Witness
+from disting.evidence.kinds import evidence_from
+from disting.evidence.plain import to_dict
+from disting.evidence.real import RealFactors
 from disting.identifiability.solutions import foster_count
 from disting.model.symmetry import canonical
 from disting.positivity import always_real, confirms_real, real_witness
@@ -103,7 +104,7 @@ def test_altered_real_evidence_is_refused():
     assert (found.relation, found.certainty) == (Relation.SOMETIMES, "proven")
     assert compare(b, a, query=Query(View.REAL)).relation is Relation.SOMETIMES
     evidence, witness = found.evidence, Witness()
-    assert witness.confirms(evidence, "parameters", a, b) and from_dict(to_dict(evidence)) == evidence
+    assert witness.confirms(evidence, "parameters", a, b) and evidence_from(to_dict(evidence)) == evidence
     for lie in (
         replace(evidence, without_left_given=not evidence.without_left_given),
         replace(evidence, with_left_given=not evidence.with_left_given),

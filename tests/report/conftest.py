@@ -39,7 +39,11 @@ def visit(browser, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-d
     yield go
     assert troubles == []
     assert all(
-        re.fullmatch(re.escape(site.as_uri()) + r"/([\w-]+\.html|models/style\.css|models/[\w-]+/\d+\.html)", r)
+        re.fullmatch(
+            re.escape(site.as_uri())
+            + r"/([\w-]+\.html|(?:models|guide)/style\.css|guide/[\w-]+\.html|models/[\w-]+/\d+\.html)",
+            r,
+        )
         for r in requests
     )
     context.close()

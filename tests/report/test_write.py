@@ -20,7 +20,9 @@ def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
         "index.html"
     ]
     models = ["models/1-undamped/1.html", *(f"models/2-damped/{i}.html" for i in range(1, 4))]
-    assert [name for name in names if "/" in name] == [*models, "models/style.css"]
+    guide = [name for name in names if name.startswith("guide/")]
+    assert [name for name in names if "/" in name] == [*models, *guide, "models/style.css"]
+    assert {"guide/index.html", "guide/verdicts.html", "guide/style.css"} <= set(guide)
     assert all(p.is_file() for p in paths)
     start = paths[-1].read_text(encoding="utf-8")
     assert all(f'href="{c.name}.html"' in start for c in catalogs)

@@ -1,9 +1,10 @@
-"""Evidence on real parameters of undamped chains: real factors always exist, or they lack in an open set of models."""
+"""Evidence on admissible parameters: positive equivalents both ways; real factors, witnesses, odd numbers of equivalents."""
 
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
-from disting.positivity import PositiveFinding
+from disting.evidence.decision import Theorem
+from disting.evidence.positive import PositiveFinding
 
 Point = tuple[tuple[str, str], ...]  # parameter name, fraction
 
@@ -25,15 +26,6 @@ class RealFactors:
     def formula(self) -> str:
         """The factors."""
         return "ℝ[x] ∋ P = A·B, deg A as needed, both ways"
-
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        return {"kind": self.kind}
-
-    @staticmethod
-    def from_dict(_: dict[str, Any]) -> "RealFactors":
-        """Inverse of `to_dict`."""
-        return RealFactors()
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,3 +72,65 @@ class RealWitnesses:
 def _rounded(value: str) -> str:
     numerator, _, denominator = value.partition("/")
     return f"{int(numerator) / int(denominator or 1):.4g}"
+
+
+@dataclass(frozen=True, slots=True)
+class BothWays:
+    """Which positive models of the left chain have a positive equivalent in the right one, and the reverse.
+
+    Both chains are in their canonical forms.
+    """
+
+    kind: ClassVar[str] = "both ways"
+    left: PositiveFinding
+    right: PositiveFinding
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both ways in words; a theorem, which holds both ways, once."""
+        here, there = self.left.sentence(left, right), self.right.sentence(right, left)
+        same = isinstance(self.left.evidence, Theorem) and self.left.evidence == self.right.evidence
+        return here if same else f"{here} {there}"
+
+    @property
+    def formula(self) -> str:
+        """Both formulas, from left to right and back, or one if they are the same."""
+        here, there = (x.evidence.formula if x.evidence else "not known" for x in (self.left, self.right))
+        return here if here == there else f"→ {here}; ← {there}"
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        return {"kind": self.kind, "left": self.left.to_dict(), "right": self.right.to_dict()}
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "BothWays":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        return BothWays(*(PositiveFinding.from_dict(data[side]) for side in ("left", "right")))
+
+
+@dataclass(frozen=True, slots=True)
+class OddFibres:
+    """Over real parameters: so many parameter vectors of either chain have one generic behaviour, all of them simple.
+
+    Those of a real behaviour that are not real are pairs of conjugates, so of an odd number at least one is real.
+    """
+
+    kind: ClassVar[str] = "odd fibres"
+    left: int
+    right: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both numbers and what they mean."""
+        here, there = (_equivalents(n) for n in (self.right, self.left))
+        return (
+            f"Generic parameters of {left} have {here} in {right}, and those of {right} have {there} in {left}; solutions "
+            "that are not real are pairs of conjugates, so of an odd number at least one is real."
+        )
+
+    @property
+    def formula(self) -> str:
+        """Both numbers."""
+        return f"|Φ₁⁻¹(Φ₁(p))| = {self.left}, |Φ₂⁻¹(Φ₂(q))| = {self.right}"
+
+
+def _equivalents(count: int) -> str:
+    return "one equivalent" if count == 1 else f"{count} equivalents"

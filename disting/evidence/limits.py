@@ -1,8 +1,10 @@
-"""Evidence on limits part by part: what keeps a part of the larger model from having the receptance wanted, or lets it."""
+"""Evidence on limits of models of one size: of whole chains, and of what a part of a chain can be, or cannot."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import ClassVar, NamedTuple
+
+from disting.evidence.conditions import Labels, spelled
 
 
 class Why(StrEnum):
@@ -123,3 +125,67 @@ _FORMULAS = {
     Why.RESULTANT: "Res(U, V) ≠ 0",
     Why.EQUATION: "F(b, a) ≠ 0",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class LargerProjection:
+    """The invariants `rows` have a larger rank in the model of the smaller rank; ranks in the pair's order."""
+
+    kind: ClassVar[str] = "larger-projection"
+    rows: Labels
+    left: int
+    right: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both ranks in words."""
+        return f"The invariants {spelled(self.rows)} have rank {self.left} in {left} and {self.right} in {right}."
+
+    @property
+    def formula(self) -> str:
+        """The two ranks."""
+        return f"rank ∂({spelled(self.rows)})/∂p = {self.left}, {self.right}"
+
+
+@dataclass(frozen=True, slots=True)
+class FullImage:
+    """The model of the larger rank has as many determinable parameters as non-constant invariants."""
+
+    kind: ClassVar[str] = "full-image"
+    left_is_larger: bool
+    rank: int
+    free: Labels
+
+    def sentence(self, left: str, right: str) -> str:
+        """What that means for the other."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        return f"{larger} gives its {self.rank} invariants any generic values, so those of {smaller} are limits of its own."
+
+    @property
+    def formula(self) -> str:
+        """N_R equals the number of free invariants."""
+        return f"N_R = {self.rank} = |{{{spelled(self.free)}}}|"
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeDegrees:
+    """Relative degrees of the receptances in s, in the pair's order; no elements other than zero change the larger model's."""
+
+    kind: ClassVar[str] = "relative-degrees"
+    left_is_larger: bool
+    left: int
+    right: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both relative degrees in words."""
+        larger, smaller = (left, right) if self.left_is_larger else (right, left)
+        here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
+        return (
+            f"The receptance of {larger} falls as s^-{here} for all elements other than zero, that of {smaller} at least as "
+            f"fast as s^-{there}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The two relative degrees."""
+        here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
+        return f"deg D₂ − deg N₂ = {here} < {there} ≤ deg D₁ − deg N₁"

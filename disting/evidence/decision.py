@@ -1,29 +1,34 @@
-"""Evidence of the exact decision of chains: a theorem, a dead time, a fibre."""
+"""Evidence of the exact decision: a theorem, a dead time, a fibre."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
-from disting.conditions.evidence_of_conditions import TRANSCENDENTAL
+from disting.evidence.conditions import TRANSCENDENTAL
 
-_THEOREMS = {
+THEOREMS = {
     "Foster and Cauer": "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such impedance",
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
     "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
-    "Foster": "{left} and {right} are undamped, each with force and sensor at one place: both give any such resonances",
+    "Foster": "{left} and {right} are undamped with force and sensor at one place: both give any such resonances "
+    "(Foster's theorem)",
     "parts": "{left} and {right} are undamped and their parts at both sides of the gap can be exchanged one by one",
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Theorem:
-    """Exact decision: a theorem of that `name` says that both models are the same for all parameters."""
+    """A theorem of that `name` gives each model an equivalent in the other, with positive parameters if its own are."""
 
     kind: ClassVar[str] = "theorem"
     name: str
 
+    def __post_init__(self) -> None:
+        if self.name not in THEOREMS:  # from a damaged file: said here, and not when it is to be told
+            raise ValueError(f"no theorem is called {self.name!r}")
+
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says of this pair."""
-        return _THEOREMS[self.name].format(left=left, right=right) + ", over positive parameters too."
+        return THEOREMS[self.name].format(left=left, right=right) + ", over positive parameters too."
 
     @property
     def formula(self) -> str:

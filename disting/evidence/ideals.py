@@ -1,0 +1,249 @@
+"""Evidence of fibres as polynomial ideals: what one or more of them show, of whole chains, of their parts, of rows.
+
+A label stands for a random prime and a random point, so evidence holds labels, not numbers.
+"""
+
+from dataclasses import dataclass
+from typing import Any, ClassVar, get_args
+
+from disting.evidence import plain
+
+_FULL = "have as many determinable parameters as coefficients ({})"
+SAME = 0  # in place of the number of coefficients of a part
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """At the prime and point of each label the searched model has the parameters `solutions` with the same transfer function.
+
+    `left_given`: the points are of the left model and the right one was searched. A scale factor, where needed, comes last.
+    `is_normalised`: in the coordinates of `system.normalised`, for chains.
+    """
+
+    kind: ClassVar[str] = "solved"
+    left_given: bool
+    labels: tuple[str, ...]
+    solutions: tuple[tuple[int, ...], ...]
+    is_normalised: bool = False
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        return (
+            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a random prime, "
+            f"parameters of {searched} with exactly the same transfer function were computed."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The fibre has a point."""
+        return "Φ₂(q₀) ≡ Φ₁(p₀)"
+
+
+@dataclass(frozen=True, slots=True)
+class Refuted:
+    """At the prime and point of each label the equations of the fibre have no solution: 1 is a combination of degree `degree`.
+
+    `tangent`: the tangent equations belong to them, which is right for models of equal rank only. `is_normalised`: in the
+    coordinates of `system.normalised`, for chains.
+    """
+
+    kind: ClassVar[str] = "refuted"
+    left_given: bool
+    labels: tuple[str, ...]
+    degree: int
+    tangent: bool
+    is_normalised: bool = False
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        return (
+            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a random prime, no parameters of "
+            f"{searched}, in any extension, have the same transfer function: the equations contradict each other in degree "
+            f"{self.degree}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The ideal is everything."""
+        return "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩"
+
+
+@dataclass(frozen=True, slots=True)
+class Vanishing:
+    """Markov parameter `index` of a part is a product of elements and has to be zero, or is zero and has to be something."""
+
+    kind: ClassVar[str] = "vanishing"
+    index: int
+
+
+Shown = Vanishing | Solved | Refuted
+
+
+@dataclass(frozen=True, slots=True)
+class PartStep:
+    """What is shown of one part of the searched chain in one split."""
+
+    split: str
+    part: str
+    shown: Shown
+
+
+@dataclass(frozen=True, slots=True)
+class ByParts:
+    """In each split a part that cannot be, or in one split two parts that can; `left_given`: the right model is searched."""
+
+    kind: ClassVar[str] = "by-parts"
+    left_given: bool
+    steps: tuple[PartStep, ...]
+
+    @property
+    def is_member(self) -> bool:
+        """Whether it speaks for inclusion."""
+        return bool(self.steps) and all(isinstance(s.shown, Solved) for s in self.steps)
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether nothing is left to chance."""
+        return all(isinstance(s.shown, Vanishing) for s in self.steps)
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found, part by part."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        told = "; ".join(_told(step, searched) for step in self.steps)
+        if self.is_member:
+            return f"Both parts of {searched} can have, at least in the limit, the receptances that add up to {given}: {told}."
+        start = f"The poles of each part of a generic {given} stay together in an equivalent {searched}"
+        if not self.steps:
+            return f"{start}, and no choice of parts has as many poles as the grounded part of {searched}."
+        return f"{start}, so its parts have given receptances: {told}."
+
+    @property
+    def formula(self) -> str:
+        """The sum of both parts."""
+        return "R₂(q) + F₂(q) = R₁(p) + F₁(p)"
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON: what is shown of a part stands beside the part."""
+        steps = [{"split": s.split, "part": s.part, **plain.to_dict(s.shown)} for s in self.steps]
+        return {"kind": self.kind, "left_given": self.left_given, "steps": steps}
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "ByParts":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        if not isinstance(data["steps"], list):
+            raise TypeError("the steps are a list")
+        return ByParts(bool(data["left_given"]), tuple(map(_step, data["steps"])))
+
+
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """No way to share out the roots of N at the prime and point of `label` leaves parameters of the searched row.
+
+    `part`: the row in question where both chains have the other one in common ("grounded", "free"), "" for whole chains;
+    `shares` that were refuted, each standing for its type, in degree `degree` at most.
+    """
+
+    kind: ClassVar[str] = "shared"
+    left_given: bool
+    part: str
+    label: str
+    shares: int
+    degree: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        where = f"The {self.part} parts decide, the others are the same. " if self.part else ""
+        return (
+            f"{where}For one choice of random parameters of {given} modulo a random prime, no parameters of "
+            f"{searched}, in any extension, have the same receptance: each of the {self.shares} ways in which the numerator's "
+            "roots could be shared out among its factors leads to a contradiction."
+        )
+
+    @property
+    def formula(self) -> str:
+        """Every share's ideal is everything."""
+        return f"1 ∈ ⟨θ₂ − θ, φ₂ − φ, D₂ − D₁⟩ for {self.shares} shares"
+
+
+@dataclass(frozen=True, slots=True)
+class ByRow:
+    """Exact decision: the `part` of both chains ("grounded", "free", "whole") is a row of so many masses, with a wall or not.
+
+    A generic one with the ports `given` is none with the ports `searched`: see `zeros.Branched` for the rest.
+    """
+
+    kind: ClassVar[str] = "row"
+    part: str
+    wall: bool
+    masses: int
+    given: tuple[int, int]
+    searched: tuple[int, int]
+    label: str
+    branches: int
+    degree: int
+
+    def sentence(self, left: str, right: str) -> str:
+        """What was found of the rows, and why it decides."""
+        ports = (f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched))
+        where = "are one row" if self.part == "whole" else f"have a {self.part} part"
+        rest = "" if self.part == "whole" else " An equivalent model would have the same poles in each of its parts."
+        return (
+            f"{left} and {right} {where} of {self.masses} masses{' with the wall' if self.wall else ''}.{rest} For random "
+            f"elements modulo a random prime, a row with {next(ports)} has no equivalent with {next(ports)}: of the "
+            f"ways to give the zeros to the factors of its numerator, all {self.branches} that need be tried are contradictory."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The fibre is empty."""
+        return "N₂(q) = Π(s − z), D₂(q) = D₁(p₀): 1 ∈ I for each choice of zeros"
+
+
+@dataclass(frozen=True, slots=True)
+class FullParts:
+    """Exact decision: `free` coefficients of each part, as many as its rank; 0 where both chains have the very same part."""
+
+    kind: ClassVar[str] = "full-parts"
+    free: tuple[int, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """Part by part."""
+        parts = zip(("grounded", "free"), self.free, strict=True)
+        told = [f"the {name} parts are equal" if n == SAME else f"both {name} parts {_FULL.format(n)}" for name, n in parts]
+        return f"In {left} and {right} {' and '.join(told)}, so each can have the parts of the other."
+
+    @property
+    def formula(self) -> str:
+        """Rank and number of coefficients of the parts that are not equal."""
+        return ", ".join(f"N_R = {n} = |Φ_{name}|" for name, n in zip("RF", self.free, strict=True) if n != SAME)
+
+
+def _times(count: int, what: str) -> str:
+    return f"one {what}" if count == 1 else f"{count} {what}s"
+
+
+def _step(data: dict[str, Any]) -> PartStep:
+    shown = {name: value for name, value in data.items() if name not in ("split", "part")}
+    return PartStep(str(data["split"]), str(data["part"]), plain.from_dict(shown, get_args(Shown)))
+
+
+def _told(step: PartStep, searched: str) -> str:
+    part = f"the {step.part} part of {searched}"
+    match step.shown:
+        case Vanishing():
+            found = f"Markov parameter {step.shown.index} of {part} is a product of elements and had to be zero, or the reverse"
+        case Solved():
+            found = f"{part} was solved for {len(step.shown.labels)} random receptances modulo random primes"
+        case Refuted():
+            found = f"{part} was refuted for {len(step.shown.labels)} random receptances modulo random primes"
+    return f"{_SPLITS[step.split]}, {found}"
+
+
+_SPLITS = {
+    "same": "with the same parts",
+    "exchanged": "with the parts exchanged but for a rigid body",
+    "rigid": "with a rigid body as the free part",
+}

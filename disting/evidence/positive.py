@@ -1,0 +1,267 @@
+"""Findings on positive equivalents, how many of the positive models of one chain have one in another, and their evidence.
+
+`given` is the model whose positive parameters are asked about, `other` the one in which equivalents are looked for.
+"""
+
+import json
+from dataclasses import asdict, dataclass
+from enum import StrEnum
+from math import sqrt
+from typing import Any, ClassVar, get_args
+
+from disting.certainty import Certainty, shortfall
+from disting.evidence import plain
+from disting.evidence.decision import Theorem
+
+Values = tuple[tuple[str, str], ...]  # parameter name, fraction
+Z95 = 1.96  # quantile of the normal distribution for 95 %
+
+_OBSTACLES = {
+    "decay": "the transfer functions of {0} and {1} fall off at different rates for high frequencies",
+    "residues": "{0} has negative residues in the part where force and sensor are apart, {1} has positive ones alone",
+    "own poles": "the grounded and the free part of {1} would have to be those of {0}, which are of another kind",
+    "signs": "in the order of the poles the residues of a part of {0} change their signs more often than those of {1} can",
+    "swapped parts": "the parts of {1} would be those of {0}, equal or exchanged, which decay or positive masses rule out",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Excluded:
+    """NEVER: the statement of `parts` of that `name`; at the rational `point`, if one is needed, balls are looked at."""
+
+    kind: ClassVar[str] = "excluded"
+    name: str
+    point: Values = ()
+
+    def __post_init__(self) -> None:
+        if self.name not in _OBSTACLES:  # from a damaged file: said here, and not when it is to be told
+            raise ValueError(f"nothing that excludes equivalents is called {self.name!r}")
+
+    def sentence(self, given: str, other: str) -> str:
+        """What stands against equivalents."""
+        why = _OBSTACLES[self.name].format(given, other)
+        return f"No generic positive parameters of {given} have a positive equivalent in {other}: {why}."
+
+    @property
+    def formula(self) -> str:
+        """The statement by name."""
+        return f"{self.name} exclude positive equivalents"
+
+
+@dataclass(frozen=True, slots=True)
+class EmptyFibre:
+    """NEVER: at this rational point of `given` no parameters of `other`, not even complex ones, are equivalent."""
+
+    kind: ClassVar[str] = "no-equivalent"
+    point: Values
+
+    def sentence(self, given: str, other: str) -> str:
+        """What the fibre shows."""
+        return (
+            f"For one choice of rational parameters of {given} no parameters of {other}, real or complex, give the same "
+            "transfer function; so generic parameters have no equivalent."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The empty fibre."""
+        return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
+
+
+@dataclass(frozen=True, slots=True)
+class PartWords:
+    """A part of both models: number of masses, ports of `given` and of `other`, and words that only `given` can have.
+
+    A word says how many zeros lie in each gap between neighbouring poles (see `words`).
+    """
+
+    part: str
+    nodes: int
+    given: tuple[int, int]
+    other: tuple[int, int]
+    lacking: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Interlacing:
+    """ALWAYS or SOMETIMES: how poles and zeros of each part may lie; rational points with and without an equivalent."""
+
+    kind: ClassVar[str] = "interlacing"
+    parts: tuple[PartWords, ...]
+    with_one: Values = ()
+    without: Values = ()
+
+    def sentence(self, given: str, other: str) -> str:
+        """Which arrangements of poles and zeros `other` lacks."""
+        lacking = [(p.part, _spelled(p.lacking)) for p in self.parts if p.lacking]
+        if not lacking:
+            return f"However the zeros of {given} lie between its poles, positive parameters of {other} can do the same."
+        which = " and ".join(f"{words} in the {part} part" for part, words in lacking)
+        return (
+            f"Some positive parameters of {given} have a positive equivalent in {other}, others have none: those where the "
+            f"zeros of a part lie between its poles as in no {other} (zeros a gap, slowest gap first: {which})."
+        )
+
+    @property
+    def formula(self) -> str:
+        """Numbers of lacking words."""
+        counted = ((p.part, len(p.lacking)) for p in self.parts)
+        return ", ".join(f"{part}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for part, n in counted)
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "Interlacing":
+        """From plain data; raises KeyError or TypeError for what is none."""
+        parts = tuple(PartWords(**plain.fields(part)) for part in data["parts"])
+        return Interlacing(**plain.fields(data) | {"parts": parts})
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """SOMETIMES: rational points of `given`, one in an open set with positive equivalents, one in an open set without."""
+
+    kind: ClassVar[str] = "points"
+    with_one: Values
+    without: Values
+
+    def sentence(self, given: str, other: str) -> str:
+        """What the two points show."""
+        return (
+            f"All models near one choice of positive rational parameters of {given} have a positive equivalent in {other}, "
+            "generic ones near another choice have none."
+        )
+
+    @property
+    def formula(self) -> str:
+        """One of each."""
+        return "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝ₊ⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝ₊ⁿ = ∅"
+
+
+@dataclass(frozen=True, slots=True)
+class BoxMap:
+    """ALWAYS, within ranges: a renaming (given, other) takes the ranges of `given` into those of `other`."""
+
+    kind: ClassVar[str] = "box"
+    pairs: tuple[tuple[str, str], ...]
+
+    def sentence(self, given: str, other: str) -> str:
+        """What the renaming does to the ranges."""
+        return f"A renaming turns {given} into {other}, and every range of {given} lies inside the range that it is renamed to."
+
+    @property
+    def formula(self) -> str:
+        """All pairs."""
+        return ", ".join(f"{a} → {b}" for a, b in self.pairs)
+
+
+PositiveEvidence = Theorem | Excluded | EmptyFibre | Interlacing | Points | BoxMap
+
+
+class Share(StrEnum):
+    """Which generic positive models have a positive equivalent: all, some (and some have none), none; or that is not known."""
+
+    ALWAYS = "always"
+    SOMETIMES = "sometimes"
+    NEVER = "never"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Empirical:
+    """Of `tries` random models `hits` have an equivalent for certain; of `open` ones it is not known."""
+
+    hits: int
+    tries: int
+    open: int = 0
+
+    def __post_init__(self) -> None:
+        if min(self.hits, self.open, self.tries - self.hits - self.open) < 0 or not self.tries:
+            raise ValueError("hits and open points are at most as many as tries, of which there are some")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's 95 % interval (1927) of the share for this distribution; open points count as misses below, as hits above.
+
+        >>> tuple(round(x, 3) for x in Empirical(0, 10).interval)
+        (0.0, 0.278)
+        """
+        return _wilson(self.hits, self.tries)[0], _wilson(self.hits + self.open, self.tries)[1]
+
+    @property
+    def sentence(self) -> str:
+        """The share in words."""
+        low, high = self.interval
+        return f"{self.hits} of {self.tries} random points have one: empirically {low:.0%} to {high:.0%}"
+
+
+@dataclass(frozen=True, slots=True)
+class PositiveFinding:
+    """`share` is proven as `certainty` says (BOUNDED: wrong with a probability of at most 2**-safety); `empirical` is sampled.
+
+    `reason` says why nothing is known. A bound that does not reach 2**-LEAST_SAFETY leaves the share unknown.
+    """
+
+    share: Share
+    certainty: Certainty | None = None
+    safety: int = 0
+    evidence: PositiveEvidence | None = None
+    empirical: Empirical | None = None
+    reason: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.share is Share.UNKNOWN) == (self.evidence is not None and self.certainty is not None):
+            raise ValueError("exactly a share that is not unknown carries certainty and evidence")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {"share": Share.UNKNOWN, "certainty": None, "safety": 0, "evidence": None, "reason": lacking}
+            for name, value in given_up.items():
+                object.__setattr__(self, name, value)
+
+    def __bool__(self) -> bool:
+        raise TypeError("a finding is not true or false; look at its share")
+
+    def sentence(self, given: str, other: str) -> str:
+        """What is known and why; a sampled share is called empirical."""
+        if self.evidence is None:
+            return f"Which positive {given} have a positive equivalent in {other} is not known: {self.reason}."
+        seen = f" {self.empirical.sentence}." if self.empirical and self.share is Share.SOMETIMES else ""
+        return self.evidence.sentence(given, other) + seen
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON; what is empty is left out."""
+        told: dict[str, object] = {"share": self.share.value}
+        if self.evidence and self.certainty:
+            told |= {"certainty": self.certainty.value, "safety": self.safety, "evidence": plain.to_dict(self.evidence)}
+        if self.empirical:
+            told["empirical"] = asdict(self.empirical)
+        return told | ({"reason": self.reason} if self.reason else {})
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "PositiveFinding":
+        """Inverse of `to_dict`; raises ValueError, KeyError or TypeError for what is none."""
+        certainty = Certainty(data["certainty"]) if "certainty" in data else None
+        evidence = plain.from_dict(data["evidence"], get_args(PositiveEvidence)) if "evidence" in data else None
+        empirical = Empirical(**data["empirical"]) if "empirical" in data else None
+        return PositiveFinding(
+            Share(data["share"]), certainty, data.get("safety", 0), evidence, empirical, data.get("reason", "")
+        )
+
+    def to_json(self) -> str:
+        """Compact JSON text."""
+        return json.dumps(self.to_dict(), separators=(",", ":"), ensure_ascii=False)
+
+    @staticmethod
+    def from_json(text: str) -> "PositiveFinding":
+        """Inverse of `to_json`; raises ValueError, KeyError or TypeError for what is none."""
+        return PositiveFinding.from_dict(json.loads(text))
+
+
+def _wilson(hits: int, tries: int) -> tuple[float, float]:
+    p, z = hits / tries, Z95
+    middle, spread = p + z * z / (2 * tries), z * sqrt(p * (1 - p) / tries + z * z / (4 * tries * tries))
+    return max(0.0, (middle - spread) / (1 + z * z / tries)), min(1.0, (middle + spread) / (1 + z * z / tries))
+
+
+def _spelled(words: tuple[tuple[int, ...], ...]) -> str:
+    """At most three words, such as 0-2-0."""
+    shown = ", ".join("-".join(map(str, w)) for w in words[:3])
+    return shown if len(words) <= 3 else f"{shown} and {len(words) - 3} more"
