@@ -213,7 +213,7 @@ def test_false_evidence_is_refused():
     assert confirms(evidence, six, two)
     assert not any(confirms(e, six, two) for e in (swapped, nothing_lacking, negative, Theorem("Foster")))
     assert not confirms(Excluded("residues"), six, two)
-    with pytest.raises(ValueError, match="no evidence is called"):
+    with pytest.raises(ValueError, match="no theorem is called"):
         Theorem("")
     assert not confirms(Points(evidence.without, evidence.with_one), six, two)
     damped = Family(3, damped=True)
