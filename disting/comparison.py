@@ -41,7 +41,7 @@ def findings(
 
     >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
     >>> [(s.representation, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
-    [('tf', 1, 'fails'), ('tf', 2, 'fails'), ('tf', 3, 'fails')]
+    [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
     engine = engine or Engine()
     if isinstance(left, Model) or isinstance(right, Model):

@@ -114,6 +114,7 @@ def limited(path: str, size: str) -> None:
 def nobody(path: str) -> None:
     """Use the store without the rights of the owner."""
     if os.getuid() == 0:
+        Path(path).as_uri()  # loads what an interpreter below the home of root hides from others
         os.setgroups([])
         os.setgid(65534)
         os.setuid(65534)
