@@ -42,6 +42,7 @@ HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich", 
 def test_public_names():
     modules = {"algebra", "catalogs", "certainty", "comparison", "conditions", "domain", "engine", "equivalence", "errors"}
     modules |= {
+        "evidence",
         "ideals",
         "identifiability",
         "inclusion",
