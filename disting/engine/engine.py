@@ -13,7 +13,8 @@ from typing import Any, TypeVar
 
 from disting.conditions.subject import Subject
 from disting.engine.code import digest
-from disting.engine.decisions import Decisions, decisions
+from disting.engine.deciding import decisions
+from disting.engine.decisions import Decisions
 from disting.engine.store import Store
 from disting.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.invariants.codec import profile_from_json, profile_to_json
