@@ -78,7 +78,7 @@ def _explained(found: Selection) -> Iterator[str]:
     if others:
         yield f"not excluded by this data either: {_listed(others)}"
     elif found.members:
-        yield "this data excludes every other admissible structure"
+        yield "this data excludes every other admissible candidate"
     for m in [m for m in found.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
         yield f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force and sensor can tell"
