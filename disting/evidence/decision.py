@@ -28,7 +28,7 @@ class Theorem:
 
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says of this pair."""
-        return THEOREMS[self.name].format(left=left, right=right) + ", over positive parameters too."
+        return THEOREMS[self.name].format(left=left, right=right) + "."
 
     @property
     def formula(self) -> str:
