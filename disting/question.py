@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Generic, Protocol, TypeVar
 
 from disting.model.chain import Chain
@@ -9,6 +10,14 @@ from disting.settings import Settings
 
 T = TypeVar("T")
 Chains = tuple[Chain, ...]
+
+
+class Membership(StrEnum):
+    """An answer: whether generic models of one structure are models of the other."""
+
+    MEMBER = "member"
+    EXCLUDED = "excluded"
+    UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True)

@@ -46,8 +46,9 @@ from disting.invariants.profile import Profile
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
+from disting.question import Membership
 from disting.settings import Settings
-from disting.synthesis.decide import Direction, Exact, Grounds, Membership, decide, safety_of_point
+from disting.synthesis.decide import Direction, Exact, Grounds, decide, safety_of_point
 from disting.synthesis.duality import are_dual
 from disting.synthesis.foster import are_foster, are_same_by_parts
 
@@ -120,7 +121,7 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the degrees differ (conditions 1 and 2)")
         found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
         if found.evidence and found.safety >= limits.safety:
-            outcome = Outcome.HOLDS if found.membership is ideals.Membership.MEMBER else Outcome.FAILS
+            outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
             evidence = replace(found.evidence, is_normalised=coordinates is normalised)
             return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, evidence)
         reasons.append(found.reason)

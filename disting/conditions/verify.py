@@ -14,7 +14,6 @@ from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.ideals import (
     Limits,
-    Membership,
     chains_told_apart,
     coefficient_map,
     confirms,
@@ -31,6 +30,7 @@ from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.positivity import confirms_real, proves
+from disting.question import Membership
 from disting.settings import Settings
 from disting.synthesis.decide import Grounds
 from disting.synthesis.fibre import fibre

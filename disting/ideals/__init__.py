@@ -14,7 +14,6 @@ from disting.ideals.by_rows import differ_by_row as differ_by_row
 from disting.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.ideals.decide import Decision as Decision
 from disting.ideals.decide import Limits as Limits
-from disting.ideals.decide import Membership as Membership
 from disting.ideals.decide import decide as decide
 from disting.ideals.fibre_ideal import generic_rank as generic_rank
 from disting.ideals.full_parts import same_by_full_parts as same_by_full_parts

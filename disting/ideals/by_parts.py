@@ -17,13 +17,14 @@ from math import comb
 from flint import fmpz_mpoly
 
 from disting.evidence.ideals import ByParts, PartStep, Shown, Solved, Vanishing
-from disting.ideals.decide import Limits, Membership, decide
+from disting.ideals.decide import Limits, decide
 from disting.ideals.fibre_ideal import generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
 from disting.ideals.parts import Parts, Split, gap, has_relation, is_plain, parts, power, relative_degree, splits
 from disting.ideals.system import CoefficientMap
 from disting.ideals.verify import confirms
 from disting.model.structure import Structure
+from disting.question import Membership
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 SPARE_BITS = 3  # for up to eight statements: at most two parts in three splits, and the ranks that they rest on

@@ -13,7 +13,6 @@ Phi2 (they could be limits of points that are). Elements may be zero in a soluti
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import StrEnum
 from math import ceil
 from time import process_time
 
@@ -25,17 +24,10 @@ from disting.ideals.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
 from disting.ideals.points import free_variable, solution
 from disting.ideals.system import CoefficientMap, matched
+from disting.question import Membership
 
 LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 SPARE = 32  # draws for one solution modulo the prime: each square root that it needs halves the chance that there is one
-
-
-class Membership(StrEnum):
-    """Whether generic models of one structure are models of the other."""
-
-    MEMBER = "member"
-    EXCLUDED = "excluded"
-    UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,6 @@ from disting.evidence.ideals import ByParts, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Outside, PartsInside, RelativeDegrees
 from disting.ideals import Limits, coefficient_map, decide_by_parts, included_by_parts, normalised
-from disting.ideals import Membership as Reached
 from disting.ideals import decide as decide_ideal
 from disting.inclusion.across_sizes import by_computing, by_sizes
 from disting.inclusion.closures import of_closure
@@ -39,7 +38,7 @@ from disting.inclusion.image import of_image
 from disting.inclusion.profiles import by_profiles
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
-from disting.question import Question
+from disting.question import Membership, Question
 from disting.settings import Settings
 
 INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)  # of one ideal; less than for a verdict
@@ -155,10 +154,10 @@ def _asked(question: Question[InclusionFinding], left: Subject, right: Subject) 
     return answer if left.rank < right.rank else turned(answer)
 
 
-def _read(membership: Reached, safety: int, evidence: InclusionEvidence) -> Inclusions:
+def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> Inclusions:
     """What the fibre of an ideal says: a solution of limits, none of equivalents."""
     grade = Certainty.BOUNDED if safety else Certainty.PROVEN
-    if membership is Reached.MEMBER:
+    if membership is Membership.MEMBER:
         zeros = InclusionFinding(Inclusion.UNKNOWN, reason="elements of the solutions found may be zero")
         return Inclusions(zeros, InclusionFinding(Inclusion.LEFT_IN_RIGHT, grade, safety, evidence))
     limits = InclusionFinding(Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known")

@@ -24,8 +24,9 @@ from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.profiles import by_relative_degrees
 from disting.invariants.powers import powers
 from disting.model.chain import Chain
+from disting.question import Membership
 from disting.settings import Settings
-from disting.synthesis.decide import DRAWS, Exact, Grounds, Membership, member, point_bits, safety_of_point
+from disting.synthesis.decide import DRAWS, Exact, Grounds, member, point_bits, safety_of_point
 
 LIMITS = Limits(seconds=5.0, entries=20_000, safety=LEAST_SAFETY)  # of the ideal of one fibre
 

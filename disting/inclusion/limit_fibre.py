@@ -15,13 +15,14 @@ from math import ceil, log2
 
 from disting.certainty import LEAST_SAFETY
 from disting.evidence.ideals import Solved
-from disting.ideals import Decision, Limits, Membership, coefficient_map, confirms, decide
+from disting.ideals import Decision, Limits, coefficient_map, confirms, decide
 from disting.inclusion.limits import Step, follows, reached
 from disting.inclusion.meeting import least_rank, most_rank
 from disting.inclusion.rows import Row, rows_of
 from disting.invariants.powers import powers
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
+from disting.question import Membership
 
 LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre
 MODELS = 12  # that are tried for a pair

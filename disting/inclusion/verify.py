@@ -12,7 +12,7 @@ from disting.evidence.decision import FibreAt
 from disting.evidence.ideals import ByParts, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, Outside, PartsInside, RelativeDegrees
-from disting.ideals import Limits, Membership, coefficient_map, confirms_by_parts, decide, normalised
+from disting.ideals import Limits, coefficient_map, confirms_by_parts, decide, normalised
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
 from disting.inclusion.closures import confirms_parts
 from disting.inclusion.profiles import degrees_refute, ordered
@@ -20,6 +20,7 @@ from disting.invariants.profile import samples
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
+from disting.question import Membership
 
 PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 

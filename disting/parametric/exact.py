@@ -6,8 +6,9 @@ from disting.certainty import Certainty
 from disting.conditions.exact import SAFETY
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.ideals import CoefficientMap, Decision, Limits, Membership, decide
+from disting.ideals import CoefficientMap, Decision, Limits, decide
 from disting.parametric.model import Model
+from disting.question import Membership
 
 LIMITS = Limits(safety=SAFETY)
 

@@ -42,8 +42,9 @@ from disting.model.symmetry import canonical
 from disting.positivity.parts import Obstacle, distances, obstacle, only_parts_sum_to_zero, parts, swap_fails
 from disting.positivity.points import equivalent, random_point, spelled
 from disting.positivity.words import Words, words
+from disting.question import Membership
 from disting.settings import Settings
-from disting.synthesis.decide import Membership, member, point_bits, rational_point, safety_of_point
+from disting.synthesis.decide import member, point_bits, rational_point, safety_of_point
 from disting.synthesis.duality import are_dual
 from disting.synthesis.result import Answer
 from disting.synthesis.segment import Segment

@@ -6,7 +6,6 @@ It decides what the conditions leave open: one rational model of one chain, and 
 from disting.synthesis.decide import Direction as Direction
 from disting.synthesis.decide import Exact as Exact
 from disting.synthesis.decide import Grounds as Grounds
-from disting.synthesis.decide import Membership as Membership
 from disting.synthesis.decide import decide as decide
 from disting.synthesis.decide import member as member
 from disting.synthesis.duality import are_dual as are_dual

@@ -20,6 +20,7 @@ from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical
+from disting.question import Membership
 from disting.synthesis.construction import is_constructed, is_untested
 from disting.synthesis.duality import are_dual
 from disting.synthesis.fibre import fibre, segments
@@ -30,14 +31,6 @@ from disting.synthesis.target import target
 WANTED = 128  # bits of an error bound that points are made long enough for; LEAST_SAFETY is what must be reached
 LENGTH = 64  # coordinates have a multiple of so many bits
 DRAWS = 3  # special points are drawn again this often
-
-
-class Membership(StrEnum):
-    """Whether a generic model of one chain is a model of the other."""
-
-    MEMBER = "member"
-    EXCLUDED = "excluded"
-    UNKNOWN = "unknown"
 
 
 class Direction(StrEnum):

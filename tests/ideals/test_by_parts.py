@@ -12,7 +12,6 @@ from disting.algebra.sampling import prime, residues
 from disting.evidence.ideals import Vanishing
 from disting.ideals import (
     Limits,
-    Membership,
     confirms_by_parts,
     decide_by_parts,
     generic_rank,
@@ -26,8 +25,8 @@ from disting.ideals.parts import gap, parts, splits
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.symmetry import canonical
+from disting.question import Membership
 from disting.synthesis.decide import Grounds, member
-from disting.synthesis.decide import Membership as Found
 
 LIMITS = Limits(seconds=20, entries=1_000_000, safety=100)
 P = prime("test of parts")
@@ -123,7 +122,7 @@ def agrees_with_the_synthesis(n, damped):
             found = decide_by_parts(small.structure, large.structure, "test", LIMITS)
             counts[found.membership] += 1
             if synthesis.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION) and found.membership is not Membership.UNKNOWN:
-                assert (synthesis.membership is Found.MEMBER) == (found.membership is Membership.MEMBER)
+                assert (synthesis.membership is Membership.MEMBER) == (found.membership is Membership.MEMBER)
         for evidence in (exact, inside.evidence) if n == 3 else ():
             assert evidence is None or confirms_by_parts(evidence, small.structure, large.structure)
     return counts

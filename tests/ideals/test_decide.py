@@ -7,11 +7,12 @@ import pytest
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
 from disting.evidence.ideals import Refuted, Solved
-from disting.ideals import CoefficientMap, Limits, Membership, coefficient_map, confirms, decide, generic_rank
+from disting.ideals import CoefficientMap, Limits, coefficient_map, confirms, decide, generic_rank
 from disting.ideals import normalised as normal
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.symmetry import canonical
+from disting.question import Membership
 from disting.synthesis.decide import decide as by_synthesis
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from disting.algebra.sampling import prime, residues
 from disting.errors import CatalogError
-from disting.ideals import Limits, Membership, decide, generic_rank
+from disting.ideals import Limits, decide, generic_rank
 from disting.ideals.fibre_ideal import evaluated
 from disting.ideals.modular import matrix, null_space, polynomial
 from disting.ideals.parts import parts
@@ -27,6 +27,7 @@ from disting.ideals.zeros import (
 )
 from disting.model.chain import Chain
 from disting.packaged import shipped_folder
+from disting.question import Membership
 
 P = prime("test of zeros")
 LONG = prime("test of zeros", BITS)

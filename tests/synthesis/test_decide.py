@@ -5,7 +5,8 @@ import pytest
 from disting.catalogs import Catalog, catalog
 from disting.errors import InputError
 from disting.model.family import Family
-from disting.synthesis.decide import Direction, Grounds, Membership, decide, member
+from disting.question import Membership
+from disting.synthesis.decide import Direction, Grounds, decide, member
 from disting.synthesis.result import Status
 from disting.verdict import Relation, View
 

@@ -14,8 +14,9 @@ from disting.ideals import coefficient_map
 from disting.identifiability.tangent import proof_tangents
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.question import Membership
 from disting.synthesis.construction import is_untested
-from disting.synthesis.decide import Membership, decide, rational_point
+from disting.synthesis.decide import decide, rational_point
 from disting.synthesis.fibre import fibre, segments
 from disting.synthesis.methods import is_covered
 from disting.synthesis.result import Answer, Confirmation, Fibre, Status
