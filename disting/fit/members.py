@@ -6,7 +6,7 @@ And what behaves as it does, for exactly these values, is not excluded either, b
 sensor: other structures of as many masses, anywhere in the catalogue, with any ground dampers, and other values of its own.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import combinations
@@ -84,11 +84,19 @@ class Member:
 
 
 def members(
-    chosen: Sequence[Candidate], task: Task, test: Cost | None, limits: Limits, executor: Executor | None
+    chosen: Sequence[Candidate],
+    task: Task,
+    test: Cost | None,
+    limits: Limits,
+    executor: Executor | None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Member, ...]:
     """The candidates, in their order, as members of the set."""
     given = [(c.chain, c.estimate.parameters, dict(limits)) for c in chosen]
-    found = {chain: both for (chain, *_), both in mapped(twins, given, executor)}
+    found = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
+    for (chain, *_), both in mapped(twins, given, executor):
+        found[chain] = both
+        progress("equivalents", len(found), len(given))
     return tuple(
         Member(
             c, *found[c.chain], disagreements(c, task, test) if test else (), _differs(chosen[0], c, test or task.cost, task)

@@ -134,7 +134,7 @@ def select(
         {c: other for c, other in first.items() if c != other},
         rule,
         said,
-        members(choice.near if said.explains else (), task, test_cost, within, executor),
+        members(choice.near if said.explains else (), task, test_cost, within, executor, progress),
         readings(fitted, task, store=engine.store, executor=executor, progress=progress) if hopeless else (),
         choice.better,
         task,
