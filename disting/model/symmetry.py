@@ -35,14 +35,14 @@ class Form:
     renaming: dict[str, str]
 
 
-def forms(chain: Chain) -> Iterator[Form]:
-    """Yield the (up to eight) equivalent forms of a chain, the chain itself first.
+@lru_cache(maxsize=REMEMBERED)
+def forms(chain: Chain) -> tuple[Form, ...]:
+    """The (up to eight) equivalent forms of a chain, the chain itself first.
 
     >>> len({form.chain for form in forms(Chain(3, 0, 0, 1, 0, 2))})
     4
     """
-    for chosen in _choices():
-        yield Form(_moved(chain, chosen), chosen, _renaming(chain, chosen))
+    return tuple(Form(_moved(chain, chosen), chosen, _renaming(chain, chosen)) for chosen in _choices())
 
 
 @lru_cache(maxsize=REMEMBERED)
