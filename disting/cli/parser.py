@@ -66,11 +66,12 @@ def _conditions(text: str) -> tuple[str, ...]:
     """Names and ranges such as 1-5,8, in the order of the table."""
     chosen = set[str]()
     for part in text.split(","):
-        low, _, high = part.strip().partition("-")
-        if not {low, high or low} <= set(NAMES) or NAMES.index(high or low) < NAMES.index(low):
+        low, dash, high = part.strip().partition("-")
+        high = high if dash else low
+        if not {low, high} <= set(NAMES) or NAMES.index(high) < NAMES.index(low):
             known = f"the conditions {NAMES[0]} to {NAMES[-1]}"
             raise argparse.ArgumentTypeError(f"conditions are written like 1-5,8, of {known}, not {shown(text)}")
-        chosen |= set(NAMES[NAMES.index(low) : NAMES.index(high or low) + 1])
+        chosen |= set(NAMES[NAMES.index(low) : NAMES.index(high) + 1])
     return tuple(name for name in NAMES if name in chosen)
 
 

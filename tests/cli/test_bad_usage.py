@@ -31,6 +31,8 @@ WORDS = [
     (("verdicts", "4-1"), "sizes are written like"),
     (("verdicts", "3", "--conditions", "0-5"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "5-3"), "conditions are written like"),
+    (("verdicts", "3", "--conditions", "5-"), "conditions are written like"),
+    (("verdicts", "3", "--conditions", "exact"), "conditions are written like"),
     (("verdicts", "3", "--sensor", "force"), "invalid choice"),
     (("verdicts", "3", "--csv", "-", "--json", "-"), "not both"),
     (("verdicts", "3", "--markov", "-4"), "at least 1"),
