@@ -90,7 +90,7 @@ def test_never_and_always_are_said_of_a_pair_only_where_its_verdict_says_so(
 def test_a_limit_case_says_what_follows() -> None:
     """A4 of four masses without dampers is distinguishable from all others, and a limit of thirteen of them."""
     text = " ".join(Outline(model_page(catalog(4), 4)).text.split())
-    assert "its behaviour is that of none of the other models of this size" in text
+    assert "its behaviour is that of none of the other models of this catalogue" in text
     assert "But over complex parameters it is a limit case of 13: noise may hide the difference." in text
     assert "A limit case of 13 models" in text and "come as close to its own as one likes" in text
     assert "Over complex parameters" in text and "generic behaviours of theirs are none of its own" in text
