@@ -1,4 +1,5 @@
-"""Distinguishability of servo-drive chain models: which structures no experiment can tell apart, with proof.
+"""Distinguishability of servo-drive chain models: which structures no experiment can tell apart,
+with proof.
 
 >>> from disting import Family, compare
 >>> compare(Family(3)[9], Family(3)[10]).relation.value

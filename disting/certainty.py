@@ -6,14 +6,18 @@ from enum import StrEnum
 from fractions import Fraction
 from math import ceil, log2
 
-LEAST_SAFETY = 100  # bits: what is wrong with a larger probability than 2**-100, or could be, is not said
-USELESS = -1  # bits of a bound that says nothing; 0 bits are those of a statement that needs no bound
+# bits: what is wrong with a larger probability than 2**-100, or could be, is not said
+LEAST_SAFETY = 100
+# bits of a bound that says nothing; 0 bits are those of a statement that needs no bound
+USELESS = -1
 
 
 class Certainty(StrEnum):
-    """THEOREM: holds by a stated theorem. PROVEN: exact computation. BOUNDED: but for a computed probability.
+    """THEOREM: holds by a stated theorem. PROVEN: exact computation. BOUNDED: but for a computed
+    probability.
 
-    NUMERICAL: all equations hold within small balls, which proves neither that they hold nor that they fail.
+    NUMERICAL: all equations hold within small balls, which proves neither that they hold nor that
+    they fail.
     """
 
     THEOREM = "theorem"
@@ -32,7 +36,8 @@ def graded(proven: bool, safety: int) -> Grade:
 
 
 def shortfall(certainty: Certainty | None, safety: int) -> str:
-    """Why a statement may not be made with this grade, "" if it may: asked wherever a finding is made.
+    """Why a statement may not be made with this grade, "" if it may: asked wherever a finding is
+    made.
 
     Raises ValueError for an error bound of what is not BOUNDED.
 
@@ -41,22 +46,32 @@ def shortfall(certainty: Certainty | None, safety: int) -> str:
     """
     if certainty is Certainty.BOUNDED:
         bound = f"2^-{safety}" if safety > 0 else "1"
-        return "" if safety >= LEAST_SAFETY else f"its error bound would be {bound}, and more than 2^-100 is not accepted"
+        return (
+            ""
+            if safety >= LEAST_SAFETY
+            else f"its error bound would be {bound}, and more than 2^-100 is not accepted"
+        )
     if safety:
         raise ValueError("only a bounded finding carries an error bound")
     return ""
 
 
 def joint_safety(safeties: Iterable[int]) -> int:
-    """Largest b with sum 2^-s <= 2^-b: the probability that any of these statements is wrong is at most 2**-b.
+    """Largest b with sum 2^-s <= 2^-b: the probability that any of these statements is wrong is at
+    most 2**-b.
 
-    No independence is needed: it is the sum that bounds a union. 0 for no statement at all, and only then: nothing can be
-    wrong. USELESS where the sum is more than 1/2, so that no bound is left.
+    No independence is needed: it is the sum that bounds a union. 0 for no statement at all, and
+    only then: nothing can be wrong. USELESS where the sum is more than 1/2, so that no bound is
+    left.
 
-    >>> joint_safety([120] * 1000), joint_safety([100, 140]), joint_safety([]), joint_safety([1, 100])
-    (110, 99, 0, -1)
+    >>> joint_safety([120] * 1000), joint_safety([100, 140])
+    (110, 99)
+    >>> joint_safety([]), joint_safety([1, 100])
+    (0, -1)
     """
-    total = sum((Fraction(1, 2) ** s * count for s, count in Counter(safeties).items()), Fraction(0))
+    total = sum(
+        (Fraction(1, 2) ** s * count for s, count in Counter(safeties).items()), Fraction(0)
+    )
     if not total:
         return 0
     return int(1 / total).bit_length() - 1 if 2 * total <= 1 else USELESS

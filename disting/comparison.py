@@ -9,18 +9,27 @@ from disting.model.family import Family
 from disting.parametric import Model
 from disting.verdict import Query, Step, Verdict, steps
 
-NUMBERED_UP_TO = 8  # masses; larger families are long to list, so their chains are named by their indices
+# masses; larger families are long to list, so their chains are named by their indices
+NUMBERED_UP_TO = 8
 
 
 def compare(
-    left: Chain | Model, right: Chain | Model, *, query: Query | None = None, audit: bool = False, engine: Engine | None = None
+    left: Chain | Model,
+    right: Chain | Model,
+    *,
+    query: Query | None = None,
+    audit: bool = False,
+    engine: Engine | None = None,
 ) -> Verdict:
-    """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store once it is there).
+    """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store
+    once it is there).
 
-    General models (`Model`) are compared likewise, with each other or with chains; their verdicts are not stored.
+    General models (`Model`) are compared likewise, with each other or with chains; their verdicts
+    are not stored.
 
-    `query` limits views, conditions and Markov parameters; `audit` runs every condition in every representation and raises
-    ContradictionError where two decide differently; `engine` brings settings and a store (default: none).
+    `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
+    representation and raises ContradictionError where two decide differently; `engine` brings
+    settings and a store (default: none).
 
     >>> from disting import Family
     >>> a = Family(3, damped=True)
@@ -29,13 +38,19 @@ def compare(
     """
     engine = engine or Engine()
     if isinstance(left, Model) or isinstance(right, Model):
-        return parametric.compare(_model(left), _model(right), query=query, audit=audit, settings=engine.settings)
+        return parametric.compare(
+            _model(left), _model(right), query=query, audit=audit, settings=engine.settings
+        )
     subjects = _subjects(left, right, engine)
     return engine.verdict(*subjects, query or Query(), audited=audit)
 
 
 def findings(
-    left: Chain | Model, right: Chain | Model, *, query: Query | None = None, engine: Engine | None = None
+    left: Chain | Model,
+    right: Chain | Model,
+    *,
+    query: Query | None = None,
+    engine: Engine | None = None,
 ) -> tuple[Step, ...]:
     """What every condition finds in every representation, in order, whether it decides or not.
 
@@ -45,12 +60,18 @@ def findings(
     """
     engine = engine or Engine()
     if isinstance(left, Model) or isinstance(right, Model):
-        return parametric.findings(_model(left), _model(right), query=query, settings=engine.settings)
+        return parametric.findings(
+            _model(left), _model(right), query=query, settings=engine.settings
+        )
     return tuple(steps(*_subjects(left, right, engine), query or Query()))
 
 
 def _model(given: Chain | Model) -> Model:
-    return given if isinstance(given, Model) else Model.from_chain(given, name=name_of(given, short=False))
+    return (
+        given
+        if isinstance(given, Model)
+        else Model.from_chain(given, name=name_of(given, short=False))
+    )
 
 
 def _subjects(left: Chain, right: Chain, engine: Engine) -> tuple[Subject, Subject]:
@@ -64,7 +85,8 @@ def _subjects(left: Chain, right: Chain, engine: Engine) -> tuple[Subject, Subje
 
 
 def name_of(chain: Chain, *, short: bool) -> str:
-    """A4 (short) or 3:4, with ground dampers, lag and dead time added; the indices for chains without a number.
+    """A4 (short) or 3:4, with ground dampers, lag and dead time added; the indices for chains
+    without a number.
 
     >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)), short=False)
     '3:4+b1'
@@ -76,4 +98,11 @@ def name_of(chain: Chain, *, short: bool) -> str:
     except InputError:
         number = 0
     head = (f"A{number}" if short else f"{chain.n_masses}:{number}") if number else f"({plain})"
-    return "+".join([head, *(f"b{i}" for i in chain.ground_dampers), *["lag"] * chain.lag, *["delay"] * chain.dead_time])
+    return "+".join(
+        [
+            head,
+            *(f"b{i}" for i in chain.ground_dampers),
+            *["lag"] * chain.lag,
+            *["delay"] * chain.dead_time,
+        ]
+    )

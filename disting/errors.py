@@ -1,6 +1,7 @@
 """The few errors that a user can meet. Not knowing is no error: it is the relation UNDECIDED.
 
-What is echoed of an input is short and can be printed, whoever made the input: see `shown` and `listed`.
+What is echoed of an input is short and can be printed, whoever made the input: see `shown` and
+`listed`.
 """
 
 from collections.abc import Iterable
@@ -12,7 +13,9 @@ LONGEST_MESSAGE = 1500  # whatever a message is made of
 
 
 class DistingError(Exception):
-    """Base of every error that this package raises on purpose; the message names the cause and the remedy."""
+    """Base of every error that this package raises on purpose; the message names the cause and
+    the remedy.
+    """
 
     def __init__(self, message: object = "") -> None:
         super().__init__(brief(str(message)))
@@ -54,7 +57,10 @@ def listed(names: Iterable[str], separator: str = ", ") -> str:
     '26, 27, 28, 29 and 999970 more'
     """
     rest = iter(names)
-    first = [name if len(name) <= LONGEST_ECHO else f"{name[: LONGEST_ECHO // 2]}…" for name in islice(rest, MOST_LISTED)]
+    first = [
+        name if len(name) <= LONGEST_ECHO else f"{name[: LONGEST_ECHO // 2]}…"
+        for name in islice(rest, MOST_LISTED)
+    ]
     more = sum(1 for _ in rest)
     return printable(separator.join(first)) + f" and {more} more" * bool(more)
 

@@ -1,8 +1,8 @@
 """Raises bounded verdicts to proven ones where exact elimination ends in time.
 
-A verdict by condition 4 or 5 says that a set of invariants has rank k in one model and more in the other. The larger rank is
-proven already (a minor that is not zero somewhere is not zero); that the smaller one is k at most is proven by elimination over
-the polynomials.
+A verdict by condition 4 or 5 says that a set of invariants has rank k in one model and more in the
+other. The larger rank is proven already (a minor that is not zero somewhere is not zero); that the
+smaller one is k at most is proven by elimination over the polynomials.
 """
 
 from collections.abc import Iterator
@@ -21,11 +21,13 @@ from disting.model.symmetry import canonical
 from disting.verdict import Verdict
 
 SECONDS = 10.0  # for one proof
-Claim = tuple[Structure, tuple[str, ...], int]  # these invariants of this structure have this rank at most
+# these invariants of this structure have this rank at most
+Claim = tuple[Structure, tuple[str, ...], int]
 
 
 def prove(verdict: Verdict, left: Chain, right: Chain, seconds: float = SECONDS) -> Verdict:
-    """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as it is.
+    """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as
+    it is.
 
     >>> from disting import Family, compare
     >>> a = Family(3, damped=True)
@@ -33,10 +35,16 @@ def prove(verdict: Verdict, left: Chain, right: Chain, seconds: float = SECONDS)
     ('bounded', 'proven')
     """
     claim = _claim(verdict, left, right)
-    return replace(verdict, certainty=Certainty.PROVEN, safety=0) if claim and _holds(claim, seconds) else verdict
+    return (
+        replace(verdict, certainty=Certainty.PROVEN, safety=0)
+        if claim and _holds(claim, seconds)
+        else verdict
+    )
 
 
-def prove_all(decided: Decisions, seconds: float = SECONDS, progress: Progress = silent) -> Decisions:
+def prove_all(
+    decided: Decisions, seconds: float = SECONDS, progress: Progress = silent
+) -> Decisions:
     """The decisions, with those marked that can be proven in time; each claim is looked at once."""
     claims = dict(_claims(decided))
     different = list(dict.fromkeys(claims.values()))
@@ -44,13 +52,17 @@ def prove_all(decided: Decisions, seconds: float = SECONDS, progress: Progress =
     for done, claim in enumerate(different, 1):
         holds[claim] = _holds(claim, seconds)
         progress("proofs", done, len(different))
-    return replace(decided, proven=frozenset(pair for pair, claim in claims.items() if holds[claim]))
+    return replace(
+        decided, proven=frozenset(pair for pair, claim in claims.items() if holds[claim])
+    )
 
 
 def _claims(decided: Decisions) -> Iterator[tuple[tuple[int, int], Claim]]:
     for i, j in combinations(range(len(decided.subjects)), 2):
         if decided.rule(i, j) in (RANK.name, DEPENDENCES.name):
-            claim = _claim(decided.verdict(i, j), decided.subjects[i].chain, decided.subjects[j].chain)
+            claim = _claim(
+                decided.verdict(i, j), decided.subjects[i].chain, decided.subjects[j].chain
+            )
             if claim:
                 yield (i, j), claim
 

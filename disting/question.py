@@ -1,4 +1,6 @@
-"""What is asked of chains beyond conditions 1 to 9: computed by a pure function, kept as text by whoever keeps it."""
+"""What is asked of chains beyond conditions 1 to 9: computed by a pure function, kept as text
+by whoever keeps it.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,7 +26,8 @@ class Membership(StrEnum):
 class Question(Generic[T]):
     """A question by its `name`, about one chain or an ordered pair.
 
-    `answer` computes (of the chains and the settings), `encode` and `decode` turn an answer into text and back.
+    `answer` computes (of the chains and the settings), `encode` and `decode` turn an answer into
+    text and back.
     """
 
     name: str

@@ -1,4 +1,6 @@
-"""Where tasks run: in this process, in worker processes, or on a dask.distributed cluster; all by concurrent.futures."""
+"""Where tasks run: in this process, in worker processes, or on a dask.distributed cluster; all
+by concurrent.futures.
+"""
 
 import os
 import threading
@@ -13,7 +15,9 @@ from disting.errors import InputError
 
 @contextmanager
 def executor(jobs: int, scheduler: str = "") -> Iterator[Executor | None]:
-    """An executor for `jobs` processes or for the cluster at `scheduler`; None where this process does the work."""
+    """An executor for `jobs` processes or for the cluster at `scheduler`; None where this
+    process does the work.
+    """
     if scheduler:
         yield from _cluster(scheduler)
     elif jobs > 1:
@@ -25,11 +29,16 @@ def executor(jobs: int, scheduler: str = "") -> Iterator[Executor | None]:
 
 @contextmanager
 def _processes(jobs: int) -> Iterator[Executor]:
-    """Spawned workers: they share nothing with this process, so no lock or connection can be inherited half-way.
+    """Spawned workers: they share nothing with this process, so no lock or connection can be
+    inherited half-way.
 
-    Ctrl-C ends them at once and without a word; this process tells of it. However this process ends, they end with it.
+    Ctrl-C ends them at once and without a word; this process tells of it. However this process
+    ends, they end with it.
     """
-    with _quiet_about_cancelled_work(), ProcessPoolExecutor(jobs, get_context("spawn"), _prepare_worker) as pool:
+    with (
+        _quiet_about_cancelled_work(),
+        ProcessPoolExecutor(jobs, get_context("spawn"), _prepare_worker) as pool,
+    ):
         try:
             yield pool
         except KeyboardInterrupt:
@@ -44,7 +53,9 @@ def _prepare_worker() -> None:
 
 
 def _end_with_parent() -> None:
-    """A killed parent cannot tell its workers to stop; they would wait for tasks for ever. Its end is seen on a pipe."""
+    """A killed parent cannot tell its workers to stop; they would wait for tasks for ever. Its
+    end is seen on a pipe.
+    """
     parent = parent_process()
     if parent is not None:
         parent.join()
@@ -53,7 +64,9 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _quiet_about_cancelled_work() -> Iterator[None]:
-    """Until Python 3.12 a pool whose workers are gone complains in its thread of work that was cancelled before."""
+    """Until Python 3.12 a pool whose workers are gone complains in its thread of work that was
+    cancelled before.
+    """
     usual = threading.excepthook
 
     def hook(failed: threading.ExceptHookArgs) -> None:
@@ -72,7 +85,9 @@ def _cluster(address: str) -> Iterator[Executor]:
     try:
         from distributed import Client
     except ImportError:
-        raise InputError("--scheduler needs dask.distributed: pip install 'disting[dask]'") from None
+        raise InputError(
+            "--scheduler needs dask.distributed: pip install 'disting[dask]'"
+        ) from None
     try:
         client = Client(address, timeout="5s")
     except (OSError, ValueError) as reason:

@@ -5,9 +5,10 @@ from dataclasses import asdict, dataclass
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """`seed` names the random points, `points` counts the independent ones behind every rank (error bounds multiply; more are
-    taken where the least accepted bound needs them), `subset_limit` bounds the subsets of rows that a matroid search may visit
-    (about 10 ns each)."""
+    """`seed` names the random points, `points` counts the independent ones behind every rank
+    (error bounds multiply; more are taken where the least accepted bound needs them),
+    `subset_limit` bounds the subsets of rows that a matroid search may visit (about 10 ns each).
+    """
 
     seed: str = "disting"
     points: int = 3

@@ -1,4 +1,6 @@
-"""Files that are whole or not there: written beside, then renamed, with the same bytes on every system."""
+"""Files that are whole or not there: written beside, then renamed, with the same bytes on every
+system.
+"""
 
 import contextlib
 import os
@@ -8,12 +10,18 @@ from typing import BinaryIO
 
 
 def write_whole(path: Path, content: bytes | Iterable[str]) -> Path:
-    """Write bytes, or texts as UTF-8, to a file; returns its path. What UTF-8 lacks, of odd file names, is escaped.
+    """Write bytes, or texts as UTF-8, to a file; returns its path. What UTF-8 lacks, of odd file
+    names, is escaped.
 
-    A kill or a full disk leaves an older file as it was, and processes that write the same file at once leave that of one of
-    them. A link stays a link; devices and pipes are written to as they are. Raises OSError that names the file.
+    A kill or a full disk leaves an older file as it was, and processes that write the same file at
+    once leave that of one of them. A link stays a link; devices and pipes are written to as they
+    are. Raises OSError that names the file.
     """
-    parts = (content,) if isinstance(content, bytes) else (text.encode(errors="backslashreplace") for text in content)
+    parts = (
+        (content,)
+        if isinstance(content, bytes)
+        else (text.encode(errors="backslashreplace") for text in content)
+    )
     try:
         with _opened(path.resolve()) as file:
             file.writelines(parts)
@@ -24,7 +32,9 @@ def write_whole(path: Path, content: bytes | Iterable[str]) -> Path:
 
 @contextlib.contextmanager
 def _opened(target: Path) -> Iterator[BinaryIO]:
-    """A file that takes the target's place at the end, or the target itself where it is no plain file."""
+    """A file that takes the target's place at the end, or the target itself where it is no
+    plain file.
+    """
     if target.exists() and not target.is_file():
         with target.open("wb") as file:
             yield file

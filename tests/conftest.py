@@ -8,7 +8,8 @@ from hypothesis import settings
 
 os.environ["DISTING_CACHE"] = "off"
 os.environ["DISTING_PROGRESS"] = "off"
-settings.register_profile("repeatable", derandomize=True, deadline=None)  # a deadline is a time that a busy machine breaks
+# a deadline is a time that a busy machine breaks
+settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("fresh", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
@@ -17,9 +18,18 @@ SECTIONS = {"oracle": "compared with independent programs", "attack": "attacked"
 
 
 def pytest_terminal_summary(terminalreporter):
-    """What was compared with independent programs, and what was attacked, is said whether the tests pass or fail."""
-    reports = [report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])]
-    told = [(r.nodeid, name, text) for r in reports if r.when == "call" for name, text in r.user_properties]
+    """What was compared with independent programs, and what was attacked, is said whether the
+    tests pass or fail.
+    """
+    reports = [
+        report for kind in ("passed", "failed") for report in terminalreporter.stats.get(kind, [])
+    ]
+    told = [
+        (r.nodeid, name, text)
+        for r in reports
+        if r.when == "call"
+        for name, text in r.user_properties
+    ]
     for section, title in SECTIONS.items():
         lines = [f"{nodeid}: {text}" for nodeid, name, text in told if name == section]
         if lines:

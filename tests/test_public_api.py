@@ -8,7 +8,16 @@ import pytest
 import disting
 
 NAMES = [
-    *("Alternatives", "CONDITIONS", "CacheWarning", "Catalog", "CatalogError", "Certainty", "Chain", "ConstraintViolation"),
+    *(
+        "Alternatives",
+        "CONDITIONS",
+        "CacheWarning",
+        "Catalog",
+        "CatalogError",
+        "Certainty",
+        "Chain",
+        "ConstraintViolation",
+    ),
     *(
         "ContradictionError",
         "Decisions",
@@ -20,7 +29,19 @@ NAMES = [
         "Identifiability",
         "Inclusion",
     ),
-    *("InputError", "Model", "ModelRow", "Outcome", "Query", "Relation", "Sensor", "Settings", "Step", "Store", "Symmetry"),
+    *(
+        "InputError",
+        "Model",
+        "ModelRow",
+        "Outcome",
+        "Query",
+        "Relation",
+        "Sensor",
+        "Settings",
+        "Step",
+        "Store",
+        "Symmetry",
+    ),
     *(
         "Verdict",
         "View",
@@ -36,11 +57,31 @@ NAMES = [
         "transfer_function",
     ),
 ]
-HEAVY = {"pandas", "networkx", "sympy", "PIL", "jinja2", "distributed", "rich", "scipy", "matplotlib"}
+HEAVY = {
+    "pandas",
+    "networkx",
+    "sympy",
+    "PIL",
+    "jinja2",
+    "distributed",
+    "rich",
+    "scipy",
+    "matplotlib",
+}
 
 
 def test_public_names():
-    modules = {"algebra", "catalogs", "certainty", "comparison", "conditions", "domain", "engine", "equivalence", "errors"}
+    modules = {
+        "algebra",
+        "catalogs",
+        "certainty",
+        "comparison",
+        "conditions",
+        "domain",
+        "engine",
+        "equivalence",
+        "errors",
+    }
     modules |= {
         "evidence",
         "ideals",
@@ -71,16 +112,27 @@ def test_public_names():
 
 def test_importing_the_package_leaves_heavy_libraries_alone():
     code = "import sys, disting; print(*sys.modules)"
-    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
     assert "disting" in loaded
     assert not HEAVY & set(loaded)
 
 
 @pytest.mark.parametrize(
     ("command", "writes"),
-    [("compare 3:2 3:5", False), ("models 3", False), ("equivalents 3:4 --to 3:1 --formulas", True)],
+    [
+        ("compare 3:2 3:5", False),
+        ("models 3", False),
+        ("equivalents 3:4 --to 3:1 --formulas", True),
+    ],
 )
 def test_commands_load_sympy_only_where_they_write_an_expression(command, writes):
-    code = f"import sys; from disting.cli import main; main({command.split()}); print('sympy' in sys.modules)"
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    code = (
+        f"import sys; from disting.cli import main; main({command.split()}); print('sympy' in"
+        " sys.modules)"
+    )
+    said = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout
     assert said.splitlines()[-1] == str(writes)

@@ -1,9 +1,10 @@
 """Renamings of parameters by colour refinement on values: which parameters can play which role.
 
-A renaming carries one list of functions into another by a permutation of their variables. Give all variables one value: the
-column of the Jacobian of each variable is then the same in both lists for variables that correspond. These columns are
-colours; give each colour its own value, look again, and refine until nothing splits (as in colour refinement of graphs, with
-the expanded polynomials as the graph, but without expanding them). Different sets of colours prove that no renaming exists;
+A renaming carries one list of functions into another by a permutation of their variables. Give all
+variables one value: the column of the Jacobian of each variable is then the same in both lists for
+variables that correspond. These columns are colours; give each colour its own value, look again,
+and refine until nothing splits (as in colour refinement of graphs, with the expanded polynomials
+as the graph, but without expanding them). Different sets of colours prove that no renaming exists;
 ties are broken by individualising one variable after another.
 """
 
@@ -18,7 +19,9 @@ Columns = Callable[[list[int]], tuple[tuple[int, ...], list[tuple[int, ...]]]]
 
 @dataclass(frozen=True, slots=True)
 class Colouring:
-    """A stable colour for each variable and the values of the functions there: equal for lists that are renamings."""
+    """A stable colour for each variable and the values of the functions there: equal for lists
+    that are renamings.
+    """
 
     colours: tuple[str, ...]
     values: tuple[int, ...]
@@ -34,7 +37,9 @@ def colouring(columns: Columns, start: tuple[str, ...]) -> Colouring:
     colours = start
     while True:
         values, seen = columns([_number(c) for c in colours])
-        refined = tuple(_digest(c, *map(str, column)) for c, column in zip(colours, seen, strict=True))
+        refined = tuple(
+            _digest(c, *map(str, column)) for c, column in zip(colours, seen, strict=True)
+        )
         if len(set(refined)) == len(set(colours)):
             return Colouring(refined, values)
         colours = refined
@@ -48,7 +53,9 @@ def renamings(left: Columns, right: Columns, size: int) -> Iterator[tuple[int, .
     yield from _matched(left, right, colouring(left, ("",) * size), colouring(right, ("",) * size))
 
 
-def _matched(left: Columns, right: Columns, one: Colouring, other: Colouring) -> Iterator[tuple[int, ...]]:
+def _matched(
+    left: Columns, right: Columns, one: Colouring, other: Colouring
+) -> Iterator[tuple[int, ...]]:
     if one.fingerprint != other.fingerprint:
         return
     count = Counter(one.colours)
@@ -75,4 +82,5 @@ def _digest(*texts: str) -> str:
 
 
 def _number(colour: str) -> int:
-    return int(_digest("value", colour)[:15], 16) + 1  # below 2^60, so never 0 modulo a prime of 61 bits
+    # below 2^60, so never 0 modulo a prime of 61 bits
+    return int(_digest("value", colour)[:15], 16) + 1

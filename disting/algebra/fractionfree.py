@@ -1,13 +1,16 @@
-"""Exact rank of a matrix of polynomials by fraction-free elimination (Bareiss 1968): every division leaves no remainder.
+"""Exact rank of a matrix of polynomials by fraction-free elimination (Bareiss 1968): every
+division leaves no remainder.
 
-The pivot is the entry with the fewest terms, and the common factor of each row is taken out first, which keeps entries short.
+The pivot is the entry with the fewest terms, and the common factor of each row is taken out first,
+which keeps entries short.
 """
 
 from collections.abc import Sequence
 from time import monotonic
 from typing import Any
 
-Polynomial = Any  # an element of a ring without zero divisors, with exact division, gcd and a number of terms
+# an element of a ring without zero divisors, with exact division, gcd and a number of terms
+Polynomial = Any
 
 
 class OutOfTimeError(Exception):
@@ -27,7 +30,9 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
     columns = list(range(len(work[0]))) if work else []
     previous: Polynomial | None = None
     done = 0
-    while pivots := [(len(work[i][j]), i, j) for i in range(done, len(work)) for j in columns if work[i][j] != 0]:
+    while pivots := [
+        (len(work[i][j]), i, j) for i in range(done, len(work)) for j in columns if work[i][j] != 0
+    ]:
         _, at, column = min(pivots)
         work[done], work[at] = work[at], work[done]
         columns.remove(column)
@@ -41,7 +46,11 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
 
 
 def _reduced(
-    row: Sequence[Polynomial], pivot: Sequence[Polynomial], column: int, columns: list[int], previous: Polynomial | None
+    row: Sequence[Polynomial],
+    pivot: Sequence[Polynomial],
+    column: int,
+    columns: list[int],
+    previous: Polynomial | None,
 ) -> list[Polynomial]:
     """Bareiss' step: (pivot * entry - factor * above) / previous pivot."""
     found = list(row)

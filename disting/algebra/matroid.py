@@ -1,11 +1,14 @@
-"""The matroid of the rows of a generic Jacobian: condition 5's "largest sets of independent rows", not listed.
+"""The matroid of the rows of a generic Jacobian: condition 5's "largest sets of independent rows",
+not listed.
 
-Canonical form: drop loops, split into connected components, take of each the primal or the dual of smaller rank k, and list
-the flats that its circuits of at most k elements span. They determine the matroid: a set of k rows is a basis exactly if it
-has no more than rank(F) rows in any such flat F. Equal matroids have equal forms, so the form is a key.
+Canonical form: drop loops, split into connected components, take of each the primal or the dual of
+smaller rank k, and list the flats that its circuits of at most k elements span. They determine the
+matroid: a set of k rows is a basis exactly if it has no more than rank(F) rows in any such flat F.
+Equal matroids have equal forms, so the form is a key.
 
-Certainty: independence is seen at one point and so proven. Each dependence used is a statement "these rows have at most this
-rank"; all of them are looked at again at the independent points with large primes (see `sampling`).
+Certainty: independence is seen at one point and so proven. Each dependence used is a statement
+"these rows have at most this rank"; all of them are looked at again at the independent points with
+large primes (see `sampling`).
 """
 
 from collections.abc import Callable, Iterator
@@ -26,7 +29,9 @@ class SearchTooLargeError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """A connected component: its rows, its rank, whether `flats` are the dual's, and these dependent flats (rows, rank)."""
+    """A connected component: its rows, its rank, whether `flats` are the dual's, and these
+    dependent flats (rows, rank).
+    """
 
     rows: Rows
     rank: int
@@ -36,14 +41,18 @@ class Component:
 
 @dataclass(frozen=True, slots=True)
 class Matroid:
-    """Matroid on rows 0..size-1; single independent rows (coloops) are components of rank 1, loops are in none."""
+    """Matroid on rows 0..size-1; single independent rows (coloops) are components of rank 1,
+    loops are in none.
+    """
 
     size: int
     rank: int
     components: tuple[Component, ...]
 
     def dependences(self) -> Iterator[tuple[Rows, int]]:
-        """Yield (rows, rank): "these rows have at most this rank"; with independence they fix the matroid."""
+        """Yield (rows, rank): "these rows have at most this rank"; with independence they fix
+        the matroid.
+        """
         ground = frozenset(range(self.size))
         inside = {i for c in self.components for i in c.rows}
         yield tuple(sorted(ground - inside)), 0
@@ -75,20 +84,28 @@ def matroid(jacobian: nmod_mat, limit: int) -> Matroid:
     """
     reduced, rank = jacobian.transpose().rref()
     size = jacobian.nrows()
-    table = np.array([[int(e) for e in row] for row in reduced.tolist()[:rank]], dtype=np.uint64).reshape(rank, size)
+    table = np.array(
+        [[int(e) for e in row] for row in reduced.tolist()[:rank]], dtype=np.uint64
+    ).reshape(rank, size)
     pivots = [int(np.flatnonzero(row)[0]) for row in table]
     parts = _connected(table)
     modulus = int(jacobian.modulus())
-    return Matroid(size, rank, tuple(_component(table, pivots, rows, modulus, limit) for rows in parts))
+    return Matroid(
+        size, rank, tuple(_component(table, pivots, rows, modulus, limit) for rows in parts)
+    )
 
 
 def separating_rows(left: Matroid, right: Matroid) -> Rows:
-    """The smallest of the recorded row sets whose rank differs between two different matroids of equal size and rank.
+    """The smallest of the recorded row sets whose rank differs between two different matroids of
+    equal size and rank.
 
-    One exists: were all recorded ranks of both sides equal in both, both would have the same dependent sets.
+    One exists: were all recorded ranks of both sides equal in both, both would have the same
+    dependent sets.
     """
     recorded = {rows for m in (left, right) for rows, _ in m.dependences()}
-    return min((r for r in recorded if rank_in(left, r) != rank_in(right, r)), key=lambda r: (len(r), r))
+    return min(
+        (r for r in recorded if rank_in(left, r) != rank_in(right, r)), key=lambda r: (len(r), r)
+    )
 
 
 def rank_in(m: Matroid, rows: Rows) -> int:
@@ -112,13 +129,17 @@ def _greedy(c: Component, rows: frozenset[int], bound: int) -> int:
     basis: frozenset[int] = frozenset()
     for row in sorted(rows):
         grown = basis | {row}
-        if len(basis) < bound and all(len(grown.intersection(flat)) <= rank for flat, rank in c.flats):
+        if len(basis) < bound and all(
+            len(grown.intersection(flat)) <= rank for flat, rank in c.flats
+        ):
             basis = grown
     return len(basis)
 
 
 def _connected(table: np.ndarray) -> list[Rows]:
-    """Connected components: rows joined where a basis row and another share a non-zero entry (fundamental circuits)."""
+    """Connected components: rows joined where a basis row and another share a non-zero entry
+    (fundamental circuits).
+    """
     parts: list[set[int]] = []
     for basis_row in table:
         touched = {int(i) for i in np.flatnonzero(basis_row)}
@@ -127,7 +148,9 @@ def _connected(table: np.ndarray) -> list[Rows]:
     return sorted(tuple(sorted(p)) for p in parts)
 
 
-def _component(table: np.ndarray, pivots: list[int], rows: Rows, modulus: int, limit: int) -> Component:
+def _component(
+    table: np.ndarray, pivots: list[int], rows: Rows, modulus: int, limit: int
+) -> Component:
     inside = [i for i, pivot in enumerate(pivots) if pivot in rows]
     rank, columns = len(inside), list(rows)
     part = table[np.ix_(inside, columns)]
@@ -137,7 +160,10 @@ def _component(table: np.ndarray, pivots: list[int], rows: Rows, modulus: int, l
     if search_size(part.shape[0], len(rows)) > limit:
         raise SearchTooLargeError(f"{len(rows)} rows of rank {rank}")
     masks = dependent_flats(part, modulus) if len(part) else []
-    flats = sorted((tuple(row for b, row in enumerate(rows) if mask >> b & 1), flat_rank) for mask, flat_rank in masks)
+    flats = sorted(
+        (tuple(row for b, row in enumerate(rows) if mask >> b & 1), flat_rank)
+        for mask, flat_rank in masks
+    )
     return Component(rows, rank, dual, tuple(flats))
 
 

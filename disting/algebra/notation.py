@@ -1,9 +1,11 @@
-"""Rational functions for people, by SymPy: as its expressions, as text that Python reads, and in LaTeX.
+"""Rational functions for people, by SymPy: as its expressions, as text that Python reads, and in
+LaTeX.
 
-Importing SymPy takes about as long as importing all of this package, so it is imported where an expression is written and
-nowhere else. What is printed is built unevaluated: SymPy then keeps the order of the terms, which is the chain's (k12/m1 +
-k12/m2, where it would sort k12/m2 + k12/m1), and numbers before sums. What users compute with is evaluated, in symbols that are
-positive, as parameters are, but for the frequency variable s.
+Importing SymPy takes about as long as importing all of this package, so it is imported where an
+expression is written and nowhere else. What is printed is built unevaluated: SymPy then keeps the
+order of the terms, which is the chain's (k12/m1 + k12/m2, where it would sort k12/m2 + k12/m1),
+and numbers before sums. What users compute with is evaluated, in symbols that are positive, as
+parameters are, but for the frequency variable s.
 """
 
 from collections.abc import Sequence
@@ -32,12 +34,19 @@ def expression(of: RationalFunction | Sum, *, evaluate: bool = True) -> Expr:
     if not isinstance(of, RationalFunction):
         return _added(_products(of), evaluate)
     (above, top), (below, bottom) = factors(of.num), factors(of.den)
-    powers = [(_added(_products(terms(p)), evaluate), sign * e) for sign, found in ((1, top), (-1, bottom)) for p, e in found]
+    powers = [
+        (_added(_products(terms(p)), evaluate), sign * e)
+        for sign, found in ((1, top), (-1, bottom))
+        for p, e in found
+    ]
     return _product((Rational(above, below), powers), evaluate)
 
 
-def quotient(above: Sequence[Polynomial], below: Sequence[Polynomial], *, evaluate: bool = True) -> Expr:
-    """A rational function of s, from the coefficients of the powers 0, 1, .. of numerator and denominator.
+def quotient(
+    above: Sequence[Polynomial], below: Sequence[Polynomial], *, evaluate: bool = True
+) -> Expr:
+    """A rational function of s, from the coefficients of the powers 0, 1, .. of numerator and
+    denominator.
 
     >>> from disting.algebra.symbols import symbols
     >>> k, m = symbols(["k", "m"]).values()
@@ -92,7 +101,9 @@ def latex_symbol(name: str) -> str:
 
 
 def _in_s(coefficients: Sequence[Polynomial], evaluate: bool) -> Product:
-    """A polynomial in s as one product: a sum with brackets around its longer coefficients, or its only term."""
+    """A polynomial in s as one product: a sum with brackets around its longer coefficients, or
+    its only term.
+    """
     found: list[Product] = []
     for i, coefficient in enumerate(coefficients):
         products = _products(terms(coefficient))

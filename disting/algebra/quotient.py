@@ -1,8 +1,10 @@
-"""Quotients of polynomials modulo a prime, in lowest terms with a monic denominator, with their derivatives.
+"""Quotients of polynomials modulo a prime, in lowest terms with a monic denominator, with their
+derivatives.
 
-The derivatives of num/den are carried through the cancellation: with g = gcd(num, den), n = num/g, d = den/g (monic) and
-W = (num' den - num den')/g^2 = n' d - n d', the derivative of the monic d is the one polynomial of lower degree with
-d' = -W/n modulo d, and then n' = (W + n d')/d. So no knowledge of the cancelled factor is needed, only that it is generic.
+The derivatives of num/den are carried through the cancellation: with g = gcd(num, den), n = num/g,
+d = den/g (monic) and W = (num' den - num den')/g^2 = n' d - n d', the derivative of the monic d is
+the one polynomial of lower degree with d' = -W/n modulo d, and then n' = (W + n d')/d. So no
+knowledge of the cancelled factor is needed, only that it is generic.
 """
 
 from collections.abc import Sequence
@@ -33,10 +35,14 @@ def constant(value: int, modulus: int) -> nmod_poly:
 
 
 def lowest_terms(
-    num: nmod_poly, den: nmod_poly, num_derivatives: Sequence[nmod_poly], den_derivatives: Sequence[nmod_poly]
+    num: nmod_poly,
+    den: nmod_poly,
+    num_derivatives: Sequence[nmod_poly],
+    den_derivatives: Sequence[nmod_poly],
 ) -> Quotient:
     """Cancel common factors and make the denominator monic, derivatives included."""
-    power = min(_valuation(num), _valuation(den))  # the common power of s is by far the most frequent factor
+    # the common power of s is by far the most frequent factor
+    power = min(_valuation(num), _valuation(den))
     num, den = num.right_shift(power), den.right_shift(power)
     numerators = [d.right_shift(power) for d in num_derivatives]
     denominators = [d.right_shift(power) for d in den_derivatives]
@@ -46,17 +52,23 @@ def lowest_terms(
     return _monic(num, den, numerators, denominators)
 
 
-def coefficient_rows(polynomial: nmod_poly, derivatives: Sequence[nmod_poly], count: int) -> tuple[list[int], list[list[int]]]:
-    """The first `count` coefficients, and for each the row of its derivatives (count x number of derivatives)."""
+def coefficient_rows(
+    polynomial: nmod_poly, derivatives: Sequence[nmod_poly], count: int
+) -> tuple[list[int], list[list[int]]]:
+    """The first `count` coefficients, and for each the row of its derivatives (count x number
+    of derivatives).
+    """
     columns = [_padded(d, count) for d in derivatives]
-    return _padded(polynomial, count), [list(row) for row in zip(*columns, strict=True)] if columns else [[]] * count
+    return _padded(polynomial, count), (
+        [list(row) for row in zip(*columns, strict=True)] if columns else [[]] * count
+    )
 
 
 def series_rows(quotient: Quotient, count: int) -> tuple[list[int], list[list[int]]]:
     """Coefficients G_0..G_count of the expansion in 1/s (30), and the rows of their derivatives.
 
-    num/den = G_0 + G_1/s + ..., so the polynomial part of s^count num/den has them as its coefficients; likewise for the
-    derivative (num' den - num den')/den^2.
+    num/den = G_0 + G_1/s + ..., so the polynomial part of s^count num/den has them as its
+    coefficients; likewise for the derivative (num' den - num den')/den^2.
     """
     values = quotient.num.left_shift(count) // quotient.den
     square = quotient.den * quotient.den
@@ -74,7 +86,8 @@ def matrix(rows: Sequence[Sequence[int]], columns: int, modulus: int) -> nmod_ma
 
 
 def rational(residue: int, modulus: int) -> str:
-    """The fraction of small numerator and denominator that the residue stands for, as text (Wang's reconstruction).
+    """The fraction of small numerator and denominator that the residue stands for, as text (Wang's
+    reconstruction).
 
     >>> rational(pow(3, -1, 2**61 - 1) * 2, 2**61 - 1)
     '2/3'
@@ -86,7 +99,9 @@ def rational(residue: int, modulus: int) -> str:
     return str(Fraction(after[0], after[1]))
 
 
-def _monic(num: nmod_poly, den: nmod_poly, numerators: list[nmod_poly], denominators: list[nmod_poly]) -> Quotient:
+def _monic(
+    num: nmod_poly, den: nmod_poly, numerators: list[nmod_poly], denominators: list[nmod_poly]
+) -> Quotient:
     top = den.degree()
     inverse = 1 / den[top]
     num, den = num * inverse, den * inverse
@@ -100,7 +115,11 @@ def _monic(num: nmod_poly, den: nmod_poly, numerators: list[nmod_poly], denomina
 
 
 def _cancelled(
-    num: nmod_poly, den: nmod_poly, numerators: list[nmod_poly], denominators: list[nmod_poly], common: nmod_poly
+    num: nmod_poly,
+    den: nmod_poly,
+    numerators: list[nmod_poly],
+    denominators: list[nmod_poly],
+    common: nmod_poly,
 ) -> Quotient:
     scale = common * (den[den.degree()] / common[common.degree()])
     n, d = num // scale, den // scale

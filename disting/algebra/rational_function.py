@@ -1,7 +1,8 @@
 """Rational functions of named symbols over the integers: a field, in lowest terms.
 
-Lowest terms are exact: numerator and denominator have no common factor in Z[symbols], numbers included, and the first
-coefficient of the denominator (in the ring's lexicographic order) is positive. So equal functions are equal pairs.
+Lowest terms are exact: numerator and denominator have no common factor in Z[symbols], numbers
+included, and the first coefficient of the denominator (in the ring's lexicographic order) is
+positive. So equal functions are equal pairs.
 """
 
 from collections.abc import Mapping, Sequence

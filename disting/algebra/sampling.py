@@ -1,13 +1,16 @@
 """Random points and primes, and how surely a generic fact is seen at them.
 
-A rank, a dependence or an identity of polynomials is looked at modulo a random prime near 2^61 and at a random point. What is
-non-zero there is non-zero generically: a proof. What is zero there is generically zero but for a probability that is bounded
-here, and independent points multiply their bounds.
+A rank, a dependence or an identity of polynomials is looked at modulo a random prime near 2^61 and
+at a random point. What is non-zero there is non-zero generically: a proof. What is zero there is
+generically zero but for a probability that is bounded here, and independent points multiply their
+bounds.
 
-Everything is drawn from SHAKE-256 of a label, so that a result depends on the label alone: not on the order of the work, on
-the process or on the version of a random generator. The label holds a digest of the models that are looked at (`about`): the
-same question has the same points in whatever order it is asked, and nobody can write a model for which its own points or primes
-are special, since they change with every sign of it. Probabilities are those over the choice of a label's numbers.
+Everything is drawn from SHAKE-256 of a label, so that a result depends on the label alone: not on
+the order of the work, on the process or on the version of a random generator. The label holds a
+digest of the models that are looked at (`about`): the same question has the same points in
+whatever order it is asked, and nobody can write a model for which its own points or primes are
+special, since they change with every sign of it. Probabilities are those over the choice of a
+label's numbers.
 """
 
 import hashlib
@@ -19,11 +22,13 @@ from flint import fmpz
 
 from disting.certainty import LEAST_SAFETY
 
-SEARCH_BITS = 31  # products of two residues fit into 64 bits: the vectorised searches use such primes
+# products of two residues fit into 64 bits: the vectorised searches use such primes
+SEARCH_BITS = 31
 PROOF_BITS = 61
 SHARED = 20  # bits of a bound that many statements share, about a million of them
 REDRAWN = 2.0**-19  # bits: -log2(1 - 2^-20) is smaller
-_PRIMES = 3 * 2.0**60 / (5 * 61 * 0.6932)  # of 61 bits, at least: pi(2x) - pi(x) > 3x/(5 ln x), Rosser and Schoenfeld 1962
+# of 61 bits, at least: pi(2x) - pi(x) > 3x/(5 ln x), Rosser and Schoenfeld 1962
+_PRIMES = 3 * 2.0**60 / (5 * 61 * 0.6932)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +40,8 @@ class Size:
 
 
 def about(label: str, *content: object) -> str:
-    """The label of a question about models: with a digest of their content, which `repr` must tell completely.
+    """The label of a question about models: with a digest of their content, which `repr` must tell
+    completely.
 
     >>> about("doc", "a model") == about("doc", "a model") != about("doc", "another one")
     True
@@ -66,7 +72,8 @@ def residues(label: str, count: int, modulus: int) -> list[int]:
     >>> residues("doc", 2, 7) == residues("doc", 2, 7)
     True
     """
-    width = max(16, modulus.bit_length() // 8 + 9)  # bytes a number: 67 bits more than needed make the remainder uniform
+    # bytes a number: 67 bits more than needed make the remainder uniform
+    width = max(16, modulus.bit_length() // 8 + 9)
     stream = hashlib.shake_256(label.encode()).digest(width * count)
     chunks = (stream[i : i + width] for i in range(0, width * count, width))
     return [1 + int.from_bytes(chunk) % (modulus - 1) for chunk in chunks]
@@ -80,7 +87,9 @@ def prime(label: str, bits: int = PROOF_BITS) -> int:
     61
     """
     for attempt in range(10_000):
-        candidate = residues(f"prime:{label}:{attempt}", 1, 1 << (bits - 1))[0] | (1 << (bits - 1)) | 1
+        candidate = (
+            residues(f"prime:{label}:{attempt}", 1, 1 << (bits - 1))[0] | (1 << (bits - 1)) | 1
+        )
         if fmpz(candidate).is_prime():
             return candidate
     raise AssertionError("a prime of this size has density above 1/50")
@@ -89,9 +98,10 @@ def prime(label: str, bits: int = PROOF_BITS) -> int:
 def safety(size: Size, points: int) -> int:
     """Largest b with P(a non-zero polynomial of this size vanishes at all points) <= 2^-b.
 
-    Per point: degree/2^60 (Schwartz 1980, Zippel 1979) plus the share of primes of 61 bits that divide all coefficients, at
-    most bits/60 of them. A point may have been drawn again where another polynomial vanished, with a probability of at most
-    2^-20: the bound is then divided by 1 - 2^-20, which costs REDRAWN bits at most.
+    Per point: degree/2^60 (Schwartz 1980, Zippel 1979) plus the share of primes of 61 bits that
+    divide all coefficients, at most bits/60 of them. A point may have been drawn again where
+    another polynomial vanished, with a probability of at most 2^-20: the bound is then divided by
+    1 - 2^-20, which costs REDRAWN bits at most.
 
     >>> safety(Size(degree=200, bits=500), points=3)
     150
@@ -101,7 +111,8 @@ def safety(size: Size, points: int) -> int:
 
 
 def enough(size: Size, asked: int) -> int:
-    """How many points to take: as many as asked, or more where an error below 2^-LEAST_SAFETY needs them.
+    """How many points to take: as many as asked, or more where an error below 2^-LEAST_SAFETY
+    needs them.
 
     SHARED bits are left for statements that share the bound.
 

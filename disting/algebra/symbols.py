@@ -1,4 +1,6 @@
-"""Polynomials with named symbols, expanded: for identities that are to be proven and formulas that are to be read."""
+"""Polynomials with named symbols, expanded: for identities that are to be proven and formulas
+that are to be read.
+"""
 
 from collections.abc import Mapping, Sequence
 
@@ -15,8 +17,12 @@ def symbols(names: Sequence[str]) -> dict[str, fmpz_mpoly]:
     return dict(zip(names, context.gens(), strict=True))
 
 
-def renamed(polynomial: fmpz_mpoly, ring: Mapping[str, fmpz_mpoly], renaming: Mapping[str, str]) -> fmpz_mpoly:
-    """The polynomial with each symbol replaced by the one that `renaming` names (itself where not named), in `ring`."""
+def renamed(
+    polynomial: fmpz_mpoly, ring: Mapping[str, fmpz_mpoly], renaming: Mapping[str, str]
+) -> fmpz_mpoly:
+    """The polynomial with each symbol replaced by the one that `renaming` names (itself where
+    not named), in `ring`.
+    """
     names = [str(g) for g in polynomial.context().gens()]
     images = [ring[renaming.get(name, name)] for name in names]
     return polynomial.compose(*images, ctx=images[0].context())
@@ -48,10 +54,17 @@ def terms(polynomial: fmpz_mpoly) -> list[Term]:
     """
     names = polynomial.context().names()
     found = polynomial.terms()
-    return [(int(c), {name: int(e) for name, e in zip(names, powers, strict=True) if e}) for powers, c in found]
+    return [
+        (int(c), {name: int(e) for name, e in zip(names, powers, strict=True) if e})
+        for powers, c in found
+    ]
 
 
 def factors(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
-    """The integer content with sign, and the irreducible factors with exponents, single symbols first."""
+    """The integer content with sign, and the irreducible factors with exponents, single symbols
+    first.
+    """
     content, found = polynomial.factor()
-    return int(content), sorted(((p, int(e)) for p, e in found), key=lambda pe: (len(pe[0]), str(pe[0])))
+    return int(content), sorted(
+        ((p, int(e)) for p, e in found), key=lambda pe: (len(pe[0]), str(pe[0]))
+    )

@@ -1,12 +1,14 @@
-"""Symmetric tridiagonal matrices over any ring: determinants and adjugate from two three-term recurrences.
+"""Symmetric tridiagonal matrices over any ring: determinants and adjugate from two three-term
+recurrences.
 
-A = tridiag(-off, diagonal, -off). With the leading minors theta_i = diagonal_i theta_(i-1) - off_(i-1)^2 theta_(i-2) and the
-trailing minors phi_i likewise from the other end, det A = theta_n and, for a <= b,
+A = tridiag(-off, diagonal, -off). With the leading minors theta_i = diagonal_i theta_(i-1) -
+off_(i-1)^2 theta_(i-2) and the trailing minors phi_i likewise from the other end, det A = theta_n
+and, for a <= b,
 
     adj A[a, b] = theta_(a-1) * off_a ... off_(b-1) * phi_(b+1)
 
-so that no entry of the inverse ever needs elimination. The ring is whatever the entries are: polynomials in s modulo a prime,
-over the integers, or with symbols.
+so that no entry of the inverse ever needs elimination. The ring is whatever the entries are:
+polynomials in s modulo a prime, over the integers, or with symbols.
 """
 
 from dataclasses import dataclass
@@ -18,7 +20,9 @@ Ring = Any  # an element of a commutative ring: +, -, * and, for exact quotients
 
 @dataclass(frozen=True)
 class Tridiagonal:
-    """Diagonal (n entries), negated off-diagonal (n-1 entries) and the ring's one; indices count from 0."""
+    """Diagonal (n entries), negated off-diagonal (n-1 entries) and the ring's one; indices
+    count from 0.
+    """
 
     diagonal: tuple[Ring, ...]
     off: tuple[Ring, ...]

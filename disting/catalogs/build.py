@@ -5,7 +5,15 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, SCHEMA, Record, lines, name_of
+from disting.catalogs.files import (
+    INCLUSIONS,
+    LEFT_POSITIVE,
+    RIGHT_POSITIVE,
+    SCHEMA,
+    Record,
+    lines,
+    name_of,
+)
 from disting.catalogs.provenance import write_provenance
 from disting.conditions.subject import Subject
 from disting.domain import Domain
@@ -19,7 +27,8 @@ from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
 from disting.written import write_whole
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
-PARTS |= {View.REAL.value: View.REAL}  # what holds over positive parameters follows from the shares of both sides
+# what holds over positive parameters follows from the shares of both sides
+PARTS |= {View.REAL.value: View.REAL}
 
 
 def build(
@@ -30,11 +39,14 @@ def build(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Catalog:
-    """The catalogue of a family, computed (profiles may come from the engine's store or the executor's workers)."""
+    """The catalogue of a family, computed (profiles may come from the engine's store or the
+    executor's workers).
+    """
     family = Family(n_masses, damped)
     subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
     found = {
-        part: engine.decisions(subjects, Query(view), executor=executor, progress=progress) for part, view in PARTS.items()
+        part: engine.decisions(subjects, Query(view), executor=executor, progress=progress)
+        for part, view in PARTS.items()
     }
     header: Record = {
         "schema": SCHEMA,
@@ -48,7 +60,9 @@ def build(
         "settings": engine.settings.to_dict(),
     }
     known = engine.identifiabilities(list(family), executor=executor, progress=progress)
-    models = (_model(number, s, i) for number, (s, i) in enumerate(zip(subjects, known, strict=True), 1))
+    models = (
+        _model(number, s, i) for number, (s, i) in enumerate(zip(subjects, known, strict=True), 1)
+    )
     records = [header, *models, *_pairs(found)]
     return Catalog.from_records(records)
 
@@ -113,7 +127,8 @@ def _step(decided: Decisions, i: int, j: int) -> Record:
     verdict = decided.verdict(i, j)
     assert verdict.evidence is not None  # only decided pairs get here
     assert verdict.certainty is not None
-    told = verdict.representation not in (FIBRE, PARAMETERS)  # the condition's number tells the relation
+    # the condition's number tells the relation
+    told = verdict.representation not in (FIBRE, PARAMETERS)
     relation = {} if told else {"relation": verdict.relation.value}
     return relation | {
         "decided_by": verdict.decided_by,

@@ -1,9 +1,11 @@
-"""Verdicts on all pairs of a list of chains of any sizes, and the shipped ones on the candidates of a fit (Fig. 1).
+"""Verdicts on all pairs of a list of chains of any sizes, and the shipped ones on the candidates
+of a fit (Fig. 1).
 
-`candidates.jsonl`: a header, a line a model, then a line for each model but the last with one sign for each later model:
-relation (. distinguishable, = indistinguishable, ? undecided), deciding condition (e the exact decision), representation and
-certainty. The evidence is not kept: `compare` gives it. A relation does not depend on the sensor quantity (see
-`catalogs.variants`), so the stored ones serve all three.
+`candidates.jsonl`: a header, a line a model, then a line for each model but the last with one sign
+for each later model: relation (. distinguishable, = indistinguishable, ? undecided), deciding
+condition (e the exact decision), representation and certainty. The evidence is not kept: `compare`
+gives it. A relation does not depend on the sensor quantity (see `catalogs.variants`), so the
+stored ones serve all three.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -29,7 +31,11 @@ from disting.written import write_whole
 SCHEMA = 1
 FILE = "candidates.jsonl"
 COMMAND = "disting catalog candidates"
-RELATIONS = {".": Relation.DISTINGUISHABLE, "=": Relation.INDISTINGUISHABLE, "?": Relation.UNDECIDED}
+RELATIONS = {
+    ".": Relation.DISTINGUISHABLE,
+    "=": Relation.INDISTINGUISHABLE,
+    "?": Relation.UNDECIDED,
+}
 SIGNS = {relation: sign for sign, relation in RELATIONS.items()}
 
 
@@ -37,7 +43,7 @@ def _letters(names: Iterable[str]) -> dict[str, str]:
     """A letter a rule: its first one, or, where another rule has that, one that none has."""
     found = dict[str, str]()
     for name in names:
-        found[name] = next(x for x in (name[0] + ascii_letters) if x not in found.values())
+        found[name] = next(x for x in name[0] + ascii_letters if x not in found.values())
     return found
 
 
@@ -53,13 +59,17 @@ class Matrix:
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
         """The models in order."""
-        return tuple(_chain(r, self.records[0]) for r in self.records[1 : 1 + int(self.records[0]["models"])])
+        return tuple(
+            _chain(r, self.records[0]) for r in self.records[1 : 1 + int(self.records[0]["models"])]
+        )
 
     def __contains__(self, chain: object) -> bool:
         return isinstance(chain, Chain) and self._plain(chain) in self._places
 
     def relation(self, left: Chain, right: Chain) -> Relation:
-        """Relation of two different models of one sensor quantity; raises InputError for models that are not there."""
+        """Relation of two different models of one sensor quantity; raises InputError for models
+        that are not there.
+        """
         return RELATIONS[self._sign("relation", left, right)]
 
     def decided_by(self, left: Chain, right: Chain) -> str:
@@ -68,7 +78,9 @@ class Matrix:
         return {letter: name for name, letter in LETTERS.items()}.get(sign, "")
 
     def certainty(self, left: Chain, right: Chain) -> Certainty | None:
-        """Certainty of the verdict, None if undecided; the error bound of BOUNDED ones is in the header."""
+        """Certainty of the verdict, None if undecided; the error bound of BOUNDED ones is in
+        the header.
+        """
         sign = self._sign("certainty", left, right)
         return next((c for c in Certainty if c.value[0] == sign), None)
 
@@ -85,7 +97,10 @@ class Matrix:
         here, there = (self._places.get(self._plain(c), -1) for c in (left, right))
         low, high = sorted((here, there))
         if low < 0 or low == high or left.sensor is not right.sensor:
-            raise InputError(f"the matrix holds pairs of two of its models with one sensor, not {left} and {right}")
+            raise InputError(
+                f"the matrix holds pairs of two of its models with one sensor, not {left} and"
+                f" {right}"
+            )
         return str(self._rows[low][column])[high - low - 1]
 
     @property
@@ -108,21 +123,32 @@ def matrix(
     progress: Progress = silent,
     name: str = "candidates",
 ) -> Matrix:
-    """The verdicts on all pairs of chains of one sensor quantity, of any sizes; inclusions are not asked for."""
+    """The verdicts on all pairs of chains of one sensor quantity, of any sizes; inclusions are
+    not asked for.
+    """
     if len({c.sensor for c in chains}) != 1:
         raise InputError("a matrix of verdicts holds models of one sensor quantity")
     engine = engine or Engine()
     subjects = [engine.subject(name_of(c, short=False), c) for c in chains]
-    decided = engine.decisions(subjects, Query(View.EXACT, inclusion=False), executor=executor, progress=progress)
+    decided = engine.decisions(
+        subjects, Query(View.EXACT, inclusion=False), executor=executor, progress=progress
+    )
     models: list[Record] = [_model(number, s.chain, s.rank) for number, s in enumerate(subjects, 1)]
     rows, safety = _rows(decided)
-    header: Record = {"schema": SCHEMA, "catalog": name, "models": len(chains), "sensor": chains[0].sensor.value}
+    header: Record = {
+        "schema": SCHEMA,
+        "catalog": name,
+        "models": len(chains),
+        "sensor": chains[0].sensor.value,
+    }
     header |= {"command": COMMAND, "settings": engine.settings.to_dict(), "safety": safety}
     return Matrix((header, *models, *rows))
 
 
 def read(folder: Path) -> Matrix:
-    """The matrix in a folder; raises CatalogError where it is missing, damaged or of another schema."""
+    """The matrix in a folder; raises CatalogError where it is missing, damaged or of another
+    schema.
+    """
     import json
 
     path = folder / FILE
@@ -130,7 +156,9 @@ def read(folder: Path) -> Matrix:
     try:
         records = tuple(json.loads(line) for line in intact_text(path).splitlines())
         n = records[0]["models"]
-        whole = records[0]["schema"] == SCHEMA and [len(r["relation"]) for r in records[1 + n :]] == list(range(n - 1, 0, -1))
+        whole = records[0]["schema"] == SCHEMA and [
+            len(r["relation"]) for r in records[1 + n :]
+        ] == list(range(n - 1, 0, -1))
     except FileNotFoundError:
         raise CatalogError(f"there is no {path}; {remedy}") from None
     except (OSError, ValueError, LookupError, TypeError) as reason:
@@ -156,17 +184,25 @@ def write(found: Matrix, folder: Path) -> Path:
 
 def _model(number: int, chain: Chain, rank: int) -> Record:
     ports = {"model": number, "indices": list(chain.indices), "damped": chain.damped, "rank": rank}
-    return ports | {"ground_dampers": list(chain.ground_dampers), "lag": chain.lag, "dead_time": chain.dead_time}
+    return ports | {
+        "ground_dampers": list(chain.ground_dampers),
+        "lag": chain.lag,
+        "dead_time": chain.dead_time,
+    }
 
 
 def _chain(r: Record, header: Record) -> Chain:
     plain = Chain(*Indices(*r["indices"]), sensor=Sensor(header["sensor"]), damped=r["damped"])
-    return replace(plain, ground_dampers=tuple(r["ground_dampers"]), lag=r["lag"], dead_time=r["dead_time"])
+    return replace(
+        plain, ground_dampers=tuple(r["ground_dampers"]), lag=r["lag"], dead_time=r["dead_time"]
+    )
 
 
 def _rows(decided: Decisions) -> tuple[list[Record], int]:
     """A record for each model but the last, and the error bits of the weakest bounded verdict."""
-    grades = {(i, j): (where, certainty, bits) for i, j, _, where, certainty, bits in decided.grades()}
+    grades = {
+        (i, j): (where, certainty, bits) for i, j, _, where, certainty, bits in decided.grades()
+    }
     n = len(decided.subjects)
 
     def signs(of: Callable[[int, int], str], i: int) -> str:

@@ -1,4 +1,6 @@
-"""A catalogue in memory: look-ups without computation, and the same content as tables, groups, CSV and JSON."""
+"""A catalogue in memory: look-ups without computation, and the same content as tables, groups,
+CSV and JSON.
+"""
 
 import json
 from collections import Counter
@@ -9,7 +11,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from disting.catalogs.export import Row, csv_text, inclusion_text, share_text
-from disting.catalogs.files import PROVENANCE, SHIPPED_SIZES, Record, name_of, read_records, shipped_folder
+from disting.catalogs.files import (
+    PROVENANCE,
+    SHIPPED_SIZES,
+    Record,
+    name_of,
+    read_records,
+    shipped_folder,
+)
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
@@ -24,7 +33,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ModelRow:
-    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in `classes()` or 0."""
+    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in
+    `classes()` or 0.
+    """
 
     number: int
     chain: Chain
@@ -78,13 +89,17 @@ class Catalog:
         return header | {f"software {k}": v for k, v in _software().items()}
 
     def verdict(self, left: int, right: int, view: View = View.POSITIVE) -> Verdict:
-        """The stored verdict on two different models, numbered from 1; `left` and `right` as asked, evidence in order.
+        """The stored verdict on two different models, numbered from 1; `left` and `right` as
+        asked, evidence in order.
 
         Raises InputError for other numbers, CatalogError for a damaged record.
         """
         low, high = sorted((left, right))
         if low == high or not 1 <= low <= high <= len(self.family):
-            raise InputError(f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not {left}:{right}")
+            raise InputError(
+                f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not"
+                f" {left}:{right}"
+            )
         return self._verdict(self._pair(low, high), view)
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
@@ -96,55 +111,83 @@ class Catalog:
         """Relation of two models, without building the verdict."""
         low, high = sorted((left, right))
         known = self._known.get((low, high, view))
-        return relation_of(deciding(self._pair(low, high), view)[1]) if known is None else known.relation
+        return (
+            relation_of(deciding(self._pair(low, high), view)[1])
+            if known is None
+            else known.relation
+        )
 
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
         """The models with their properties."""
         group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
-        return tuple(self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)])
+        return tuple(
+            self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)]
+        )
 
     def classes(self, view: View = View.POSITIVE) -> tuple[tuple[int, ...], ...]:
-        """Groups of two or more mutually indistinguishable models, for all parameters of the view's domain.
+        """Groups of two or more mutually indistinguishable models, for all parameters of the
+        view's domain.
 
-        That is transitive over every domain (where generic parameters of A have equivalents in B, and those of B in C, those of
-        A have some in C), so the groups are the connected components; raises CatalogError where the verdicts contradict that.
-        Pairs that agree for some parameters only belong to no group for that (see `depending`).
+        That is transitive over every domain (where generic parameters of A have equivalents in B,
+        and those of B in C, those of A have some in C), so the groups are the connected
+        components; raises CatalogError where the verdicts contradict that. Pairs that agree for
+        some parameters only belong to no group for that (see `depending`).
         """
         import networkx as nx
 
         graph: nx.Graph[int] = nx.Graph()
         pairs = self.records[1 + len(self.family) :]
         relations = {(r["left"], r["right"]): relation_of(deciding(r, view)[1]) for r in pairs}
-        graph.add_edges_from(pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE)
+        graph.add_edges_from(
+            pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE
+        )
         groups = sorted(tuple(sorted(c)) for c in nx.connected_components(graph))
         for members in groups:
             apart = (Relation.DISTINGUISHABLE, Relation.SOMETIMES)
             if any(relations[a, b] in apart for a in members for b in members if a < b):
-                raise CatalogError(f"{self.name} is inconsistent: the group {members} holds a pair that can be told apart")
+                raise CatalogError(
+                    f"{self.name} is inconsistent: the group {members} holds a pair that can be"
+                    " told apart"
+                )
         return tuple(groups)
 
     def depending(self, view: View = View.POSITIVE) -> tuple[tuple[int, int], ...]:
-        """The pairs that are indistinguishable for some parameters only; over complex parameters there are none.
+        """The pairs that are indistinguishable for some parameters only; over complex parameters
+        there are none.
 
         >>> catalog(4).depending()
         ((2, 6),)
         """
         pairs = self.records[1 + len(self.family) :]
-        return tuple((r["left"], r["right"]) for r in pairs if relation_of(deciding(r, view)[1]) is Relation.SOMETIMES)
+        return tuple(
+            (r["left"], r["right"])
+            for r in pairs
+            if relation_of(deciding(r, view)[1]) is Relation.SOMETIMES
+        )
 
     def counts(self, view: View = View.POSITIVE) -> dict[str, int]:
-        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
-        found = Counter(deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :])
+        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
+        undecided ones.
+        """
+        found = Counter(
+            deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :]
+        )
         return {name: found[name] for name in ("", *RULES) if found[name] or not name}
 
     def matrix(self, view: View = View.POSITIVE) -> "pd.DataFrame":
-        """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the diagonal."""
+        """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the
+        diagonal.
+        """
         import pandas as pd
 
         numbers = range(1, len(self.family) + 1)
-        table = [["" if i == j else self.relation(i, j, view).value for j in numbers] for i in numbers]
-        return pd.DataFrame(table, index=pd.Index(numbers, name="model"), columns=pd.Index(numbers, name="model"))
+        table = [
+            ["" if i == j else self.relation(i, j, view).value for j in numbers] for i in numbers
+        ]
+        return pd.DataFrame(
+            table, index=pd.Index(numbers, name="model"), columns=pd.Index(numbers, name="model")
+        )
 
     def models(self) -> "pd.DataFrame":
         """One row a model: indices, parameters, degrees, determinable parameters, group."""
@@ -171,7 +214,13 @@ class Catalog:
     def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
         verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
-        return json.dumps({"header": self.records[0], "view": view.value, "verdicts": verdicts}, ensure_ascii=False) + "\n"
+        return (
+            json.dumps(
+                {"header": self.records[0], "view": view.value, "verdicts": verdicts},
+                ensure_ascii=False,
+            )
+            + "\n"
+        )
 
     def _row(self, record: Record, group: int) -> ModelRow:
         number, (numerator, denominator) = record["model"], record["degrees"]
@@ -195,7 +244,9 @@ class Catalog:
             return stored_verdict(record, view)
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             where = f"{self.name}, {record['left']}:{record['right']}"
-            raise CatalogError(f"{where} cannot be read ({reason!r}); rebuild it with 'disting catalog build'") from None
+            raise CatalogError(
+                f"{where} cannot be read ({reason!r}); rebuild it with 'disting catalog build'"
+            ) from None
 
     def _pair(self, low: int, high: int) -> Record:
         n = len(self.family)
@@ -204,14 +255,20 @@ class Catalog:
 
 
 def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) -> Catalog:
-    """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder); no computation.
+    """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder); no
+    computation.
 
     >>> len(catalog(3).family), catalog(3).verdict(1, 2).relation.value
     (11, 'distinguishable')
     """
     if folder is None and n_masses not in SHIPPED_SIZES:
-        raise CatalogError(f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting catalog build'")
-    return Catalog.from_records(read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl"))
+        raise CatalogError(
+            f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting"
+            " catalog build'"
+        )
+    return Catalog.from_records(
+        read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl")
+    )
 
 
 _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
@@ -220,7 +277,16 @@ _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 def _csv_row(left: int, right: int, v: Verdict) -> Row:
     image, closure = (inclusion_text(inclusion) for inclusion in (v.image, v.closure))
     graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)
-    return left, right, *graded, v.domain, image, closure, share_text(v.left_positive), share_text(v.right_positive)
+    return (
+        left,
+        right,
+        *graded,
+        v.domain,
+        image,
+        closure,
+        share_text(v.left_positive),
+        share_text(v.right_positive),
+    )
 
 
 def _software() -> dict[str, str]:

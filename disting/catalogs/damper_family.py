@@ -1,4 +1,6 @@
-"""A whole family with every set of ground dampers: 88, 464, 2336 models of 3, 4, 5 masses, all against all by classes."""
+"""A whole family with every set of ground dampers: 88, 464, 2336 models of 3, 4, 5 masses, all
+against all by classes.
+"""
 
 from collections.abc import Iterator
 from concurrent.futures import Executor
@@ -16,7 +18,8 @@ from disting.errors import InputError
 from disting.model.family import Family
 from disting.verdict import Relation
 
-PATIENT_UP_TO = 4  # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
+# masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
+PATIENT_UP_TO = 4
 Name = tuple[int, Masses]
 """A model: its number in the family and the masses with a damper to the ground."""
 
@@ -33,7 +36,9 @@ class DamperFamily:
         return len(self.found)
 
     def look_up(self, left: Name, right: Name) -> tuple[Relation, str]:
-        """Relation and deciding rule ("" if undecided) of two models, in microseconds; raises InputError."""
+        """Relation and deciding rule ("" if undecided) of two models, in microseconds; raises
+        InputError.
+        """
         return self.found.look_up(self.place(left), self.place(right))
 
     def place(self, name: Name) -> int:
@@ -41,7 +46,8 @@ class DamperFamily:
         number, masses = name
         if not 1 <= number <= len(self.family) or masses not in self._order:
             raise InputError(
-                f"the family has models 1 to {len(self.family)} with sets of {self.family.n_masses} masses, not {name}"
+                f"the family has models 1 to {len(self.family)} with sets of {self.family.n_masses}"
+                f" masses, not {name}"
             )
         return (number - 1) * len(self.sets) + self._order[masses]
 
@@ -54,7 +60,8 @@ class DamperFamily:
         return tuple(tuple(map(self.name, members)) for members in self.found.classes())
 
     def csv_lines(self) -> Iterator[str]:
-        """Yield left, right, relation, decided_by, domain of all pairs, models written 3:4+b1+b3, a line at a time.
+        """Yield left, right, relation, decided_by, domain of all pairs, models written 3:4+b1+b3,
+        a line at a time.
 
         The domain is complex: over positive parameters, families are not asked.
         """
@@ -83,10 +90,11 @@ def damper_family(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> DamperFamily:
-    """The classes of a family with sets of ground dampers; what is finished is in the engine's store, so that a run resumes.
+    """The classes of a family with sets of ground dampers; what is finished is in the engine's
+    store, so that a run resumes.
 
-    `patient`: ask the shares and the ideals of fibres for more than PATIENT_UP_TO masses too; what was settled with them once
-    is shipped and always known.
+    `patient`: ask the shares and the ideals of fibres for more than PATIENT_UP_TO masses too; what
+    was settled with them once is shipped and always known.
 
     >>> found = damper_family(2, damped=True)
     >>> len(found), found.look_up((2, (1,)), (2, (2,)))[0].value

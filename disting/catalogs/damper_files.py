@@ -1,9 +1,11 @@
-"""The classes of whole families with all sets of ground dampers as files, shipped for 3, 4 and 5 masses.
+"""The classes of whole families with all sets of ground dampers as files, shipped for 3, 4 and 5
+masses.
 
-`dampers-<masses>-<undamped|damped>.jsonl`: a header with the pairs of classes that are undecided, then a line a model of the
-family with a list for each of its sets of dampers, in the order of `DamperSets.ALL`: `columns` (buckets of the tests that the
-header names, 10 for the exact decision; null where not known), `group`, `renamed`, `free` and `rank`, as in `engine.classes`.
-The evidence is not kept: `compare` gives it.
+`dampers-<masses>-<undamped|damped>.jsonl`: a header with the pairs of classes that are undecided,
+then a line a model of the family with a list for each of its sets of dampers, in the order of
+`DamperSets.ALL`: `columns` (buckets of the tests that the header names, 10 for the exact decision;
+null where not known), `group`, `renamed`, `free` and `rank`, as in `engine.classes`. The evidence
+is not kept: `compare` gives it.
 """
 
 import json
@@ -40,7 +42,8 @@ def name_of(n_masses: int, damped: bool) -> str:
 
 @cache
 def damper_catalog(n_masses: int, *, damped: bool = False) -> DamperFamily:
-    """The shipped classes of a family with all sets of ground dampers; raises CatalogError where there are none.
+    """The shipped classes of a family with all sets of ground dampers; raises CatalogError where
+    there are none.
 
     >>> damper_catalog(5, damped=True).look_up((1, (1, 2)), (1, (3,)))[0].value
     'distinguishable'
@@ -49,9 +52,16 @@ def damper_catalog(n_masses: int, *, damped: bool = False) -> DamperFamily:
 
 
 def text_of(found: DamperFamily, settings: Settings, *, patient: bool = False) -> str:
-    """The file's text, naming the command that found it; the bytes do not depend on the machine or the order of the work."""
+    """The file's text, naming the command that found it; the bytes do not depend on the machine
+    or the order of the work.
+    """
     family, classes, size = found.family, found.found, len(found.sets)
-    header: Record = {"schema": SCHEMA, "catalog": name_of(family.n_masses, family.damped), "models": len(family), "sets": size}
+    header: Record = {
+        "schema": SCHEMA,
+        "catalog": name_of(family.n_masses, family.damped),
+        "models": len(family),
+        "sets": size,
+    }
     header |= {
         "command": f"{COMMAND} {family.n_masses}{' --patient' * patient}",
         "settings": settings.to_dict(),
@@ -68,7 +78,9 @@ def text_of(found: DamperFamily, settings: Settings, *, patient: bool = False) -
 
 
 def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
-    """The classes in a folder; raises CatalogError where the file is missing, damaged or of another schema."""
+    """The classes in a folder; raises CatalogError where the file is missing, damaged or of
+    another schema.
+    """
     path = folder / f"{name_of(n_masses, damped)}.jsonl"
     remedy = f"make it with '{COMMAND} {n_masses}'"
     try:
@@ -84,7 +96,11 @@ def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
 
 def was_patient(folder: Path, n_masses: int, damped: bool) -> bool:
     """Whether a file was made with --patient."""
-    header = (folder / f"{name_of(n_masses, damped)}.jsonl").read_text(encoding="utf-8").partition("\n")[0]
+    header = (
+        (folder / f"{name_of(n_masses, damped)}.jsonl")
+        .read_text(encoding="utf-8")
+        .partition("\n")[0]
+    )
     return str(json.loads(header)["command"]).endswith("--patient")
 
 
@@ -98,7 +114,9 @@ def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: boo
 
 
 def _written(name: str) -> int | str:
-    """The name of a rule as the files have it: numbers of one digit, and the exact decision after those of the paper."""
+    """The name of a rule as the files have it: numbers of one digit, and the exact decision
+    after those of the paper.
+    """
     if name == EXACT.name:
         return WRITTEN
     return int(name) if len(name) == 1 and name.isdecimal() else name
@@ -117,8 +135,12 @@ def _family(family: Family, header: Record, models: Sequence[Record]) -> DamperF
     rows = [[-1 if x is None else x for x in row] for m in models for row in m["columns"]]
     columns = np.array(rows, np.int32)
     lists = {name: np.array([x for m in models for x in m[name]], np.int32) for name in COLUMNS}
-    if columns.shape != (len(chains), len(header["tests"])) or any(a.shape != (len(chains),) for a in lists.values()):
+    if columns.shape != (len(chains), len(header["tests"])) or any(
+        a.shape != (len(chains),) for a in lists.values()
+    ):
         raise ValueError("sets of dampers are missing")
     undecided = frozenset((int(a), int(b)) for a, b in header["undecided"])
     tests = tuple(map(_read, header["tests"]))
-    return DamperFamily(family, sets, Classes(chains, tests, columns, open_groups=undecided, **lists))
+    return DamperFamily(
+        family, sets, Classes(chains, tests, columns, open_groups=undecided, **lists)
+    )

@@ -1,4 +1,6 @@
-"""Settles what the classes with dampers to the ground leave open, a pair of classes after the other, each kept at once."""
+"""Settles what the classes with dampers to the ground leave open, a pair of classes after the
+other, each kept at once.
+"""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -11,8 +13,12 @@ from disting.conditions.subject import Subject
 from disting.settings import Settings
 
 
-def settle_dampers(found: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]) -> int:
-    """Ask the shares about a representative of each open pair of classes that the file does not settle; the number settled."""
+def settle_dampers(
+    found: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]
+) -> int:
+    """Ask the shares about a representative of each open pair of classes that the file does not
+    settle; the number settled.
+    """
     known, count = read_settled(folder), 0
     for low, high in sorted(found.found.open_groups):
         first, second = _representative(found, low).in_order(_representative(found, high))

@@ -1,4 +1,5 @@
-"""Pairs of chains with dampers to the ground that were decided once with much time: `settled-dampers.jsonl`, shipped.
+"""Pairs of chains with dampers to the ground that were decided once with much time:
+`settled-dampers.jsonl`, shipped.
 
 A line a pair of canonical chains with its finding; `damper_family` takes over what it finds there.
 """
@@ -24,13 +25,19 @@ Settled = dict[tuple[str, str], Finding]
 def read_settled(folder: Path) -> Settled:
     """What the folder's file holds; nothing if there is none."""
     path = folder / FILE
-    records = [json.loads(line) for line in intact_text(path).splitlines()] if path.is_file() else []
+    records = (
+        [json.loads(line) for line in intact_text(path).splitlines()] if path.is_file() else []
+    )
     return {(r["left"], r["right"]): finding_from_json(json.dumps(r["finding"])) for r in records}
 
 
 def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
     """Add a finding to the file, at once."""
-    record = {"left": str(first), "right": str(second), "finding": json.loads(finding_to_json(finding))}
+    record = {
+        "left": str(first),
+        "right": str(second),
+        "finding": json.loads(finding_to_json(finding)),
+    }
     with (folder / FILE).open("a", encoding="utf-8", newline="\n") as file:
         file.write(json.dumps(record, separators=(",", ":")) + "\n")
 

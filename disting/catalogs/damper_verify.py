@@ -1,4 +1,6 @@
-"""Verifies a file of classes with dampers to the ground: its bytes against a rebuilt one, and what was settled once."""
+"""Verifies a file of classes with dampers to the ground: its bytes against a rebuilt one, and
+what was settled once.
+"""
 
 from collections.abc import Iterator
 from concurrent.futures import Executor
@@ -22,20 +24,35 @@ def verify_dampers(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> list[str]:
-    """Everything that is wrong with a file and with what was settled for it, in sentences; empty if nothing is."""
+    """Everything that is wrong with a file and with what was settled for it, in sentences;
+    empty if nothing is.
+    """
     stored, patient = read(folder, n_masses, damped), was_patient(folder, n_masses, damped)
-    rebuilt = damper_family(n_masses, damped=damped, patient=patient, engine=engine, executor=executor, progress=progress)
+    rebuilt = damper_family(
+        n_masses,
+        damped=damped,
+        patient=patient,
+        engine=engine,
+        executor=executor,
+        progress=progress,
+    )
     name = name_of(n_masses, damped)
     wrong = list(false_settled(stored, folder, progress))
-    if (folder / f"{name}.jsonl").read_text(encoding="utf-8") != text_of(rebuilt, engine.settings, patient=patient):
+    if (folder / f"{name}.jsonl").read_text(encoding="utf-8") != text_of(
+        rebuilt, engine.settings, patient=patient
+    ):
         wrong.append(f"{name} is not what is computed now")
     return wrong
 
 
 def false_settled(stored: DamperFamily, folder: Path, progress: Progress = silent) -> Iterator[str]:
-    """Yield a sentence for each settled pair of the family whose evidence does not hold, or that the file contradicts."""
+    """Yield a sentence for each settled pair of the family whose evidence does not hold, or
+    that the file contradicts.
+    """
     place = {str(canonical(chain).chain): i for i, chain in enumerate(stored.found.chains)}
-    known = {names: found for names, found in read_settled(folder).items() if place.keys() >= set(names)}
+    known = {
+        names: found for names, found in read_settled(folder).items() if place.keys() >= set(names)
+    }
     witness = Witness()
     for done, (names, found) in enumerate(known.items(), 1):
         left, right = (place[name] for name in names)

@@ -1,7 +1,8 @@
 """Sets of dampers to the ground of one model, all against each other (Fig. 14 of the paper).
 
-The paper compares one at a time: no damper, then one at mass 1, 2, .., N. `DamperSets.ALL` takes all 2^N sets. Where two sets
-are indistinguishable over positive parameters, no experiment with this force and sensor can tell where the friction is.
+The paper compares one at a time: no damper, then one at mass 1, 2, .., N. `DamperSets.ALL` takes
+all 2^N sets. Where two sets are indistinguishable over positive parameters, no experiment with
+this force and sensor can tell where the friction is.
 """
 
 import csv
@@ -35,7 +36,11 @@ class DamperSets(StrEnum):
         ['0', '1', '2', '1+2']
         """
         most = n_masses if self is DamperSets.ALL else 1
-        return tuple(chosen for size in range(most + 1) for chosen in combinations(range(1, n_masses + 1), size))
+        return tuple(
+            chosen
+            for size in range(most + 1)
+            for chosen in combinations(range(1, n_masses + 1), size)
+        )
 
 
 def spelled(masses: Masses) -> str:
@@ -49,7 +54,9 @@ def spelled(masses: Masses) -> str:
 
 @dataclass(frozen=True)
 class DamperTable:
-    """All pairs of `sets` of ground dampers of one `chain`; the subjects of `decided` are in their order."""
+    """All pairs of `sets` of ground dampers of one `chain`; the subjects of `decided` are in
+    their order.
+    """
 
     chain: Chain
     sets: tuple[Masses, ...]
@@ -74,10 +81,15 @@ class DamperTable:
             yield self.sets[i], self.sets[j], self.decided.relation(i, j), self.decided.rule(i, j)
 
     def classes(self) -> tuple[tuple[Masses, ...], ...]:
-        """The sets grouped by indistinguishability, in the order of their first members; an undecided pair joins no groups."""
+        """The sets grouped by indistinguishability, in the order of their first members; an
+        undecided pair joins no groups.
+        """
         groups: list[list[int]] = []
         for i in range(len(self.sets)):
-            home = next((g for g in groups if self.decided.relation(g[0], i) is Relation.INDISTINGUISHABLE), None)
+            home = next(
+                (g for g in groups if self.decided.relation(g[0], i) is Relation.INDISTINGUISHABLE),
+                None,
+            )
             groups.append([i]) if home is None else home.append(i)
         return tuple(tuple(self.sets[i] for i in group) for group in groups)
 
@@ -87,12 +99,18 @@ class DamperTable:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(COLUMNS)
         rows = self.rows()
-        writer.writerows((spelled(a), spelled(b), relation.value, rule, self.domain.value) for a, b, relation, rule in rows)
+        writer.writerows(
+            (spelled(a), spelled(b), relation.value, rule, self.domain.value)
+            for a, b, relation, rule in rows
+        )
         return out.getvalue()
 
     def _places(self, left: Masses, right: Masses) -> tuple[int, int]:
         if left == right or not {left, right} <= set(self.sets):
-            raise InputError(f"the table holds pairs of two different sets of ground dampers, not {left} and {right}")
+            raise InputError(
+                f"the table holds pairs of two different sets of ground dampers, not {left} and"
+                f" {right}"
+            )
         return self.sets.index(left), self.sets.index(right)
 
 
@@ -105,9 +123,11 @@ def dampers(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> DamperTable:
-    """The table of a chain over a domain of parameters; ground dampers that it has already are replaced by each set in turn.
+    """The table of a chain over a domain of parameters; ground dampers that it has already are
+    replaced by each set in turn.
 
-    Over positive parameters sets are undecided where they are indistinguishable over complex ones and no theorem says more.
+    Over positive parameters sets are undecided where they are indistinguishable over complex ones
+    and no theorem says more.
 
     >>> from disting.model.family import Family
     >>> dampers(Family(3, damped=True)[3], domain=Domain.COMPLEX).classes()
@@ -117,5 +137,7 @@ def dampers(
     sets = which.of(chain.n_masses)
     subjects = [engine.subject(spelled(s), replace(chain, ground_dampers=s)) for s in sets]
     view = View.EXACT if domain is Domain.COMPLEX else View(domain.value)
-    decided = engine.decisions(subjects, Query(view, inclusion=False), executor=executor, progress=progress)
+    decided = engine.decisions(
+        subjects, Query(view, inclusion=False), executor=executor, progress=progress
+    )
     return DamperTable(chain, sets, decided)

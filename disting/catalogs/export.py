@@ -27,15 +27,18 @@ CSV_COLUMNS = (
     "right_positive",
 )
 Row = tuple[int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str]
-"""left, right (numbers, or names where models of several sizes are compared), relation, decided_by, representation, certainty,
-error bound, domain, image and closure ("" if not known), and which positive models of the left, and of the right, have a
-positive equivalent on the other side ("" where that is not asked)"""
+"""left, right (numbers, or names where models of several sizes are compared), relation,
+decided_by, representation, certainty, error bound, domain, image and closure ("" if not known),
+and which positive models of the left, and of the right, have a positive equivalent on the other
+side ("" where that is not asked)
+"""
 
 
 def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
-    >>> row = (1, 2, Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX, "neither", "neither", "", "")
+    >>> told = (Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX)
+    >>> row = (1, 2, *told, "neither", "neither", "", "")
     >>> print(csv_text([row]), end="")
     left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,left_positive,right_positive
     1,2,distinguishable,1,tf,proven,0,complex,neither,neither,,
@@ -49,7 +52,9 @@ def csv_text(rows: Iterable[Row]) -> str:
 
 
 def decisions_csv(decided: Decisions) -> str:
-    """CSV text of all pairs, models numbered from 1, or named N:I where they are of several sizes."""
+    """CSV text of all pairs, models numbered from 1, or named N:I where they are of several
+    sizes.
+    """
     names = _names(decided)
 
     def rest(i: int, j: int) -> tuple[Domain, str, str, str, str]:
@@ -82,7 +87,9 @@ def share_text(found: PositiveFinding | None) -> str:
 def _names(decided: Decisions) -> Sequence[int | str]:
     """Numbers from 1 for models of one size, else the subjects' names."""
     of_one_size = len({s.chain.n_masses for s in decided.subjects}) == 1
-    return range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
+    return (
+        range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
+    )
 
 
 def inclusion_text(inclusion: Inclusion) -> str:
@@ -91,11 +98,15 @@ def inclusion_text(inclusion: Inclusion) -> str:
 
 
 def decisions_json(decided: Decisions) -> str:
-    """JSON text of all pairs with evidence and sentences; `joint_error_bound` is that of all of it together."""
+    """JSON text of all pairs with evidence and sentences; `joint_error_bound` is that of all of
+    it together.
+    """
     size = len(decided.subjects)
     pairs = ((i, j) for i in range(size) for j in range(i + 1, size))
     names = _names(decided)
-    verdicts = [decided.verdict(i, j).to_dict() | {"left": names[i], "right": names[j]} for i, j in pairs]
+    verdicts = [
+        decided.verdict(i, j).to_dict() | {"left": names[i], "right": names[j]} for i, j in pairs
+    ]
     safety = family_safety(decided)
     bound = error_bound(Certainty.BOUNDED if safety else Certainty.PROVEN, safety)
     return json.dumps({"joint_error_bound": bound, "verdicts": verdicts}, ensure_ascii=False) + "\n"

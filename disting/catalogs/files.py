@@ -1,9 +1,12 @@
-"""Where catalogue files are and what is in them: one JSON record a line, so that a change shows as changed lines.
+"""Where catalogue files are and what is in them: one JSON record a line, so that a change shows as
+changed lines.
 
-First line: header. Then a line a model, in order; then a line a pair (left < right), with the deciding step in each
-representation, absent where nothing decides, the `inclusions` of models of unequal rank (`closure`: limits; `image`: finite
-elements other than zero, absent where both have one reason), and which positive models of either side have a positive
-equivalent on the other (`left_positive`, `right_positive`), where generic ones have equivalents."""
+First line: header. Then a line a model, in order; then a line a pair (left < right), with the
+deciding step in each representation, absent where nothing decides, the `inclusions` of models of
+unequal rank (`closure`: limits; `image`: finite elements other than zero, absent where both have
+one reason), and which positive models of either side have a positive equivalent on the other
+(`left_positive`, `right_positive`), where generic ones have equivalents.
+"""
 
 import hashlib
 import json
@@ -34,24 +37,40 @@ def lines(records: list[Record]) -> str:
 
 
 def read_records(path: Path) -> list[Record]:
-    """Records of a catalogue file; raises CatalogError where it is missing, damaged or of another schema."""
+    """Records of a catalogue file; raises CatalogError where it is missing, damaged or of
+    another schema.
+    """
     try:
         records = [json.loads(line) for line in intact_text(path).splitlines()]
         header = records[0]
-        complete = _numbers(records) == [*range(1, header["models"] + 1), *combinations(range(1, header["models"] + 1), 2)]
+        complete = _numbers(records) == [
+            *range(1, header["models"] + 1),
+            *combinations(range(1, header["models"] + 1), 2),
+        ]
     except FileNotFoundError:
-        raise CatalogError(f"there is no catalogue {path}; make it with 'disting catalog build'") from None
+        raise CatalogError(
+            f"there is no catalogue {path}; make it with 'disting catalog build'"
+        ) from None
     except (OSError, ValueError, LookupError, TypeError) as reason:
-        raise CatalogError(f"the catalogue {path} cannot be read ({reason}); rebuild it with 'disting catalog build'") from None
+        raise CatalogError(
+            f"the catalogue {path} cannot be read ({reason}); rebuild it with 'disting catalog"
+            " build'"
+        ) from None
     if header.get("schema") != SCHEMA or not complete:
-        raise CatalogError(f"the catalogue {path} is incomplete or of another schema; rebuild it with 'disting catalog build'")
+        raise CatalogError(
+            f"the catalogue {path} is incomplete or of another schema; rebuild it with 'disting"
+            " catalog build'"
+        )
     return records
 
 
 def _numbers(records: list[Record]) -> list[Any]:
     """Of the models, then of the pairs."""
     n = records[0]["models"]
-    return [*(r["model"] for r in records[1 : n + 1]), *((r["left"], r["right"]) for r in records[n + 1 :])]
+    return [
+        *(r["model"] for r in records[1 : n + 1]),
+        *((r["left"], r["right"]) for r in records[n + 1 :]),
+    ]
 
 
 def digest(path: Path) -> str:

@@ -1,6 +1,8 @@
-"""The record of a pair in a catalogue: which step decides in which view, and the verdict that it holds.
+"""The record of a pair in a catalogue: which step decides in which view, and the verdict that it
+holds.
 
-Over positive parameters nothing is stored but the shares of both sides, from which the verdict follows.
+Over positive parameters nothing is stored but the shares of both sides, from which the verdict
+follows.
 """
 
 from dataclasses import replace
@@ -28,7 +30,9 @@ def stored_verdict(record: Record, view: View) -> Verdict:
     found = replace(found, left_positive=here, right_positive=there)
     if INCLUSIONS in record:
         both = inclusions_from_dict(record[INCLUSIONS])
-        return replace(found, image=both.image.inclusion, closure=both.closure.inclusion, inclusions=both)
+        return replace(
+            found, image=both.image.inclusion, closure=both.closure.inclusion, inclusions=both
+        )
     told = Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
     return replace(found, image=told, closure=told)
 
@@ -48,7 +52,11 @@ def relation_of(step: dict[str, Any]) -> Relation:
         return Relation.UNDECIDED
     if "relation" in step:
         return Relation(step["relation"])
-    return Relation.DISTINGUISHABLE if RULES[step["decided_by"]].role is Role.NECESSARY else Relation.INDISTINGUISHABLE
+    return (
+        Relation.DISTINGUISHABLE
+        if RULES[step["decided_by"]].role is Role.NECESSARY
+        else Relation.INDISTINGUISHABLE
+    )
 
 
 def _plain(record: Record, view: View) -> Verdict:
@@ -57,7 +65,16 @@ def _plain(record: Record, view: View) -> Verdict:
     if not step:
         return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_notes(record, view))
     certainty, evidence = Certainty(step["certainty"]), evidence_from(step["evidence"])
-    return Verdict(*names, relation_of(step), step["decided_by"], where, certainty, step["safety"], evidence, view.domain)
+    return Verdict(
+        *names,
+        relation_of(step),
+        step["decided_by"],
+        where,
+        certainty,
+        step["safety"],
+        evidence,
+        view.domain,
+    )
 
 
 def _positively(record: Record) -> tuple[str, dict[str, Any]]:
@@ -69,7 +86,12 @@ def _positively(record: Record) -> tuple[str, dict[str, Any]]:
     if f.evidence is None:
         return "", {}
     relation = Step(PARAMETERS, f).relation.value
-    plain = {"relation": relation, "decided_by": f.rule.name, "certainty": f.certainty.value, "safety": f.safety}
+    plain = {
+        "relation": relation,
+        "decided_by": f.rule.name,
+        "certainty": f.certainty.value,
+        "safety": f.safety,
+    }
     return PARAMETERS, plain | {"evidence": to_dict(f.evidence)}
 
 
@@ -92,4 +114,6 @@ def _notes(record: Record, view: View) -> tuple[str, ...]:
 def _shares(record: Record) -> tuple[PositiveFinding | None, PositiveFinding | None]:
     """Positive equivalents of the left and of the right model, where they are asked for."""
     here, there = (record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
-    return PositiveFinding.from_dict(here) if here else None, PositiveFinding.from_dict(there) if there else None
+    return PositiveFinding.from_dict(here) if here else None, (
+        PositiveFinding.from_dict(there) if there else None
+    )

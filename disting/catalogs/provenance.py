@@ -1,7 +1,8 @@
-"""What the data files of a folder are: `provenance.json` with the digest of each, compared whenever one is read.
+"""What the data files of a folder are: `provenance.json` with the digest of each, compared
+whenever one is read.
 
-Files that `disting catalog settle` appends to are named with the length that they had: what is appended later is the user's
-own. See `disting.packaged.intact_text`, which compares.
+Files that `disting catalog settle` appends to are named with the length that they had: what is
+appended later is the user's own. See `disting.packaged.intact_text`, which compares.
 """
 
 import json
@@ -23,15 +24,19 @@ def provenance_of(folder: Path) -> Record:
     return {
         "schema": SCHEMA,
         "command": "disting catalog build 1 2 3 4 5",
-        "software": {"disting": disting.__version__, "python": platform.python_version()}
-        | {name: version(name) for name in ("numpy", "python-flint")},
+        "software": (
+            {"disting": disting.__version__, "python": platform.python_version()}
+            | {name: version(name) for name in ("numpy", "python-flint")}
+        ),
         "files": {p.name: _told(p) for p in sorted(folder.glob("*.jsonl"))},
     }
 
 
 def write_provenance(folder: Path) -> Path:
     """Write it anew, after the files of the folder; returns its path."""
-    return write_whole(folder / PROVENANCE, [json.dumps(provenance_of(folder), indent=1, sort_keys=True), "\n"])
+    return write_whole(
+        folder / PROVENANCE, [json.dumps(provenance_of(folder), indent=1, sort_keys=True), "\n"]
+    )
 
 
 def _told(path: Path) -> str:

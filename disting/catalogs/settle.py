@@ -1,6 +1,8 @@
-"""Questions about rows that pairs of chains leave open: decided once, for chains of any size, and shipped as `rows.jsonl`.
+"""Questions about rows that pairs of chains leave open: decided once, for chains of any size, and
+shipped as `rows.jsonl`.
 
-The file is read wherever a pair is decided (see `disting.ideals.by_rows`), so an answer serves every command at once.
+The file is read wherever a pair is decided (see `disting.ideals.by_rows`), so an answer serves
+every command at once.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,7 +23,9 @@ LABEL = "rows:disting"
 
 
 def settle(n_masses: int, folder: Path, engine: Engine, told: Callable[[str], None]) -> int:
-    """Decide the rows that leave damped chains of so many masses open; every answer is kept at once. The number of them."""
+    """Decide the rows that leave damped chains of so many masses open; every answer is kept at
+    once. The number of them.
+    """
     count = 0
     for pair in open_rows(n_masses, engine):
         if pair in read_answers(folder):
@@ -36,8 +40,13 @@ def settle(n_masses: int, folder: Path, engine: Engine, told: Callable[[str], No
 
 
 def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
-    """The rows that differ between damped chains which no condition and no known answer decides, each pair once."""
-    subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(Family(n_masses, True), 1)]
+    """The rows that differ between damped chains which no condition and no known answer
+    decides, each pair once.
+    """
+    subjects = [
+        engine.subject(f"A{number}", chain)
+        for number, chain in enumerate(Family(n_masses, True), 1)
+    ]
     found = engine.decisions(subjects, Query(View.EXACT, inclusion=False))
     told = set[frozenset[DampedRow]]()
     for i, j in combinations(range(len(subjects)), 2):
@@ -49,8 +58,14 @@ def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
 
 
 def decided(pair: frozenset[DampedRow]) -> Branched | None:
-    """That the rows of a pair differ, searched in the direction with fewer branches first; None if it is not found."""
-    for given, searched in sorted([tuple(sorted(pair)), tuple(sorted(pair))[::-1]], key=lambda rows: len(branches(*rows))):
-        if safety_of_branches(given, searched) >= LEAST_SAFETY and (found := refute(given, searched, LABEL)):
+    """That the rows of a pair differ, searched in the direction with fewer branches first; None
+    if it is not found.
+    """
+    for given, searched in sorted(
+        [tuple(sorted(pair)), tuple(sorted(pair))[::-1]], key=lambda rows: len(branches(*rows))
+    ):
+        if safety_of_branches(given, searched) >= LEAST_SAFETY and (
+            found := refute(given, searched, LABEL)
+        ):
             return found
     return None

@@ -26,7 +26,9 @@ def verify(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> list[str]:
-    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is. With the answers about damped rows."""
+    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is. With
+    the answers about damped rows.
+    """
     stored = catalog(n_masses, damped=damped, folder=folder)
     rebuilt = build(n_masses, damped=damped, engine=engine, executor=executor, progress=progress)
     return [
@@ -39,28 +41,40 @@ def verify(
 def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str]:
     """Yield a sentence for each piece of evidence that does not hold."""
     witness = Witness()
-    subjects = {number: Subject(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)}
+    subjects = {
+        number: Subject(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)
+    }
     total = len(stored.family) * (len(stored.family) - 1) // 2
     for done, (left, right, _) in enumerate(stored.pairs(View.EXACT), 1):
         for view in View:
             v = stored.verdict(left, right, view)
             chains = stored.family[left], stored.family[right]
             if v.evidence and not witness.confirms(v.evidence, v.representation, *chains):
-                yield f"{stored.name}, {left}:{right}, {view}: the evidence of condition {v.decided_by} does not hold"
+                yield (
+                    f"{stored.name}, {left}:{right}, {view}: the evidence of condition"
+                    f" {v.decided_by} does not hold"
+                )
         yield from _false_inclusions(stored, subjects[left], subjects[right], (left, right))
         yield from _false_shares(stored, left, right)
         progress("evidence", done, total)
 
 
-def _false_inclusions(stored: Catalog, left: Subject, right: Subject, numbers: tuple[int, int]) -> Iterator[str]:
-    """Of what is known of finite elements, and of limits; that evidence is of the right kind was seen when it was read."""
+def _false_inclusions(
+    stored: Catalog, left: Subject, right: Subject, numbers: tuple[int, int]
+) -> Iterator[str]:
+    """Of what is known of finite elements, and of limits; that evidence is of the right kind
+    was seen when it was read.
+    """
     both = stored.verdict(*numbers, View.EXACT).inclusions
     if both is None:
         return
     told = {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
     for evidence, what in told.items():
         if evidence is not None and not confirms(evidence, left, right):
-            yield f"{stored.name}, {numbers[0]}:{numbers[1]}: the evidence of the inclusion ({what}) does not hold"
+            yield (
+                f"{stored.name}, {numbers[0]}:{numbers[1]}: the evidence of the inclusion ({what})"
+                " does not hold"
+            )
 
 
 def _false_shares(stored: Catalog, left: int, right: int) -> Iterator[str]:
@@ -69,7 +83,10 @@ def _false_shares(stored: Catalog, left: int, right: int) -> Iterator[str]:
     for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         chains = (canonical(stored.family[number]).chain for number in (given, other))
         if found is not None and found.evidence is not None and not proves(found, *chains):
-            yield f"{stored.name}, {given}:{other}: the evidence on positive equivalents does not hold"
+            yield (
+                f"{stored.name}, {given}:{other}: the evidence on positive equivalents does not"
+                " hold"
+            )
 
 
 def _differences(stored: Catalog, rebuilt: Catalog, path: Path) -> Iterator[str]:

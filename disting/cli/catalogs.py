@@ -12,7 +12,10 @@ def build(options: argparse.Namespace) -> int:
 
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses:
-            pair = [build(n, damped=d, engine=engine, executor=pool, progress=progress) for d in (False, True)]
+            pair = [
+                build(n, damped=d, engine=engine, executor=pool, progress=progress)
+                for d in (False, True)
+            ]
             for path in write(pair, options.out)[:-1]:
                 print(path)
     return 0
@@ -31,17 +34,25 @@ def candidates(options: argparse.Namespace) -> int:
 
 
 def settle(options: argparse.Namespace) -> int:
-    """Decide the rows of masses that leave pairs open, and on request the classes with dampers to the ground."""
+    """Decide the rows of masses that leave pairs open, and on request the classes with dampers
+    to the ground.
+    """
     from disting.catalogs.damper_files import SHIPPED_SIZES, read
     from disting.catalogs.damper_settle import settle_dampers
     from disting.catalogs.settle import settle
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:
-            print(f"{n} masses, damped: {settle(n, options.catalog, engine, print)} pairs of rows settled")
+            print(
+                f"{n} masses, damped: {settle(n, options.catalog, engine, print)} pairs of rows"
+                " settled"
+            )
             if options.dampers and n in SHIPPED_SIZES:
                 found = (read(options.catalog, n, damped) for damped in (False, True))
-                count = sum(settle_dampers(family, options.catalog, engine.settings, print) for family in found)
+                count = sum(
+                    settle_dampers(family, options.catalog, engine.settings, print)
+                    for family in found
+                )
                 print(f"{n} masses with dampers to the ground: {count} pairs of classes settled")
     return 0
 
@@ -57,10 +68,22 @@ def verify(options: argparse.Namespace) -> int:
         for n in options.masses:
             for damped in (False, True):
                 fresh = Engine()  # nothing is taken from the cache: a verification computes
-                found = verify(n, damped=damped, folder=options.catalog, engine=fresh, executor=pool, progress=progress)
+                found = verify(
+                    n,
+                    damped=damped,
+                    folder=options.catalog,
+                    engine=fresh,
+                    executor=pool,
+                    progress=progress,
+                )
                 if n in SHIPPED_SIZES:
                     found += verify_dampers(
-                        n, damped=damped, folder=options.catalog, engine=fresh, executor=pool, progress=progress
+                        n,
+                        damped=damped,
+                        folder=options.catalog,
+                        engine=fresh,
+                        executor=pool,
+                        progress=progress,
                     )
                 what = f"{n} masses, {'damped' if damped else 'undamped'}"
                 print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")

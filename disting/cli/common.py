@@ -1,4 +1,6 @@
-"""What several commands share: how models, conditions and views are written, and how results are told."""
+"""What several commands share: how models, conditions and views are written, and how results
+are told.
+"""
 
 import re
 import sys
@@ -28,7 +30,8 @@ def reference(text: str) -> tuple[int, int]:
 
 
 def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
-    """Over positive parameters where no domain ("") is named, but the paper's view, over complex ones, where it is asked for.
+    """Over positive parameters where no domain ("") is named, but the paper's view, over complex
+    ones, where it is asked for.
 
     Conditions that are named decide alone: the exact decision belongs to the default.
     """
@@ -36,7 +39,10 @@ def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: i
     domain = domain or (Domain.COMPLEX if paper else Domain.POSITIVE)
     if domain != Domain.COMPLEX:
         if paper:
-            raise InputError(f"--domain {domain} comes after the exact decision: leave --conditions and --representation away")
+            raise InputError(
+                f"--domain {domain} comes after the exact decision: leave --conditions and"
+                " --representation away"
+            )
         return Query(View(domain), markov=markov)
     if conditions is None:
         return Query(view, markov=markov)
@@ -50,16 +56,25 @@ def relations_in_words(found: Iterable[Relation]) -> str:
     '1 distinguishable, 0 indistinguishable, 1 sometimes, 0 undecided'
     """
     counts = Counter(found)
-    return ", ".join(f"{counts[r]} {r}" for r in Relation if counts[r] or r is not Relation.SOMETIMES)
+    return ", ".join(
+        f"{counts[r]} {r}" for r in Relation if counts[r] or r is not Relation.SOMETIMES
+    )
 
 
 def rules_in_words(counts: dict[str, int], domain: Domain) -> str:
     """How many pairs each rule decides."""
-    return ", ".join(f"{n} by {RULES[rule].in_words(domain)}" for rule, n in counts.items() if rule and n) or "none"
+    return (
+        ", ".join(
+            f"{n} by {RULES[rule].in_words(domain)}" for rule, n in counts.items() if rule and n
+        )
+        or "none"
+    )
 
 
 def emitted(where: str, text: str) -> None:
-    """Write text to a file, or to standard output for -; raises InputError where that is impossible."""
+    """Write text to a file, or to standard output for -; raises InputError where that is
+    impossible.
+    """
     emitted_lines(where, [text])
 
 
@@ -72,7 +87,8 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
         write_whole(Path(where), lines)
     except OSError as reason:
         raise InputError(
-            f"{where} cannot be written ({reason.strerror}); name another file, or - for standard output"
+            f"{where} cannot be written ({reason.strerror}); name another file, or - for standard"
+            " output"
         ) from None
 
 
@@ -86,4 +102,8 @@ def joint_in_words(safety: int) -> str:
     """
     if safety == USELESS:
         return "no error bound is left for all of it together"
-    return f"all of it together is wrong with a probability of at most 2^-{safety}" if safety else "nothing is left to chance"
+    return (
+        f"all of it together is wrong with a probability of at most 2^-{safety}"
+        if safety
+        else "nothing is left to chance"
+    )

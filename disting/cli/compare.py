@@ -24,7 +24,9 @@ from disting.verdict import Query, Relation, Verdict, View
 def run(options: argparse.Namespace) -> int:
     """Explain the verdict on one pair."""
     if options.json and options.range:
-        raise InputError("what holds within ranges is told in words only: leave --json or --range away")
+        raise InputError(
+            "what holds within ranges is told in words only: leave --json or --range away"
+        )
     sensor = Sensor(options.sensor)
     texts = (options.left, options.right)
     references = [reference(text.partition("+")[0]) for text in texts]
@@ -55,13 +57,18 @@ def _shipped(references: list[tuple[int, int]], damped: bool, asked: Query) -> V
 
 
 def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
-    """Whether there is something to tell of positive equivalents that the verdict's evidence does not say."""
+    """Whether there is something to tell of positive equivalents that the verdict's evidence
+    does not say.
+    """
     known = verdict.left_positive is not None or verdict.right_positive is not None
     return bool(options.range) or (known and not isinstance(verdict.evidence, BothWays))
 
 
-def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]) -> Iterator[str]:
-    """Which positive models of each side, within ranges if there are any, have an equivalent on the other side.
+def _both_ways(
+    verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]
+) -> Iterator[str]:
+    """Which positive models of each side, within ranges if there are any, have an equivalent on
+    the other side.
 
     Without ranges that is told where the verdict tells it.
     """
@@ -70,9 +77,18 @@ def _both_ways(verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[st
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:
         raise InputError(f"no parameter of the two models is called {listed(sorted(unknown))}")
-    sides = list(zip((verdict.left, verdict.right), chains, (verdict.left_positive, verdict.right_positive), strict=True))
+    sides = list(
+        zip(
+            (verdict.left, verdict.right),
+            chains,
+            (verdict.left_positive, verdict.right_positive),
+            strict=True,
+        )
+    )
     for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
-        boxes = ({n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other))
+        boxes = (
+            {n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other)
+        )
         found = within_ranges(given, other, ranges(*boxes)) if limits else known
         if found is None:
             continue
@@ -86,7 +102,9 @@ def _explained(verdict: Verdict, chains: list[Chain]) -> str:
     """Relation, drawings, sentence, evidence, certainty, domain, inclusion."""
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
-    drawings = [f"  {name:{width}}  {text_drawing(c)}" for name, c in zip(names, chains, strict=True)]
+    drawings = [
+        f"  {name:{width}}  {text_drawing(c)}" for name, c in zip(names, chains, strict=True)
+    ]
     lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
@@ -96,11 +114,23 @@ def _explained(verdict: Verdict, chains: list[Chain]) -> str:
 
 
 def _over_complex(verdict: Verdict) -> str:
-    """Beside a verdict over real or positive parameters, that over complex ones, where it is known."""
-    if verdict.domain is Domain.COMPLEX or (verdict.closure is Inclusion.UNKNOWN and verdict.inclusions is None):
+    """Beside a verdict over real or positive parameters, that over complex ones, where it is
+    known.
+    """
+    if verdict.domain is Domain.COMPLEX or (
+        verdict.closure is Inclusion.UNKNOWN and verdict.inclusions is None
+    ):
         return ""
-    complex_relation = Relation.INDISTINGUISHABLE if verdict.closure is Inclusion.EQUAL else Relation.DISTINGUISHABLE
-    also = "too" if verdict.relation is complex_relation else f"they are {complex_relation} (--domain complex)"
+    complex_relation = (
+        Relation.INDISTINGUISHABLE
+        if verdict.closure is Inclusion.EQUAL
+        else Relation.DISTINGUISHABLE
+    )
+    also = (
+        "too"
+        if verdict.relation is complex_relation
+        else f"they are {complex_relation} (--domain complex)"
+    )
     return f"; over complex ones {also}"
 
 
@@ -112,7 +142,11 @@ def _inclusion(verdict: Verdict) -> list[str]:
     lines = [f"inclusion  over complex parameters: {both.sentence(verdict.left, verdict.right)}"]
     if both.image == both.closure:
         return [*lines, f"why        {_why(both.closure, verdict)}"]
-    return [*lines, f"image      {_why(both.image, verdict)}", f"closure    {_why(both.closure, verdict)}"]
+    return [
+        *lines,
+        f"image      {_why(both.image, verdict)}",
+        f"closure    {_why(both.closure, verdict)}",
+    ]
 
 
 def _why(found: InclusionFinding, verdict: Verdict) -> str:
@@ -120,4 +154,7 @@ def _why(found: InclusionFinding, verdict: Verdict) -> str:
     if found.evidence is None:
         return f"not known: {found.reason}"
     bound = f", probability of error at most 2^-{found.safety}" if found.safety else ""
-    return f"{found.inclusion} ({found.certainty}{bound}): {found.evidence.sentence(verdict.left, verdict.right)}"
+    return (
+        f"{found.inclusion} ({found.certainty}{bound}):"
+        f" {found.evidence.sentence(verdict.left, verdict.right)}"
+    )

@@ -1,4 +1,6 @@
-"""disting dampers: which sets of ground dampers of one model, or of all models of a size, can be told apart."""
+"""disting dampers: which sets of ground dampers of one model, or of all models of a size, can
+be told apart.
+"""
 
 import argparse
 import sys
@@ -25,25 +27,44 @@ SIGNS = {
     Relation.SOMETIMES: "s",
     Relation.UNDECIDED: "?",
 }
-MEANING = {".": "distinguishable", "=": "indistinguishable", "s": "indistinguishable for some only", "?": "undecided"}
-COMPLEX_ONLY = "c"  # of a pair that is open over positive parameters and indistinguishable over complex ones
-NOT_ASKED = "positive parameters are not asked here: 'disting compare' and 'disting dampers N:I' ask"
+MEANING = {
+    ".": "distinguishable",
+    "=": "indistinguishable",
+    "s": "indistinguishable for some only",
+    "?": "undecided",
+}
+# of a pair that is open over positive parameters and indistinguishable over complex ones
+COMPLEX_ONLY = "c"
+NOT_ASKED = (
+    "positive parameters are not asked here: 'disting compare' and 'disting dampers N:I' ask"
+)
 SETS = "0 no damper to the ground, 1+3 dampers at masses 1 and 3"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command but those that many share."""
-    text = "a model (masses:number, as 'disting models' lists it), or a number of masses: all its models, all against all"
+    text = (
+        "a model (masses:number, as 'disting models' lists it), or a number of masses: all its"
+        " models, all against all"
+    )
     parser.add_argument("model", metavar="N:I|N", help=text)
     names = [s.value for s in DamperSets]
-    text = "one damper at a time (single, as in the paper's Fig. 14) or all 2^N sets (default: single)"
+    text = (
+        "one damper at a time (single, as in the paper's Fig. 14) or all 2^N sets (default: single)"
+    )
     parser.add_argument("--sets", choices=names, default=DamperSets.SINGLE.value, help=text)
     names = [Domain.POSITIVE.value, Domain.COMPLEX.value]
     text = (
-        "which parameters verdicts on one model are about (default: positive); those on a whole family are about complex ones"
+        "which parameters verdicts on one model are about (default: positive); those on a whole"
+        " family are about complex ones"
     )
     parser.add_argument("--domain", choices=names, default="", help=text)
-    parser.add_argument("--csv", type=written_file, metavar="FILE", help="write all pairs as CSV; - is standard output")
+    parser.add_argument(
+        "--csv",
+        type=written_file,
+        metavar="FILE",
+        help="write all pairs as CSV; - is standard output",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -53,7 +74,14 @@ def run(options: argparse.Namespace) -> int:
     n, number = reference(options.model)
     chain, domain = Family(n, options.damped)[number], Domain(options.domain or Domain.POSITIVE)
     with engine_for(options) as (engine, pool, progress):
-        asked = partial(dampers, chain, DamperSets(options.sets), engine=engine, executor=pool, progress=progress)
+        asked = partial(
+            dampers,
+            chain,
+            DamperSets(options.sets),
+            engine=engine,
+            executor=pool,
+            progress=progress,
+        )
         table, over_complex = asked(domain=domain), asked(domain=Domain.COMPLEX)
     if options.csv:
         emitted(options.csv, table.to_csv())
@@ -64,32 +92,50 @@ def run(options: argparse.Namespace) -> int:
 
 
 def build(options: argparse.Namespace) -> int:
-    """Compute the classes of whole families with all sets of dampers, undamped and damped, and write their files."""
+    """Compute the classes of whole families with all sets of dampers, undamped and damped, and
+    write their files.
+    """
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses or SHIPPED_SIZES:
             for damped in (False, True):
                 found = damper_family(
-                    n, damped=damped, patient=options.patient, engine=engine, executor=pool, progress=progress
+                    n,
+                    damped=damped,
+                    patient=options.patient,
+                    engine=engine,
+                    executor=pool,
+                    progress=progress,
                 )
-                print(f"{write(found, engine.settings, options.out, patient=options.patient)}: {counted(found)}")
+                print(
+                    f"{write(found, engine.settings, options.out, patient=options.patient)}:"
+                    f" {counted(found)}"
+                )
     return 0
 
 
 def _whole_family(options: argparse.Namespace) -> int:
-    """All models of a size with all sets: by classes, pairs only as they are written; over complex parameters."""
+    """All models of a size with all sets: by classes, pairs only as they are written; over
+    complex parameters.
+    """
     if options.domain == Domain.POSITIVE:
         raise InputError(
-            "whole families are decided over complex parameters; over positive ones ask for one model, such as 3:4"
+            "whole families are decided over complex parameters; over positive ones ask for one"
+            " model, such as 3:4"
         )
     found = _family(int(options.model), options)
     if options.csv:
         emitted_lines(options.csv, found.csv_lines())
     if options.csv == "-":
         return 0
-    rules = ", ".join(f"{n} by {_rule(rule)}" for rule, n in found.found.counts_by_rule().items() if rule)
+    rules = ", ".join(
+        f"{n} by {_rule(rule)}" for rule, n in found.found.counts_by_rule().items() if rule
+    )
     groups = found.classes()
     print(f"{counted(found)}\n{rules}")
-    print(f"{len(groups)} classes of indistinguishable models, the largest of {max(map(len, groups), default=0)}")
+    print(
+        f"{len(groups)} classes of indistinguishable models, the largest of"
+        f" {max(map(len, groups), default=0)}"
+    )
     print(NOT_ASKED)
     return 0
 
@@ -102,7 +148,9 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
     if n in SHIPPED_SIZES and which is DamperSets.ALL:
         return damper_catalog(n, damped=options.damped)
     with engine_for(options) as (engine, pool, progress):
-        return damper_family(n, damped=options.damped, which=which, engine=engine, executor=pool, progress=progress)
+        return damper_family(
+            n, damped=options.damped, which=which, engine=engine, executor=pool, progress=progress
+        )
 
 
 def counted(found: DamperFamily) -> str:
@@ -124,7 +172,10 @@ def matrix(table: DamperTable, over_complex: DamperTable) -> str:
     lines = [" " * (width + 1) + " ".join(names)]
     for i, name in enumerate(names):
         signs = ("\\" if i == j else _sign(table, over_complex, i, j) for j in range(len(names)))
-        lines.append(f"{name:>{width}} " + " ".join(f"{s:>{len(n)}}" for s, n in zip(signs, names, strict=True)))
+        lines.append(
+            f"{name:>{width}} "
+            + " ".join(f"{s:>{len(n)}}" for s, n in zip(signs, names, strict=True))
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -136,8 +187,16 @@ def _sign(table: DamperTable, over_complex: DamperTable, i: int, j: int) -> str:
 
 def legend(domain: Domain) -> str:
     """What the signs mean, over which parameters."""
-    signs = ", ".join(f"{sign} {said}" for sign, said in MEANING.items() if sign != "s" or domain is not Domain.COMPLEX)
-    more = f", {COMPLEX_ONLY} undecided, but indistinguishable over complex ones" if domain is not Domain.COMPLEX else ""
+    signs = ", ".join(
+        f"{sign} {said}"
+        for sign, said in MEANING.items()
+        if sign != "s" or domain is not Domain.COMPLEX
+    )
+    more = (
+        f", {COMPLEX_ONLY} undecided, but indistinguishable over complex ones"
+        if domain is not Domain.COMPLEX
+        else ""
+    )
     return f"over {domain} parameters: {signs}{more}\n{SETS}"
 
 

@@ -1,4 +1,6 @@
-"""The command `equivalents`: its arguments, and how models with the same transfer function are printed."""
+"""The command `equivalents`: its arguments, and how models with the same transfer function are
+printed.
+"""
 
 import argparse
 import json
@@ -40,18 +42,30 @@ SOURCES = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Everything but --damped, which other commands have too."""
     named = (
-        "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to the ground; +lag; +delay"
+        "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to"
+        " the ground; +lag; +delay"
     )
     parser.add_argument("model", metavar="N:I", help=named)
-    others = "another structure, or all of M masses (M+b1: all with this damper to the ground, M+b*: with any set of them)"
+    others = (
+        "another structure, or all of M masses (M+b1: all with this damper to the ground, M+b*:"
+        " with any set of them)"
+    )
     parser.add_argument("--to", required=True, metavar="M:J|M", help=others)
     text = "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly"
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text)
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
+    )
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print the result as JSON")
-    form.add_argument("--formulas", action="store_true", help="print formulas, where they are rational, for any values")
+    form.add_argument(
+        "--formulas",
+        action="store_true",
+        help="print formulas, where they are rational, for any values",
+    )
     form.add_argument("--latex", action="store_true", help="print formulas in LaTeX")
-    form.add_argument("--sympy", action="store_true", help="print formulas as Python source for SymPy")
+    form.add_argument(
+        "--sympy", action="store_true", help="print formulas as Python source for SymPy"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -64,7 +78,11 @@ def run(options: argparse.Namespace) -> int:
         example = "--set m1=1,m2=2,.. (or --formulas for formulas)"
         raise InputError(f"values of the given model are needed: {example}")
     found = find(options.model, assignments(options.values), options.to, damped=options.damped)
-    print(json.dumps(found.to_dict(), indent=1, ensure_ascii=False) if options.json else "\n".join(_lines(found)))
+    print(
+        json.dumps(found.to_dict(), indent=1, ensure_ascii=False)
+        if options.json
+        else "\n".join(_lines(found))
+    )
     return 0
 
 
@@ -78,7 +96,10 @@ def _lines(found: Equivalents) -> Iterator[str]:
         yield from _listing(listing)
     if listed:
         yield ""
-        yield "difference: the largest relative difference of a transfer-function coefficient, rounding to 15 digits included"
+        yield (
+            "difference: the largest relative difference of a transfer-function coefficient,"
+            " rounding to 15 digits included"
+        )
     yield ""
     yield from _unlisted(found.listings)
     yield _closing(found)
@@ -92,7 +113,11 @@ def _decimal(value: Fraction) -> str:
 
 def _listing(listing: Listing) -> Iterator[str]:
     yield f"{listing.name}  {text_drawing(listing.chain)}   {_counted(listing)}"
-    shown = [(i, member) for i, member in enumerate(listing.members, 1) if member.signs is not Signs.COMPLEX]
+    shown = [
+        (i, member)
+        for i, member in enumerate(listing.members, 1)
+        if member.signs is not Signs.COMPLEX
+    ]
     for group in (shown[i : i + ABREAST] for i in range(0, len(shown), ABREAST)):
         yield ""
         yield from _table(listing.chain, group)
@@ -111,16 +136,25 @@ def _table(chain: Chain, group: Sequence[tuple[int, Equivalent]]) -> Iterator[st
     rows.append(("signs", [_signs(member) for _, member in group]))
     rows += [(name, [member.text[name] for _, member in group]) for name in chain.parameters]
     rows.append(("found by", [SOURCES[member.origin] for _, member in group]))
-    rows.append(("difference", [f"{member.residual:.1e}" if member.residual else "exact" for _, member in group]))
+    rows.append(
+        (
+            "difference",
+            [f"{member.residual:.1e}" if member.residual else "exact" for _, member in group],
+        )
+    )
     if any(member.free_choices for _, member in group):
         rows.append(("free choices", [str(member.free_choices) for _, member in group]))
     widths = [max(len(row[1][i]) for row in rows) for i in range(len(group))]
     for label, cells in rows:
-        yield f"  {label:12}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
+        yield f"  {label:12}" + "".join(
+            f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=True)
+        )
 
 
 def _signs(member: Equivalent) -> str:
-    return {Signs.POSITIVE: "positive", Signs.REAL: "signs mixed"}.get(member.signs, "complex") + "?" * (not member.proven)
+    return {Signs.POSITIVE: "positive", Signs.REAL: "signs mixed"}.get(
+        member.signs, "complex"
+    ) + "?" * (not member.proven)
 
 
 def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
@@ -140,12 +174,19 @@ def _closing(found: Equivalents) -> str:
     """One sentence: what this means for an experiment."""
     others = [listing for listing in found.listings if listing.chain != found.chain]
     chains = [listing.chain for listing in found.listings]
-    physical = [listing.name for listing in others if any(m.signs is Signs.POSITIVE for m in listing.members)]
+    physical = [
+        listing.name
+        for listing in others
+        if any(m.signs is Signs.POSITIVE for m in listing.members)
+    ]
     own = [m for listing in found.listings if listing.chain == found.chain for m in listing.members]
     twins = sum(m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN for m in own)
     said = []
     if physical:
-        said.append(f"No experiment with this force and sensor tells it from {_and(physical)} with the positive values above.")
+        said.append(
+            f"No experiment with this force and sensor tells it from {_and(physical)} with the"
+            " positive values above."
+        )
     elif others and all(listing.complete for listing in others):
         said.append(
             f"No other of {among(chains)} gives this transfer function with positive values."
@@ -153,13 +194,22 @@ def _closing(found: Equivalents) -> str:
             else f"With positive values, {among(chains)} does not give this transfer function."
         )
     elif others:
-        said.append(f"Among {among(chains)}, no other was found that does the same with positive values; not all are excluded.")
+        said.append(
+            f"Among {among(chains)}, no other was found that does the same with positive values;"
+            " not all are excluded."
+        )
     if own and twins:
-        said.append("Other positive values of the same structure give the same transfer function too.")
-    elif own and all(listing.complete for listing in found.listings if listing.chain == found.chain):
+        said.append(
+            "Other positive values of the same structure give the same transfer function too."
+        )
+    elif own and all(
+        listing.complete for listing in found.listings if listing.chain == found.chain
+    ):
         said.append("In its own structure no other positive values do.")
     if found.proportional and physical:
-        said.append("All springs have the same ratio k/d here; other ratios may rule out some of these.")
+        said.append(
+            "All springs have the same ratio k/d here; other ratios may rule out some of these."
+        )
     return " ".join(said)
 
 
@@ -187,4 +237,7 @@ def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace
 def _checked(found: Map) -> str:
     if not found.safety:
         return "identity of the transfer functions proven"
-    return f"identity of the transfer functions checked, probability of error at most 2^-{found.safety}"
+    return (
+        "identity of the transfer functions checked, probability of error at most"
+        f" 2^-{found.safety}"
+    )

@@ -1,4 +1,6 @@
-"""disting fit: a measured frequency response, the structures that explain it, and which have the same positive models."""
+"""disting fit: a measured frequency response, the structures that explain it, and which have
+the same positive models.
+"""
 
 import argparse
 import json
@@ -35,7 +37,9 @@ FEW = 30  # candidates that are fitted sooner than workers start
 SHOWN = 8  # candidates of the printed table
 OTHERWISE = {
     Relation.SOMETIMES: "the same behaviour for some positive parameters only",
-    Relation.UNDECIDED: "whether these have positive parameters with the same behaviour is not known",
+    Relation.UNDECIDED: (
+        "whether these have positive parameters with the same behaviour is not known"
+    ),
 }
 
 
@@ -64,7 +68,10 @@ def run(options: argparse.Namespace) -> int:
             progress=progress,
         )
     if options.json:
-        text = json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        text = (
+            json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False)
+            + "\n"
+        )
         emitted(options.json, text)
     if options.json != "-":
         print(printable("\n".join(_told(found, train))))
@@ -78,7 +85,9 @@ def run(options: argparse.Namespace) -> int:
 def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
     """How the lines count; coherence tells it where Welch's method made them."""
     chosen = options.weights
-    return WEIGHTS[("coherence" if "segment" in dict(options.read) else "none") if chosen == "auto" else chosen]
+    return WEIGHTS[
+        ("coherence" if "segment" in dict(options.read) else "none") if chosen == "auto" else chosen
+    ]
 
 
 def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResponse | None]:
@@ -90,7 +99,9 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
     if options.profiles and not options.out:
         raise InputError("--profiles draws into the page: name its folder with --out")
     if options.site and not options.out:
-        raise InputError("--site links the page to the catalogues: name the page's folder with --out")
+        raise InputError(
+            "--site links the page to the catalogues: name the page's folder with --out"
+        )
     both: tuple[FrequencyResponse, FrequencyResponse | None]
     if options.demo:
         from disting.simulation import demo
@@ -110,15 +121,21 @@ def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResp
 
 
 def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, ...]:
-    """The structures to fit; raises InputError where a parameter named by --fix or --bound is in none of them."""
+    """The structures to fit; raises InputError where a parameter named by --fix or --bound is
+    in none of them.
+    """
     if options.family:
         found = whole_family(options.masses, quantity)
     else:
-        found = chosen_ports(options.masses, options.actuator, options.sensor, options.gap, quantity)
+        found = chosen_ports(
+            options.masses, options.actuator, options.sensor, options.gap, quantity
+        )
     known = {name for chain in found for name in chain.parameters}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
     if unknown:
-        raise InputError(f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}")
+        raise InputError(
+            f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}"
+        )
     return found
 
 
@@ -127,17 +144,26 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from first_lines(found)
     yield ""
     n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]
-    yield f"{n} candidates fitted to {len(train)} frequency lines{_saved(found)}, validated on {found.validation}"
+    yield (
+        f"{n} candidates fitted to {len(train)} frequency lines{_saved(found)}, validated on"
+        f" {found.validation}"
+    )
     if found.selected is None:
         yield "none is admissible; the best ones:"
     else:
-        yield f"{len(kept)} have parameters that can all be determined; the best of them{_why(found)}:"
+        yield (
+            f"{len(kept)} have parameters that can all be determined; the best of"
+            f" them{_why(found)}:"
+        )
     yield ""
     shown = sorted(kept, key=lambda c: (c is not found.selected, c.j_test)) or found.candidates
     yield from _table(shown[:SHOWN])
     yield ""
     chain = found.described.chain
-    yield f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
+    yield (
+        f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}  "
+        f" {text_drawing(chain)}"
+    )
     yield from [f"  {renamed(found)}"] if renamed(found) else []
     yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
     yield from (f"  {line}" for line in _parameters(found))
@@ -150,7 +176,9 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
         yield from _alternatives(found)
     rest = [said for said in suspicions(found) if said not in first_lines(found)]
     yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
-    yield from ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
+    yield from (
+        ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
+    )
 
 
 def _excluded(found: Selection) -> Iterator[str]:
@@ -158,10 +186,15 @@ def _excluded(found: Selection) -> Iterator[str]:
     if found.selected:
         return
     yield ""
-    yield from (f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}" for c in found.candidates[:SHOWN])
+    yield from (
+        f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}" for c in found.candidates[:SHOWN]
+    )
     yield "more excitation or wider --thresholds may help"
     if any(c.practical.unidentifiable for c in found.candidates[:SHOWN]):
-        yield "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force and sensor help"
+        yield (
+            "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force"
+            " and sensor help"
+        )
 
 
 def _set(found: Selection) -> Iterator[str]:
@@ -169,10 +202,16 @@ def _set(found: Selection) -> Iterator[str]:
     if not found.members:
         return
     yield ""
-    yield "structures that this data does not exclude (two standard deviations of the difference of the costs):"
+    yield (
+        "structures that this data does not exclude (two standard deviations of the difference of"
+        " the costs):"
+    )
     width = max(len(m.name) for m in found.members)
     for m in found.members:
-        yield f"  {m.name:{width}}  J {m.candidate.j_test:.4g}  {text_drawing(m.candidate.chain)}{_differing(m)}"
+        yield (
+            f"  {m.name:{width}}  J {m.candidate.j_test:.4g} "
+            f" {text_drawing(m.candidate.chain)}{_differing(m)}"
+        )
         for twin in m.twins:
             values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
             free = f" (one of a family, {twin.free_choices} free)" if twin.free_choices else ""
@@ -189,24 +228,40 @@ def _differing(member: Member) -> str:
 
 
 def _saved(found: Selection) -> str:
-    return f" ({found.saved} more have the same positive models as one of them)" if found.saved else ""
+    return (
+        f" ({found.saved} more have the same positive models as one of them)" if found.saved else ""
+    )
 
 
 def _why(found: Selection) -> str:
-    lost = found.selected.j_test - min(c.j_test for c in found.candidates if c.admissible) if found.selected else 0.0
-    return f" (a larger one is better by {lost:.3g}, less than the {found.margin:.3g} that noise allows)" if lost > 0 else ""
+    lost = (
+        found.selected.j_test - min(c.j_test for c in found.candidates if c.admissible)
+        if found.selected
+        else 0.0
+    )
+    return (
+        f" (a larger one is better by {lost:.3g}, less than the {found.margin:.3g} that noise"
+        " allows)"
+        if lost > 0
+        else ""
+    )
 
 
 def _table(candidates: Any) -> Iterator[str]:
     yield f"{'J test':>9} {'J train':>9} {'N_p':>4} {'cond.':>6} {'PII':>7} {'coll.':>6}  structure"
     for c in candidates:
         p = c.practical
-        indices = f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7} {_index(p.collinearity):>6}"
+        indices = (
+            f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7}"
+            f" {_index(p.collinearity):>6}"
+        )
         yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
 
 
 def _index(value: float) -> str:
-    """A criterion; nothing where it is infinite, since the reasons below the table say what is not determined."""
+    """A criterion; nothing where it is infinite, since the reasons below the table say what is
+    not determined.
+    """
     return f"{value:.3g}" if isfinite(value) else "–"
 
 
@@ -215,7 +270,13 @@ def _parameters(found: Selection) -> Iterator[str]:
     apart = {d.name: d for m in found.members[:1] for d in m.disagreements}
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
-        said = "given" if error is None else "not determined" if not error <= UNDETERMINED else f"± {percent(error)}"
+        said = (
+            "given"
+            if error is None
+            else "not determined"
+            if not error <= UNDETERMINED
+            else f"± {percent(error)}"
+        )
         yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
 
 
@@ -226,29 +287,48 @@ def _flag(found: Disagreement) -> str:
 def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterator[str]:
     width = max(len(r.name) for r in results)
     for r in results:
-        yield f"{r.name:{width}}  {with_error(r.value, r.standard_error)} {result_unit(r, measured)}".rstrip()
+        value = with_error(r.value, r.standard_error)
+        yield f"{r.name:{width}}  {value} {result_unit(r, measured)}".rstrip()
 
 
 def _alternatives(found: Selection) -> Iterator[str]:
-    """What has the same positive models, what has some of them, what is open; always with the domain."""
+    """What has the same positive models, what has some of them, what is open; always with the
+    domain.
+    """
     by_relation: dict[Relation, list[Chain]] = {}
     for a in found.alternatives:
         by_relation.setdefault(a.relation, []).append(a.chain)
     same = by_relation.get(Relation.INDISTINGUISHABLE, [])
     if same:
-        yield "every positive model of it is one of these too, so no data with this force and sensor tell them apart:"
+        yield (
+            "every positive model of it is one of these too, so no data with this force and sensor"
+            " tell them apart:"
+        )
         yield from (f"  {name_of(chain)}" for chain in same)
     elif not found.alternatives and not any(m.twins for m in found.members[:1]):
-        yield "for generic positive parameters no other candidate with as many masses behaves the same: better data could tell"
+        yield (
+            "for generic positive parameters no other candidate with as many masses behaves the"
+            " same: better data could tell"
+        )
     for relation, said in OTHERWISE.items():
         if relation in by_relation:
             yield f"{said}: " + "; ".join(map(name_of, by_relation[relation]))
 
 
-def _write(found: Selection, train: FrequencyResponse, test: FrequencyResponse | None, options: argparse.Namespace) -> None:
+def _write(
+    found: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None,
+    options: argparse.Namespace,
+) -> None:
     from disting.report.fit import write_fit_report
 
     names = found.selected.practical.names if options.profiles and found.selected else ()
     write_fit_report(found, options.out, train, test, profiles=names, site=options.site)
     if found.selected:
-        write_mat(options.out / "model.mat", found.selected.chain, found.selected.estimate.parameters, found.task.sign)
+        write_mat(
+            options.out / "model.mat",
+            found.selected.chain,
+            found.selected.estimate.parameters,
+            found.task.sign,
+        )

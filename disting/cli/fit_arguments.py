@@ -25,48 +25,143 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 
 def _data(group: argparse._ArgumentGroup) -> None:
     """Files and how they are read."""
-    group.add_argument("train", nargs="?", type=Path, metavar="TRAIN", help="measured frequency response, or time series")
-    group.add_argument("--test", type=Path, metavar="TEST", help="independent data of the drive (default: cross-validation)")
-    group.add_argument("--demo", action="store_true", help="simulated data of a small drive instead of files")
-    text = "header of the response's first column (default: the first response); all: they are repeats of one"
+    group.add_argument(
+        "train",
+        nargs="?",
+        type=Path,
+        metavar="TRAIN",
+        help="measured frequency response, or time series",
+    )
+    group.add_argument(
+        "--test",
+        type=Path,
+        metavar="TEST",
+        help="independent data of the drive (default: cross-validation)",
+    )
+    group.add_argument(
+        "--demo", action="store_true", help="simulated data of a small drive instead of files"
+    )
+    text = (
+        "header of the response's first column (default: the first response); all: they are repeats"
+        " of one"
+    )
     group.add_argument("--column", metavar="HEADER", help=text)
-    text = "option of the reader, such as input=iq, output=angle, sampling_rate=2500, to=acceleration; may be repeated"
-    group.add_argument("--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text)
+    text = (
+        "option of the reader, such as input=iq, output=angle, sampling_rate=2500, to=acceleration;"
+        " may be repeated"
+    )
+    group.add_argument(
+        "--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text
+    )
     text = "another measurement of TRAIN; mean and scatter of all are taken; may be repeated"
-    group.add_argument("--repeat", type=Path, action="append", default=[], metavar="FILE", help=text)
-    text = "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg; may be repeated"
-    group.add_argument("--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text)
-    group.add_argument("--scale", type=float, metavar="X", help="multiply the response by X, such as the gain of the sensor")
-    text = "torque per current [Nm/A], or force per current [N/A] where the output is in m: results in SI units"
+    group.add_argument(
+        "--repeat", type=Path, action="append", default=[], metavar="FILE", help=text
+    )
+    text = (
+        "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg;"
+        " may be repeated"
+    )
+    group.add_argument(
+        "--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text
+    )
+    group.add_argument(
+        "--scale",
+        type=float,
+        metavar="X",
+        help="multiply the response by X, such as the gain of the sensor",
+    )
+    text = (
+        "torque per current [Nm/A], or force per current [N/A] where the output is in m: results in"
+        " SI units"
+    )
     group.add_argument("--torque-constant", type=float, metavar="K", help=text)
-    group.add_argument("--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]")
-    text = "sign of the sensor; auto takes what fits better among small and large candidates (default: +)"
+    group.add_argument(
+        "--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
+    )
+    text = (
+        "sign of the sensor; auto takes what fits better among small and large candidates"
+        " (default: +)"
+    )
     group.add_argument("--sign", choices=SIGNS, default="+", help=text)
 
 
 def _candidates(group: argparse._ArgumentGroup) -> None:
     """Which structures are fitted, and what is known of them."""
-    group.add_argument("--masses", type=_masses, default=(1, 2, 3, 4), metavar="N", help="3, 1-4 or 1,3 (default: 1-4)")
-    group.add_argument("--actuator", default="1", metavar="PORT", help="mass with the force: 2, last, or 1:3 (default: 1)")
-    group.add_argument("--sensor", default="1", metavar="PORT", help="mass that the sensor shows, likewise (default: 1)")
-    group.add_argument("--gap", type=int, default=0, metavar="I", help="no spring right of mass I (default: 0, the ground)")
-    group.add_argument("--family", action="store_true", help="force, sensor and gap anywhere: every chain of these sizes")
-    group.add_argument("--fix", type=_value, action="append", default=[], metavar="NAME=VALUE", help="a known parameter")
+    group.add_argument(
+        "--masses",
+        type=_masses,
+        default=(1, 2, 3, 4),
+        metavar="N",
+        help="3, 1-4 or 1,3 (default: 1-4)",
+    )
+    group.add_argument(
+        "--actuator",
+        default="1",
+        metavar="PORT",
+        help="mass with the force: 2, last, or 1:3 (default: 1)",
+    )
+    group.add_argument(
+        "--sensor",
+        default="1",
+        metavar="PORT",
+        help="mass that the sensor shows, likewise (default: 1)",
+    )
+    group.add_argument(
+        "--gap",
+        type=int,
+        default=0,
+        metavar="I",
+        help="no spring right of mass I (default: 0, the ground)",
+    )
+    group.add_argument(
+        "--family",
+        action="store_true",
+        help="force, sensor and gap anywhere: every chain of these sizes",
+    )
+    group.add_argument(
+        "--fix",
+        type=_value,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a known parameter",
+    )
     text = "range of a parameter; may be repeated"
-    group.add_argument("--bound", type=_bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text)
-    group.add_argument("--no-prune", action="store_true", help="fit indistinguishable candidates separately")
+    group.add_argument(
+        "--bound", type=_bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text
+    )
+    group.add_argument(
+        "--no-prune", action="store_true", help="fit indistinguishable candidates separately"
+    )
 
 
 def _choices(group: argparse._ArgumentGroup) -> None:
     """What is minimised, and what is admissible."""
-    group.add_argument("--case", type=int, choices=[1, 2, 3], default=3, help="cost function of the paper (default: 3)")
-    text = "of the frequency lines; auto: coherence for Welch's method (--read segment=..), else all alike (default: auto)"
+    group.add_argument(
+        "--case",
+        type=int,
+        choices=[1, 2, 3],
+        default=3,
+        help="cost function of the paper (default: 3)",
+    )
+    text = (
+        "of the frequency lines; auto: coherence for Welch's method (--read segment=..), else all"
+        " alike (default: auto)"
+    )
     group.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
-    group.add_argument("--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text)
-    text = "admissible: what the data determine (determined), or the paper's three criteria alone (default: determined)"
+    group.add_argument(
+        "--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text
+    )
+    text = (
+        "admissible: what the data determine (determined), or the paper's three criteria alone"
+        " (default: determined)"
+    )
     group.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
-    text = "how parameters are found; swarm is the paper's way, for comparison, and takes hours (default: starts)"
+    text = (
+        "how parameters are found; swarm is the paper's way, for comparison, and takes hours"
+        " (default: starts)"
+    )
     group.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
     group.add_argument("--seed", default="disting", help="of the few random starts")
 
@@ -74,34 +169,56 @@ def _choices(group: argparse._ArgumentGroup) -> None:
 def _output(group: argparse._ArgumentGroup) -> None:
     """Where results go."""
     group.add_argument(
-        "--out", type=written_folder, metavar="DIR", help="write a page, figures, tables, JSON and a .mat file there"
+        "--out",
+        type=written_folder,
+        metavar="DIR",
+        help="write a page, figures, tables, JSON and a .mat file there",
     )
-    group.add_argument("--profiles", action="store_true", help="with --out: a profile of every parameter of the selected model")
-    text = "with --out: folder that 'disting report' wrote, to which the page links its structures (default: if it lies beside)"
+    group.add_argument(
+        "--profiles",
+        action="store_true",
+        help="with --out: a profile of every parameter of the selected model",
+    )
+    text = (
+        "with --out: folder that 'disting report' wrote, to which the page links its structures"
+        " (default: if it lies beside)"
+    )
     group.add_argument("--site", type=_site, metavar="DIR", help=text)
-    group.add_argument("--json", type=written_file, metavar="FILE", help="write the selection as JSON; - is standard output")
+    group.add_argument(
+        "--json",
+        type=written_file,
+        metavar="FILE",
+        help="write the selection as JSON; - is standard output",
+    )
 
 
 def _site(text: str) -> Path:
     if not (Path(text) / "models").is_dir():
-        raise argparse.ArgumentTypeError(f"{shown(text)} holds no pages that 'disting report' wrote; name their folder")
+        raise argparse.ArgumentTypeError(
+            f"{shown(text)} holds no pages that 'disting report' wrote; name their folder"
+        )
     return Path(text)
 
 
 def _option(text: str) -> tuple[str, Any]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
-        raise argparse.ArgumentTypeError(f"an option is written like sampling_rate=2500, not {shown(text)}")
+        raise argparse.ArgumentTypeError(
+            f"an option is written like sampling_rate=2500, not {shown(text)}"
+        )
     if ".." in value:
         return name, _range(value)
-    parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))  # not at the comma of frf[2,1]
+    # not at the comma of frf[2,1]
+    parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))
     return name, parts if len(parts) > 1 else parts[0]
 
 
 def _unit(text: str) -> tuple[str, str]:
     name, equals, unit = text.partition("=")
     if not (equals and unit) or name not in UNITS:
-        raise argparse.ArgumentTypeError(f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}")
+        raise argparse.ArgumentTypeError(
+            f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}"
+        )
     return name, unit
 
 
@@ -135,13 +252,17 @@ def _value(text: str) -> tuple[str, float]:
     try:
         return name, float(value)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"a value is written like m1=0.02, not {shown(text)}") from None
+        raise argparse.ArgumentTypeError(
+            f"a value is written like m1=0.02, not {shown(text)}"
+        ) from None
 
 
 def _masses(text: str) -> tuple[int, ...]:
     match = re.fullmatch(r"([1-9])(?:-([1-9])|((?:,[1-9])*))", text)
     if not match or int(match[2] or 9) < int(match[1]):
-        raise argparse.ArgumentTypeError(f"numbers of masses are written like 3, 1-4 or 1,3, not {shown(text)}")
+        raise argparse.ArgumentTypeError(
+            f"numbers of masses are written like 3, 1-4 or 1,3, not {shown(text)}"
+        )
     if match[2]:
         return tuple(range(int(match[1]), int(match[2]) + 1))
     return tuple(sorted({int(n) for n in text.split(",")}))
@@ -153,5 +274,7 @@ def _thresholds(text: str) -> tuple[float, float, float]:
     except ValueError:
         first = second = third = -1.0
     if not all(limit > 0 for limit in (first, second, third)):
-        raise argparse.ArgumentTypeError(f"thresholds are written like 30,1000,20, all positive, not {shown(text)}")
+        raise argparse.ArgumentTypeError(
+            f"thresholds are written like 30,1000,20, all positive, not {shown(text)}"
+        )
     return first, second, third

@@ -21,7 +21,8 @@ def run(options: argparse.Namespace) -> int:
     """List the models of one size."""
     family = Family(options.masses, options.damped)
     with engine_for(options) as (engine, pool, progress):
-        plain = Engine(replace(engine.settings, subset_limit=0), engine.store)  # no dependences are shown, which are dear
+        # no dependences are shown, which are dear
+        plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
         profiles = plain.profiles_of(family, executor=pool, progress=progress)
         known = _identifiabilities(family, engine, pool, progress, options.identifiability)
     print(_table(family, profiles, known), end="")
@@ -29,7 +30,10 @@ def run(options: argparse.Namespace) -> int:
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
     print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters")
-    said = "1 identifiable, ∞ not, ? not known" + f", {NOT_ASKED} not asked (--identifiability asks)" * (not known)
+    said = (
+        "1 identifiable, ∞ not, ? not known"
+        + f", {NOT_ASKED} not asked (--identifiability asks)" * (not known)
+    )
     print(f"sets = parameter sets, real or complex, with the same behaviour: {said}")
     print(LEGEND)
     if options.identifiability:
@@ -43,16 +47,38 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifi
     from rich.console import Console
     from rich.table import Table
 
-    names = ("model", "gap", "act-", "act+", "meas-", "meas+", "degree", "free", "params", "rank", "sets", "drawing")
+    names = (
+        "model",
+        "gap",
+        "act-",
+        "act+",
+        "meas-",
+        "meas+",
+        "degree",
+        "free",
+        "params",
+        "rank",
+        "sets",
+        "drawing",
+    )
     table = Table(*names, box=None)
     sets = [_sets(found) for found in known] or [NOT_ASKED] * len(family)
     for number, (chain, profile, count) in enumerate(zip(family, profiles, sets, strict=True), 1):
         n, m = profile.degrees
-        numbers = (number, *chain.indices[1:], f"{n}/{m}", len(profile.form), profile.n_parameters, profile.rank)
+        numbers = (
+            number,
+            *chain.indices[1:],
+            f"{n}/{m}",
+            len(profile.form),
+            profile.n_parameters,
+            profile.rank,
+        )
         table.add_row(*map(str, numbers), count, text_drawing(chain).replace("[", r"\["))
     console = Console(highlight=False)
-    console.width = max(console.width, 74 + 8 * family.n_masses)  # drawings are not cut, they may run over
-    with console.capture() as text:  # printed by print, so that a closed pipe ends this command as it ends the others
+    # drawings are not cut, they may run over
+    console.width = max(console.width, 74 + 8 * family.n_masses)
+    # printed by print, so that a closed pipe ends this command as it ends the others
+    with console.capture() as text:
         console.print(table)
     return text.get()
 
@@ -60,10 +86,14 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifi
 def _identifiabilities(
     family: Family, engine: Engine, pool: Executor | None, progress: Progress, wanted: bool
 ) -> Sequence[Identifiability]:
-    """From the shipped catalogue where there is one; else, as that takes a second a model, where it is wanted."""
+    """From the shipped catalogue where there is one; else, as that takes a second a model,
+    where it is wanted.
+    """
     if family.n_masses in SHIPPED_SIZES:
         return [row.identifiability for row in catalog(family.n_masses, damped=family.damped).rows]
-    return engine.identifiabilities(list(family), executor=pool, progress=progress) if wanted else ()
+    return (
+        engine.identifiabilities(list(family), executor=pool, progress=progress) if wanted else ()
+    )
 
 
 def _sets(found: Identifiability) -> str:

@@ -1,4 +1,6 @@
-"""Files and folders to write to, looked at before the work begins, so that nothing is computed in vain."""
+"""Files and folders to write to, looked at before the work begins, so that nothing is computed
+in vain.
+"""
 
 import argparse
 import os
@@ -15,9 +17,13 @@ def written_file(text: str) -> str:
     if text == "-":
         return text
     if not text or "\0" in text or path.is_dir():
-        raise argparse.ArgumentTypeError(f"{text or 'an empty name'} is no file; name a file, or - for standard output")
+        raise argparse.ArgumentTypeError(
+            f"{text or 'an empty name'} is no file; name a file, or - for standard output"
+        )
     if not path.parent.is_dir():
-        raise argparse.ArgumentTypeError(f"there is no folder {path.parent}; make it first, or name another file")
+        raise argparse.ArgumentTypeError(
+            f"there is no folder {path.parent}; make it first, or name another file"
+        )
     if not os.access(path if path.exists() else path.parent, os.W_OK):
         raise argparse.ArgumentTypeError(f"{text} may not be written; name another file")
     return text

@@ -1,6 +1,8 @@
-"""Text for terminals and files that cannot hold every character, such as the code pages of Windows, or ASCII.
+"""Text for terminals and files that cannot hold every character, such as the code pages of
+Windows, or ASCII.
 
-What has no place there is written with signs that have: formulas stay readable, and no output ends in an error.
+What has no place there is written with signs that have: formulas stay readable, and no output ends
+in an error.
 """
 
 import codecs
@@ -11,9 +13,10 @@ from disting.errors import brief
 
 HANDLER = "disting.plain"
 PLAIN = {
-    "≠": "!=", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "←": "<-", "↔": "<->", "·": "*", "×": "x", "−": "-", "–": "-",
-    "—": "-", "±": "+-", "∞": "inf", "√": "sqrt", "∂": "d", "∃": "exists ", "∩": " and ", "∅": "{}", "⊂": "<", "⊆": "<=",
-    "…": "...", "Φ": "Phi", "ω": "omega", "ρ": "rho", "γ": "gamma", "δ": "delta", "κ": "kappa", "σ": "sigma", "Δ": "Delta",
+    "≠": "!=", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "←": "<-", "↔": "<->", "·": "*", "×": "x",
+    "−": "-", "–": "-", "—": "-", "±": "+-", "∞": "inf", "√": "sqrt", "∂": "d", "∃": "exists ",
+    "∩": " and ", "∅": "{}", "⊂": "<", "⊆": "<=", "…": "...", "Φ": "Phi", "ω": "omega", "ρ": "rho",
+    "γ": "gamma", "δ": "delta", "κ": "kappa", "σ": "sigma", "Δ": "Delta",
     "²": "^2", "³": "^3", "⁻": "^-", "¹": "1", "’": "'", "“": '"', "”": '"',
 }  # fmt: skip
 
@@ -27,7 +30,8 @@ def say_what_can_be_said() -> None:
 
 
 def in_ascii(text: str) -> str:
-    """The text in ASCII: a sign's usual substitute, a letter without its accent, else a question mark.
+    """The text in ASCII: a sign's usual substitute, a letter without its accent, else a question
+    mark.
 
     >>> in_ascii("rank ∂(G₁)/∂p = 6 ≠ 7, Gröbner, ☂")
     'rank d(G1)/dp = 6 != 7, Grobner, ?'
@@ -36,7 +40,9 @@ def in_ascii(text: str) -> str:
 
 
 def complain(message: object) -> None:
-    """Write one line to standard error, printable, and shortened in its middle where somebody gave very much to quote."""
+    """Write one line to standard error, printable, and shortened in its middle where somebody
+    gave very much to quote.
+    """
     print(f"disting: {brief(str(message))}".replace("\n", " "), file=sys.stderr)
 
 

@@ -30,13 +30,22 @@ def run(options: argparse.Namespace) -> int:
         return 0
     choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
     with engine_for(options) as (engine, pool, progress):
-        catalogs = [_catalog(n, damped, engine, pool, progress) for n in options.masses for damped in choices]
+        catalogs = [
+            _catalog(n, damped, engine, pool, progress)
+            for n in options.masses
+            for damped in choices
+        ]
     paths = list(_together(options, choices))
-    with_dampers = [damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices]
+    with_dampers = [
+        damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices
+    ]
     paths += write_report(catalogs, options.out, with_dampers)
     for c in catalogs:
         relations = relations_in_words(v.relation for *_, v in c.pairs())
-        print(f"{c.name}, over positive parameters: {relations}; {len(c.classes())} groups of indistinguishable models")
+        print(
+            f"{c.name}, over positive parameters: {relations}; {len(c.classes())} groups of"
+            " indistinguishable models"
+        )
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
     return 0
 
@@ -45,10 +54,13 @@ def _together(options: argparse.Namespace, choices: Sequence[bool]) -> Iterator[
     """Write the pages of several sizes, and yield their paths."""
     from disting.report.sizes import write_sizes
 
-    sizes = range(1, MOST_TOGETHER + 1)  # whichever are asked for: the pages are the same in every run
+    # whichever are asked for: the pages are the same in every run
+    sizes = range(1, MOST_TOGETHER + 1)
     for damped in choices if len(set(options.masses).intersection(sizes)) > 1 else []:
         with engine_for(options) as (engine, pool, progress):
-            decided = combined(sizes, damped=damped, engine=engine, executor=pool, progress=progress)
+            decided = combined(
+                sizes, damped=damped, engine=engine, executor=pool, progress=progress
+            )
         yield write_sizes(decided, options.out)
 
 
@@ -63,11 +75,16 @@ def _paper(options: argparse.Namespace) -> None:
         paths = write_paper(Findings(engine, pool, progress), options.out / "paper")
     counts = Counter(claim.outcome for claim in CLAIMS)
     agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
-    print(f"{len(CLAIMS)} claims of the paper: {agree} agree, {differ} differ, {unchecked} cannot be checked")
+    print(
+        f"{len(CLAIMS)} claims of the paper: {agree} agree, {differ} differ, {unchecked} cannot be"
+        " checked"
+    )
     print(f"{len(paths)} files in {options.out / 'paper'}; open {paths[0]}")
 
 
-def _catalog(n: int, damped: bool, engine: Engine, pool: Executor | None, progress: Progress) -> Catalog:
+def _catalog(
+    n: int, damped: bool, engine: Engine, pool: Executor | None, progress: Progress
+) -> Catalog:
     """The shipped catalogue, or a new one where none is shipped."""
     from disting.catalogs.build import build
 

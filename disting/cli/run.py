@@ -19,12 +19,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     say_what_can_be_said()
     with open(os.devnull, "w", encoding="utf-8") as nowhere, warnings.catch_warnings():
         warnings.showwarning = _warned
-        with redirect_stdout(sys.stdout or nowhere), redirect_stderr(sys.stderr or nowhere):  # the shell may have closed them
+        # the shell may have closed them
+        with redirect_stdout(sys.stdout or nowhere), redirect_stderr(sys.stderr or nowhere):
             return _run(arguments)
 
 
 def _fill_closed_streams() -> None:
-    """A file that is opened, such as the cache, must not get the number of a stream that libraries write to."""
+    """A file that is opened, such as the cache, must not get the number of a stream that
+    libraries write to.
+    """
     for number in (0, 1, 2):
         try:
             os.fstat(number)

@@ -14,13 +14,35 @@ QUANTITIES = [s.value for s in Sensor]
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Everything but --damped."""
-    text = "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the ground; +lag; +delay"
-    p.add_argument("model", nargs="?", metavar="N:I", help=f"{text} (default: a small two-mass drive)")
+    text = (
+        "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the"
+        " ground; +lag; +delay"
+    )
+    p.add_argument(
+        "model", nargs="?", metavar="N:I", help=f"{text} (default: a small two-mass drive)"
+    )
     text = "values of all parameters of the model, such as m1=0.01,k12=500"
-    p.add_argument("--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text)
-    p.add_argument("--sensor", choices=QUANTITIES, default="position", help="what the sensor shows (default: position)")
-    p.add_argument("--to", choices=QUANTITIES, default="acceleration", help="what the response shows (default: acceleration)")
-    p.add_argument("--excitation", choices=KINDS, default="schroeder", help="test signal (default: a Schroeder multisine)")
+    p.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
+    )
+    p.add_argument(
+        "--sensor",
+        choices=QUANTITIES,
+        default="position",
+        help="what the sensor shows (default: position)",
+    )
+    p.add_argument(
+        "--to",
+        choices=QUANTITIES,
+        default="acceleration",
+        help="what the response shows (default: acceleration)",
+    )
+    p.add_argument(
+        "--excitation",
+        choices=KINDS,
+        default="schroeder",
+        help="test signal (default: a Schroeder multisine)",
+    )
     for name, value, text in (
         ("low", 10.0, "lowest excited frequency [Hz]"),
         ("high", 250.0, "highest excited frequency [Hz]"),
@@ -30,17 +52,27 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
         ("quantum", 0.0, "step of the sensor"),
     ):
-        p.add_argument(f"--{name}", type=float, default=value, metavar="X", help=f"{text} (default: {value:g})")
+        p.add_argument(
+            f"--{name}", type=float, default=value, metavar="X", help=f"{text} (default: {value:g})"
+        )
     for name, whole, text in (
         ("samples", 2500, "samples of a period"),
         ("periods", 20, "periods"),
         ("seed", 0, "seed of noise and phases"),
     ):
-        p.add_argument(f"--{name}", type=int, default=whole, metavar="K", help=f"{text} (default: {whole})")
+        p.add_argument(
+            f"--{name}", type=int, default=whole, metavar="K", help=f"{text} (default: {whole})"
+        )
     text = "Coulomb friction of a mass, such as 1=0.3; may be repeated (default: none)"
-    p.add_argument("--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text)
     p.add_argument(
-        "--csv", type=written_file, metavar="FILE", default="-", help="where the response goes (default: standard output)"
+        "--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text
+    )
+    p.add_argument(
+        "--csv",
+        type=written_file,
+        metavar="FILE",
+        default="-",
+        help="where the response goes (default: standard output)",
     )
 
 
@@ -67,7 +99,10 @@ def run(options: argparse.Namespace) -> int:
     emitted(options.csv, text)
     if options.csv == "-":
         return 0
-    print(f"{len(response)} lines from {response.frequency[0]:g} to {response.frequency[-1]:g} Hz in {options.csv}")
+    print(
+        f"{len(response)} lines from {response.frequency[0]:g} to {response.frequency[-1]:g} Hz in"
+        f" {options.csv}"
+    )
     return 0
 
 
@@ -90,4 +125,6 @@ def _friction(text: str) -> tuple[int, float]:
     try:
         return int(mass), float(force)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"friction is written like 1=0.3, not {shown(text)}") from None
+        raise argparse.ArgumentTypeError(
+            f"friction is written like 1=0.3, not {shown(text)}"
+        ) from None

@@ -5,7 +5,14 @@ from itertools import combinations
 
 from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
-from disting.cli.common import VIEWS, emitted, joint_in_words, query, relations_in_words, rules_in_words
+from disting.cli.common import (
+    VIEWS,
+    emitted,
+    joint_in_words,
+    query,
+    relations_in_words,
+    rules_in_words,
+)
 from disting.cli.work import engine_for
 from disting.engine import Decisions, family_safety
 from disting.errors import InputError
@@ -17,7 +24,9 @@ from disting.proof import prove_all
 def run(options: argparse.Namespace) -> int:
     """Decide all pairs of one size, or of several."""
     if options.csv == options.json == "-":
-        raise InputError("one of --csv and --json can be standard output, not both: name a file for the other")
+        raise InputError(
+            "one of --csv and --json can be standard output, not both: name a file for the other"
+        )
     asked = query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
     named = combined_family(options.masses, damped=options.damped, sensor=Sensor(options.sensor))
     if len(options.masses) == 1:
@@ -37,13 +46,25 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _summary(decided: Decisions) -> str:
-    """How many pairs are what, and by which rule; of several sizes, how many smaller models lie in larger ones."""
+    """How many pairs are what, and by which rule; of several sizes, how many smaller models lie
+    in larger ones.
+    """
     pairs = list(combinations(range(len(decided.subjects)), 2))
-    head = f"{len(decided.subjects)} models, {len(pairs)} pairs, over {decided.query.view.domain} parameters"
+    head = (
+        f"{len(decided.subjects)} models, {len(pairs)} pairs, over {decided.query.view.domain}"
+        " parameters"
+    )
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
-    told = f"{head}: {relations}\ndecided: {rules_in_words(decided.counts(), decided.query.view.domain)}"
+    told = (
+        f"{head}: {relations}\ndecided:"
+        f" {rules_in_words(decided.counts(), decided.query.view.domain)}"
+    )
     inside = sum(_lies_in_larger(decided, i, j) for i, j in decided.inclusions)
-    limits = f"\nover complex parameters: {inside} smaller models are limits of larger ones" if inside else ""
+    limits = (
+        f"\nover complex parameters: {inside} smaller models are limits of larger ones"
+        if inside
+        else ""
+    )
     return f"{told}{limits}\n{joint_in_words(family_safety(decided))}"
 
 

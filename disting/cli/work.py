@@ -25,10 +25,14 @@ def cores() -> int:
 
 @contextmanager
 def engine_for(options: argparse.Namespace) -> Iterator[tuple[Engine, Executor | None, Progress]]:
-    """Engine with the user's store, workers as asked, and a progress bar on a terminal's standard error."""
+    """Engine with the user's store, workers as asked, and a progress bar on a terminal's
+    standard error.
+    """
     with ExitStack() as stack:
         store = stack.enter_context(Store.open("" if getattr(options, "no_cache", False) else None))
-        pool = stack.enter_context(executor(getattr(options, "jobs", 1), getattr(options, "scheduler", "")))
+        pool = stack.enter_context(
+            executor(getattr(options, "jobs", 1), getattr(options, "scheduler", ""))
+        )
         yield Engine(store=store), pool, stack.enter_context(_progress())
 
 
@@ -50,7 +54,9 @@ def _seconds(text: str) -> float:
     except ValueError:
         seconds = 0.0
     if not 0 < seconds <= TIMEOUT_MAX:
-        raise InputError(f"{VARIABLE} is off, or the seconds between two lines such as 60, not {shown(text)}")
+        raise InputError(
+            f"{VARIABLE} is off, or the seconds between two lines such as 60, not {shown(text)}"
+        )
     return seconds
 
 
@@ -70,7 +76,9 @@ def _bars() -> Iterator[Progress]:
 
 
 def _lines(pause: float) -> Iterator[Progress]:
-    """For logs and pipes: what is done is told by a thread of its own, since one step may take long."""
+    """For logs and pipes: what is done is told by a thread of its own, since one step may take
+    long.
+    """
     begun, ended, last = monotonic(), Event(), ["working"]
 
     def advance(what: str, done: int, total: int) -> None:

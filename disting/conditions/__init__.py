@@ -1,4 +1,6 @@
-"""The rules that may decide a pair: the conditions of the paper, and the questions that follow them."""
+"""The rules that may decide a pair: the conditions of the paper, and the questions that follow
+them.
+"""
 
 from disting.conditions.finding import Finding as Finding
 from disting.conditions.finding import Outcome as Outcome

@@ -1,4 +1,6 @@
-"""Findings of the exact decision as JSON text and back, for a cache and for files of settled decisions."""
+"""Findings of the exact decision as JSON text and back, for a cache and for files of settled
+decisions.
+"""
 
 import json
 
@@ -8,7 +10,9 @@ from disting.conditions.rule import EXACT
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 
-WRITTEN = 10  # what the files have in the place of the rule: the exact decision comes after the nine conditions of the paper
+# what the files have in the place of the rule: the exact decision comes after the nine conditions
+# of the paper
+WRITTEN = 10
 
 
 def finding_to_json(finding: Finding) -> str:
@@ -23,4 +27,11 @@ def finding_from_json(text: str) -> Finding:
     written, outcome, certainty, safety, evidence, note = json.loads(text)
     if written != WRITTEN:
         raise ValueError("not a finding of the exact decision")
-    return Finding(EXACT, Outcome(outcome), Certainty(certainty), safety, evidence_from(evidence) if evidence else None, note)
+    return Finding(
+        EXACT,
+        Outcome(outcome),
+        Certainty(certainty),
+        safety,
+        evidence_from(evidence) if evidence else None,
+        note,
+    )

@@ -9,7 +9,8 @@ from disting.evidence.kinds import Evidence
 
 
 class Outcome(StrEnum):
-    """A condition holds, fails, does not apply to this pair or representation, or was given up at a limit.
+    """A condition holds, fails, does not apply to this pair or representation, or was given up at
+    a limit.
 
     SOMETIMES: it holds for some parameter values and fails for others.
     """
@@ -23,9 +24,11 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Outcome of a rule; with BOUNDED the probability of error is at most 2**-safety. `note` says why not.
+    """Outcome of a rule; with BOUNDED the probability of error is at most 2**-safety. `note` says
+    why not.
 
-    A bounded outcome whose bound does not reach 2**-LEAST_SAFETY becomes ABANDONED, whoever makes the finding.
+    A bounded outcome whose bound does not reach 2**-LEAST_SAFETY becomes ABANDONED, whoever makes
+    the finding.
     """
 
     rule: Rule
@@ -38,7 +41,12 @@ class Finding:
     def __post_init__(self) -> None:
         lacking = shortfall(self.certainty, self.safety)
         if lacking:
-            given_up = {"outcome": Outcome.ABANDONED, "certainty": Certainty.PROVEN, "safety": 0, "evidence": None}
+            given_up = {
+                "outcome": Outcome.ABANDONED,
+                "certainty": Certainty.PROVEN,
+                "safety": 0,
+                "evidence": None,
+            }
             for name, value in (given_up | {"note": lacking}).items():
                 object.__setattr__(self, name, value)
 

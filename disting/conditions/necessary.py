@@ -1,7 +1,8 @@
-"""Conditions 1 to 5 (section 4.1): necessary for indistinguishability, so one that fails proves the pair distinguishable.
+"""Conditions 1 to 5 (section 4.1): necessary for indistinguishability, so one that fails proves
+the pair distinguishable.
 
-Each compares one property of two profiles. The property is a function of one model alone, so it also sorts a whole family
-into buckets. That a condition holds proves nothing.
+Each compares one property of two profiles. The property is a function of one model alone, so it
+also sorts a whole family into buckets. That a condition holds proves nothing.
 """
 
 from collections.abc import Hashable
@@ -16,15 +17,23 @@ from disting.invariants.profile import Profile, Unsearched
 from disting.invariants.sample import Representation
 
 INVARIANTS = Rule("1", Role.NECESSARY, "number of invariants", "equally many moment invariants")
-DEGREES = Rule("2", Role.NECESSARY, "degrees", "equally many numerator and denominator coefficients")
+DEGREES = Rule(
+    "2", Role.NECESSARY, "degrees", "equally many numerator and denominator coefficients"
+)
 FORM = Rule("3", Role.NECESSARY, "symbolic form", "the same invariants are constant")
 RANK = Rule("4", Role.NECESSARY, "generic rank", "equally many determinable parameters")
-DEPENDENCES = Rule("5", Role.NECESSARY, "dependences", "the same sets of invariants are independent")
-NO_DEGREES = "Markov parameters have no numerator and denominator, and equally many of them are compared"
+DEPENDENCES = Rule(
+    "5", Role.NECESSARY, "dependences", "the same sets of invariants are independent"
+)
+NO_DEGREES = (
+    "Markov parameters have no numerator and denominator, and equally many of them are compared"
+)
 
 
 def number_of_invariants(profile: Profile) -> Hashable:
-    """N_MI = n + m + 1 by degree, zero coefficients included; the fixed leading one is not counted."""
+    """N_MI = n + m + 1 by degree, zero coefficients included; the fixed leading one is not
+    counted.
+    """
     return sum(profile.degrees) + 1 if profile.representation is Representation.TF else 0
 
 
@@ -50,18 +59,26 @@ def dependences(profile: Profile) -> Hashable:
 
 def condition_1(left: Profile, right: Profile) -> Finding:
     """Cond. 1: "The same number of moment invariants N_MI exist." Counted by polynomial degree."""
-    return _by_degree(INVARIANTS, left, right, number_of_invariants(left) == number_of_invariants(right))
+    return _by_degree(
+        INVARIANTS, left, right, number_of_invariants(left) == number_of_invariants(right)
+    )
 
 
 def condition_2(left: Profile, right: Profile) -> Finding:
-    """Cond. 2: "The same number of coefficients exist in numerator n and denominator m in both models." """
-    return _by_degree(DEGREES, left, right, numbers_of_coefficients(left) == numbers_of_coefficients(right))
+    """Cond. 2: "The same number of coefficients exist in numerator n and denominator m in both
+    models."
+    """
+    return _by_degree(
+        DEGREES, left, right, numbers_of_coefficients(left) == numbers_of_coefficients(right)
+    )
 
 
 def condition_3(left: Profile, right: Profile) -> Finding:
-    """Cond. 3: "Both sets of moment invariants have the same symbolic form", zeros for constants, ones for the others.
+    """Cond. 3: "Both sets of moment invariants have the same symbolic form", zeros for constants,
+    ones for the others.
 
-    Values of constants do not enter here (condition 7 asks for them); an invariant that one model lacks is constant there.
+    Values of constants do not enter here (condition 7 asks for them); an invariant that one model
+    lacks is constant there.
     """
     if left.form == right.form:
         return Finding(FORM, Outcome.HOLDS)
@@ -70,17 +87,25 @@ def condition_3(left: Profile, right: Profile) -> Finding:
 
 
 def condition_4(left: Profile, right: Profile) -> Finding:
-    """Cond. 4: "The rank N_R of the Jacobian matrix J = dPhi/dp of the moment invariants is the same for both models." """
+    """Cond. 4: "The rank N_R of the Jacobian matrix J = dPhi/dp of the moment invariants is the
+    same for both models."
+    """
     if left.rank == right.rank:
-        return Finding(RANK, Outcome.HOLDS, *graded(left.rank_proven and right.rank_proven, _safety(left, right)))
+        return Finding(
+            RANK,
+            Outcome.HOLDS,
+            *graded(left.rank_proven and right.rank_proven, _safety(left, right)),
+        )
     evidence = Ranks(left.labels, left.rank, right.rank, all_rows=True)
     return Finding(RANK, Outcome.FAILS, *rank_grade(left, right), evidence)
 
 
 def condition_5(left: Profile, right: Profile) -> Finding:
-    """Cond. 5: "The same linear dependencies among moment invariants exist": equal largest independent row sets.
+    """Cond. 5: "The same linear dependencies among moment invariants exist": equal largest
+    independent row sets.
 
-    These sets are the bases of a matroid, compared by its canonical form. Constant invariants (zero rows) are left out.
+    These sets are the bases of a matroid, compared by its canonical form. Constant invariants
+    (zero rows) are left out.
     """
     if left.form != right.form or left.rank != right.rank:
         return Finding(DEPENDENCES, Outcome.INAPPLICABLE, note="condition 3 or 4 fails")
@@ -88,25 +113,35 @@ def condition_5(left: Profile, right: Profile) -> Finding:
         reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, Unsearched)]
         return Finding(DEPENDENCES, Outcome.ABANDONED, note=reasons[0])
     one, other = _restricted(left, left.matroid), _restricted(right, right.matroid)
-    outcome, evidence = (Outcome.HOLDS, None) if one == other else (Outcome.FAILS, _unequal_rows(left, one, other))
+    outcome, evidence = (
+        (Outcome.HOLDS, None) if one == other else (Outcome.FAILS, _unequal_rows(left, one, other))
+    )
     return Finding(DEPENDENCES, outcome, *dependence_grade(left, right), evidence)
 
 
 def degree_grade(left: Profile, right: Profile) -> Grade:
-    """Degrees are exact: a leading coefficient that is not zero at a point is not zero, nor is a resultant."""
+    """Degrees are exact: a leading coefficient that is not zero at a point is not zero, nor is
+    a resultant.
+    """
     return graded(True, 0)
 
 
 def form_grade(left: Profile, right: Profile) -> Grade:
-    """Proven where some invariant varies in one model and provably vanishes in the other; a dead time is a theorem's."""
+    """Proven where some invariant varies in one model and provably vanishes in the other; a
+    dead time is a theorem's.
+    """
     if ("Td" in left.labels) != ("Td" in right.labels):
         return Certainty.THEOREM, 0
-    proven = any(_surely_constant(b, x) for a, b in ((left, right), (right, left)) for x in a.form - b.form)
+    proven = any(
+        _surely_constant(b, x) for a, b in ((left, right), (right, left)) for x in a.form - b.form
+    )
     return graded(proven, _safety(left, right))
 
 
 def rank_grade(left: Profile, right: Profile) -> Grade:
-    """A rank seen at a point is a lower bound for certain; only the smaller of two could be too small by chance."""
+    """A rank seen at a point is a lower bound for certain; only the smaller of two could be too
+    small by chance.
+    """
     return graded(min((left, right), key=lambda p: p.rank).rank_proven, _safety(left, right))
 
 
@@ -116,16 +151,22 @@ def dependence_grade(left: Profile, right: Profile) -> Grade:
 
 
 def _restricted(profile: Profile, shape: Matroid) -> Matroid:
-    """The matroid on the free rows only, numbered anew, so that summaries with other constants compare."""
+    """The matroid on the free rows only, numbered anew, so that summaries with other constants
+    compare.
+    """
     if all(profile.free):
         return shape
-    return shape.relabelled({row: i for i, row in enumerate(r for r, free in enumerate(profile.free) if free)})
+    return shape.relabelled(
+        {row: i for i, row in enumerate(r for r, free in enumerate(profile.free) if free)}
+    )
 
 
 def _unequal_rows(left: Profile, one: Matroid, other: Matroid) -> Evidence:
     labels = _ordered(left, left.form)
     rows = separating_rows(one, other)
-    return Ranks(tuple(labels[i] for i in rows), rank_in(one, rows), rank_in(other, rows), all_rows=False)
+    return Ranks(
+        tuple(labels[i] for i in rows), rank_in(one, rows), rank_in(other, rows), all_rows=False
+    )
 
 
 def _by_degree(rule: Rule, left: Profile, right: Profile, equal: bool) -> Finding:

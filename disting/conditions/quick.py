@@ -1,7 +1,8 @@
-"""The exact decision at little cost, for classes of thousands of models: theorems, then one fibre by the synthesis.
+"""The exact decision at little cost, for classes of thousands of models: theorems, then one fibre
+by the synthesis.
 
-What takes longer than SECONDS is given up, and the pair is left undecided; that is many times what the dearest pair of the
-shipped families takes, so that runs repeat.
+What takes longer than SECONDS is given up, and the pair is left undecided; that is many times what
+the dearest pair of the shipped families takes, so that runs repeat.
 """
 
 import signal
@@ -24,7 +25,8 @@ from disting.question import Question
 from disting.settings import Settings
 
 SECONDS = 60.0
-LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=100)  # the work is limited long before the time
+# the work is limited long before the time
+LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=100)
 
 
 class _OutOfTime(Exception):
@@ -32,7 +34,9 @@ class _OutOfTime(Exception):
 
 
 def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What is cheap of `exact_finding`, for chains of equal rank and size without dead time; ABANDONED where it is silent."""
+    """What is cheap of `exact_finding`, for chains of equal rank and size without dead time;
+    ABANDONED where it is silent.
+    """
     named = theorem(a, b)
     if named:
         return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
@@ -43,23 +47,37 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         with _limited(SECONDS):
             found = by_synthesis(a, b, settings)
     except _OutOfTime:
-        return Finding(EXACT, Outcome.ABANDONED, note=f"the synthesis takes more than {SECONDS:g} s")
-    return Finding(EXACT, Outcome.ABANDONED, note="the synthesis proves nothing") if found is None else found
+        return Finding(
+            EXACT, Outcome.ABANDONED, note=f"the synthesis takes more than {SECONDS:g} s"
+        )
+    return (
+        Finding(EXACT, Outcome.ABANDONED, note="the synthesis proves nothing")
+        if found is None
+        else found
+    )
 
 
 def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What the ideals of the fibre say, in seconds to a minute: where the synthesis has no method."""
+    """What the ideals of the fibre say, in seconds to a minute: where the synthesis has no
+    method.
+    """
     return by_ideals(a, b, settings, LIMITS)
 
 
 def sharing_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """What the shares of the numerator's roots refute, in a second to some minutes."""
     found = by_shares(a, b, settings)
-    return Finding(EXACT, Outcome.ABANDONED, note="the shares refute nothing") if found is None else found
+    return (
+        Finding(EXACT, Outcome.ABANDONED, note="the shares refute nothing")
+        if found is None
+        else found
+    )
 
 
 def settled_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Nothing: what was settled once is told to the engine before it is asked (see `catalogs.damper_settled`)."""
+    """Nothing: what was settled once is told to the engine before it is asked (see
+    `catalogs.damper_settled`).
+    """
     return Finding(EXACT, Outcome.ABANDONED, note="not settled")
 
 
@@ -78,11 +96,14 @@ INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile
 
 @contextmanager
 def _limited(seconds: float) -> Iterator[None]:
-    """Raise _OutOfTime in the block after so many seconds of this process, whatever else the machine does.
+    """Raise _OutOfTime in the block after so many seconds of this process, whatever else the
+    machine does.
 
     Without effect outside a main thread and where there is no timer.
     """
-    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
+    if threading.current_thread() is not threading.main_thread() or not hasattr(
+        signal, "setitimer"
+    ):
         yield
         return
 

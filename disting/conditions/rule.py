@@ -1,7 +1,8 @@
 """What may decide a pair: every rule once, with its role and its words.
 
-A rule is one of the conditions (their table is `conditions.table`) or one of the two questions that follow them. What an
-outcome proves follows from the role alone, so that nothing else knows how many conditions there are, or in what order.
+A rule is one of the conditions (their table is `conditions.table`) or one of the two questions
+that follow them. What an outcome proves follows from the role alone, so that nothing else knows
+how many conditions there are, or in what order.
 """
 
 from dataclasses import dataclass
@@ -13,9 +14,10 @@ from disting.domain import Domain
 class Role(StrEnum):
     """What a rule can prove, and on what it is asked.
 
-    NECESSARY: a property of both profiles that indistinguishable models share, so that where it fails they are distinguishable.
-    SUFFICIENT, STRUCTURAL: where it holds they are indistinguishable; asked of two summaries, or of two structures.
-    DECISION: either, by what is found.
+    NECESSARY: a property of both profiles that indistinguishable models share, so that where it
+    fails they are distinguishable. SUFFICIENT, STRUCTURAL: where it holds they are
+    indistinguishable; asked of two summaries, or of two structures. DECISION: either, by what is
+    found.
     """
 
     NECESSARY = "necessary"
@@ -28,8 +30,9 @@ class Role(StrEnum):
 class Rule:
     """`name` in data and tables; `title`: what it looks at; `text`: what holds then.
 
-    `phrase` is how sentences name it, with {domain} for the parameters that are spoken of, and `mark` is what a field of a
-    matrix shows; without them it is "condition NAME", marked by its name.
+    `phrase` is how sentences name it, with {domain} for the parameters that are spoken of, and
+    `mark` is what a field of a matrix shows; without them it is "condition NAME", marked by its
+    name.
     """
 
     name: str

@@ -1,8 +1,9 @@
 """Conditions 8 and 9 (section 4.4): sufficient, from the model structure.
 
-Why they are sound: setting the missing elements to zero carries the larger model's transfer function into the smaller one's,
-so the set of behaviours of the submodel lies in the closure of the other's. Both closures are irreducible; of equal dimension
-(number of determinable parameters) they are equal.
+Why they are sound: setting the missing elements to zero carries the larger model's transfer
+function into the smaller one's, so the set of behaviours of the submodel lies in the closure of
+the other's. Both closures are irreducible; of equal dimension (number of determinable parameters)
+they are equal.
 """
 
 from dataclasses import replace
@@ -15,16 +16,26 @@ from disting.evidence.conditions import Embedding, Supermodel
 from disting.invariants.profile import Profile, profile
 from disting.invariants.sample import Representation
 
-SUBMODEL = Rule("8", Role.STRUCTURAL, "submodel", "one model is a part of the other, with equal rank")
-SUPERMODEL = Rule("9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank")
+SUBMODEL = Rule(
+    "8", Role.STRUCTURAL, "submodel", "one model is a part of the other, with equal rank"
+)
+SUPERMODEL = Rule(
+    "9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank"
+)
 
 
 def condition_8(left: Subject, right: Subject) -> Finding:
-    """Cond. 8: "One model is a submodel of the other and both have the same number of determinable parameters. Submodel means
-    that model structures are identical except for missing elements such as springs, dampers and masses." """
+    """Cond. 8: "One model is a submodel of the other and both have the same number of determinable
+    parameters. Submodel means that model structures are identical except for missing elements such
+    as springs, dampers and masses."
+    """
     sides = (left.chain.structure, right.chain.structure)
     if len(sides[0].elements) == len(sides[1].elements):
-        return Finding(SUBMODEL, Outcome.INAPPLICABLE, note="neither is a submodel: both have equally many elements")
+        return Finding(
+            SUBMODEL,
+            Outcome.INAPPLICABLE,
+            note="neither is a submodel: both have equally many elements",
+        )
     left_is_part = len(sides[0].elements) < len(sides[1].elements)
     part, whole = sides if left_is_part else sides[::-1]
     numbering = next(part.embeddings(whole), None)
@@ -32,26 +43,44 @@ def condition_8(left: Subject, right: Subject) -> Finding:
         return Finding(SUBMODEL, Outcome.INAPPLICABLE, note="neither is a submodel of the other")
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
     if profiles[0].rank != profiles[1].rank:
-        return Finding(SUBMODEL, Outcome.FAILS, note=f"{profiles[0].rank} and {profiles[1].rank} determinable parameters")
+        return Finding(
+            SUBMODEL,
+            Outcome.FAILS,
+            note=f"{profiles[0].rank} and {profiles[1].rank} determinable parameters",
+        )
     evidence = Embedding(left_is_part, tuple(sorted(numbering.items())), profiles[0].rank)
     return Finding(SUBMODEL, Outcome.HOLDS, *_grade(profiles), evidence)
 
 
 def condition_9(left: Subject, right: Subject) -> Finding:
-    """Cond. 9: "The two models are submodels of a third model and all three models have the same number of determinable
-    parameters." The third model has the elements of both; force and sensor must be at the same places."""
+    """Cond. 9: "The two models are submodels of a third model and all three models have the same
+    number of determinable parameters." The third model has the elements of both; force and sensor
+    must be at the same places.
+    """
     a, b = left.chain.structure, right.chain.structure
     if (a.ports, a.sensor_order, a.dead_time) != (b.ports, b.sensor_order, b.dead_time):
-        return Finding(SUPERMODEL, Outcome.INAPPLICABLE, note="force or sensor differ, so no common supermodel keeps both")
+        return Finding(
+            SUPERMODEL,
+            Outcome.INAPPLICABLE,
+            note="force or sensor differ, so no common supermodel keeps both",
+        )
     third = a.united(b)
     if third in (a, b):
-        return Finding(SUPERMODEL, Outcome.INAPPLICABLE, note="one is a submodel of the other (condition 8)")
+        return Finding(
+            SUPERMODEL, Outcome.INAPPLICABLE, note="one is a submodel of the other (condition 8)"
+        )
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
     profiles.append(profile(third, Representation.TF, 0, replace(left.settings, subset_limit=0)))
     ranks = [p.rank for p in profiles]
     if len(set(ranks)) > 1:
-        return Finding(SUPERMODEL, Outcome.FAILS, note=f"{ranks[0]}, {ranks[1]} and {ranks[2]} determinable parameters")
-    return Finding(SUPERMODEL, Outcome.HOLDS, *_grade(profiles), Supermodel(third.parameters, ranks[0]))
+        return Finding(
+            SUPERMODEL,
+            Outcome.FAILS,
+            note=f"{ranks[0]}, {ranks[1]} and {ranks[2]} determinable parameters",
+        )
+    return Finding(
+        SUPERMODEL, Outcome.HOLDS, *_grade(profiles), Supermodel(third.parameters, ranks[0])
+    )
 
 
 def _grade(profiles: list[Profile]) -> Grade:

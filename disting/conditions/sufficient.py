@@ -1,4 +1,6 @@
-"""Conditions 6 and 7 (section 4.1): sufficient for indistinguishability on open sets of the complex parameter space."""
+"""Conditions 6 and 7 (section 4.1): sufficient for indistinguishability on open sets of the
+complex parameter space.
+"""
 
 from itertools import islice
 
@@ -11,33 +13,44 @@ from disting.evidence.conditions import FreeChoice, Renaming
 from disting.invariants.expanded import is_renaming
 from disting.invariants.profile import Profile
 
-RENAMING = Rule("6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical")
-FREE_CHOICE = Rule("7", Role.SUFFICIENT, "free choice", "as many determinable parameters as non-constant invariants")
+RENAMING = Rule(
+    "6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical"
+)
+FREE_CHOICE = Rule(
+    "7",
+    Role.SUFFICIENT,
+    "free choice",
+    "as many determinable parameters as non-constant invariants",
+)
 INCOMPLETE = "fewer than N_S1 + N_S2 Markov parameters are not exhaustive"
 CANDIDATES = 50  # of a renaming that are verified; a colouring leaves one or two in practice
 
 
 def condition_6(left: Subject, right: Subject, exhaustive: bool) -> Finding:
-    """Cond. 6: "A renaming and permutation scheme for the parameters of the first model exists so that the moment invariants
-    are identical to those of the second model in symbolic form and vice versa."
+    """Cond. 6: "A renaming and permutation scheme for the parameters of the first model exists so
+    that the moment invariants are identical to those of the second model in symbolic form and vice
+    versa."
 
-    Symmetries of the class first (a theorem), then a search whose result is proven by expanding both transfer functions.
+    Symmetries of the class first (a theorem), then a search whose result is proven by expanding
+    both transfer functions.
     """
     if not exhaustive:
         return Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
     if left.canonical.chain == right.canonical.chain:
-        return Finding(RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=_by_symmetry(left, right))
+        return Finding(
+            RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=_by_symmetry(left, right)
+        )
     if left.colouring.fingerprint != right.colouring.fingerprint:
         return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
     return _searched(left, right)
 
 
 def condition_7(left: Profile, right: Profile) -> Finding:
-    """Cond. 7: "The two models have as many determinable parameters as non-constant moment invariants and the constant moment
-    invariants are identical across the two models."
+    """Cond. 7: "The two models have as many determinable parameters as non-constant moment
+    invariants and the constant moment invariants are identical across the two models."
 
-    Full row rank at one point proves the first part. Constants are compared as the numbers that they are proven to be, never
-    by residues, so that what holds is proven.
+    Full row rank at one point proves the first part. Constants are compared as the numbers that
+    they are proven to be, never by residues, so that what holds is proven.
     """
     if not left.describes_all(right):
         return Finding(FREE_CHOICE, Outcome.INAPPLICABLE, note=INCOMPLETE)
@@ -47,12 +60,19 @@ def condition_7(left: Profile, right: Profile) -> Finding:
         return Finding(
             FREE_CHOICE,
             Outcome.FAILS,
-            note=f"{left.rank} and {right.rank} determinable parameters for {len(left.form)} invariants",
+            note=(
+                f"{left.rank} and {right.rank} determinable parameters for {len(left.form)}"
+                " invariants"
+            ),
         )
     if not all(p.proven_zeros >= _constants(p).keys() for p in (left, right)):
-        return Finding(FREE_CHOICE, Outcome.INAPPLICABLE, note="not all constant invariants are known exactly")
+        return Finding(
+            FREE_CHOICE, Outcome.INAPPLICABLE, note="not all constant invariants are known exactly"
+        )
     free = tuple(label for label in left.labels if label in left.form)
-    return Finding(FREE_CHOICE, Outcome.HOLDS, Certainty.PROVEN, evidence=FreeChoice(left.rank, free))
+    return Finding(
+        FREE_CHOICE, Outcome.HOLDS, Certainty.PROVEN, evidence=FreeChoice(left.rank, free)
+    )
 
 
 def _by_symmetry(left: Subject, right: Subject) -> Renaming:
@@ -69,9 +89,16 @@ def _searched(left: Subject, right: Subject) -> Finding:
     for images in candidates[:CANDIDATES]:
         renaming = {name: names[1][image] for name, image in zip(names[0], images, strict=True)}
         if is_renaming(left.chain.structure, right.chain.structure, renaming):
-            return Finding(RENAMING, Outcome.HOLDS, Certainty.PROVEN, evidence=Renaming(tuple(renaming.items()), ()))
+            return Finding(
+                RENAMING,
+                Outcome.HOLDS,
+                Certainty.PROVEN,
+                evidence=Renaming(tuple(renaming.items()), ()),
+            )
     if len(candidates) > CANDIDATES:
-        return Finding(RENAMING, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings")
+        return Finding(
+            RENAMING, Outcome.ABANDONED, note=f"more than {CANDIDATES} candidate renamings"
+        )
     return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
 
 

@@ -1,6 +1,8 @@
-"""The ordered table of conditions: it is the programme, and it prints itself into help texts, legends and pages.
+"""The ordered table of conditions: it is the programme, and it prints itself into help texts,
+legends and pages.
 
-A new condition is a row here. Its rule says what it is called and what its outcome proves; the row says how it is asked.
+A new condition is a row here. Its rule says what it is called and what its outcome proves; the row
+says how it is asked.
 """
 
 from collections.abc import Callable, Hashable
@@ -21,8 +23,9 @@ STRUCTURE = "structure"  # the representation of structural conditions
 class Necessary:
     """A condition on a property of profiles.
 
-    `key` is the property of one model that must agree, `grade` the certainty of a failure, `check` the finding with evidence;
-    `of_degrees`: it looks at polynomial degrees, which Markov parameters do not have.
+    `key` is the property of one model that must agree, `grade` the certainty of a failure, `check`
+    the finding with evidence; `of_degrees`: it looks at polynomial degrees, which Markov
+    parameters do not have.
     """
 
     rule: Rule
@@ -34,7 +37,9 @@ class Necessary:
 
 @dataclass(frozen=True, slots=True)
 class Sufficient:
-    """A condition on the exhaustive summaries of two subjects, in a representation, with so many Markov parameters."""
+    """A condition on the exhaustive summaries of two subjects, in a representation, with so
+    many Markov parameters.
+    """
 
     rule: Rule
     check: Callable[[Subject, Subject, Representation, int], Finding]
@@ -53,19 +58,30 @@ def _renaming(left: Subject, right: Subject, representation: Representation, cou
     return sufficient.condition_6(left, right, whole)
 
 
-def _free_choice(left: Subject, right: Subject, representation: Representation, count: int) -> Finding:
-    return sufficient.condition_7(left.profile(representation, count), right.profile(representation, count))
+def _free_choice(
+    left: Subject, right: Subject, representation: Representation, count: int
+) -> Finding:
+    return sufficient.condition_7(
+        left.profile(representation, count), right.profile(representation, count)
+    )
 
 
 _n = necessary
 NECESSARY = (
-    Necessary(_n.INVARIANTS, _n.number_of_invariants, _n.degree_grade, _n.condition_1, of_degrees=True),
-    Necessary(_n.DEGREES, _n.numbers_of_coefficients, _n.degree_grade, _n.condition_2, of_degrees=True),
+    Necessary(
+        _n.INVARIANTS, _n.number_of_invariants, _n.degree_grade, _n.condition_1, of_degrees=True
+    ),
+    Necessary(
+        _n.DEGREES, _n.numbers_of_coefficients, _n.degree_grade, _n.condition_2, of_degrees=True
+    ),
     Necessary(_n.FORM, _n.symbolic_form, _n.form_grade, _n.condition_3),
     Necessary(_n.RANK, _n.generic_rank, _n.rank_grade, _n.condition_4),
     Necessary(_n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5),
 )
-SUFFICIENT = (Sufficient(sufficient.RENAMING, _renaming), Sufficient(sufficient.FREE_CHOICE, _free_choice))
+SUFFICIENT = (
+    Sufficient(sufficient.RENAMING, _renaming),
+    Sufficient(sufficient.FREE_CHOICE, _free_choice),
+)
 STRUCTURAL = (
     Structural(structural.SUBMODEL, structural.condition_8),
     Structural(structural.SUPERMODEL, structural.condition_9),

@@ -1,11 +1,21 @@
-"""Checks a stored verdict again from its evidence alone: at fresh random points, without profiles, matroids or searches."""
+"""Checks a stored verdict again from its evidence alone: at fresh random points, without
+profiles, matroids or searches.
+"""
 
 from dataclasses import dataclass, field, replace
 from math import comb
 
 from disting.conditions.admissible import real_factors
 from disting.conditions.exact import rational_part, theorem
-from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.evidence.conditions import (
+    Counts,
+    Embedding,
+    Forms,
+    FreeChoice,
+    Ranks,
+    Renaming,
+    Supermodel,
+)
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import ByRow, FullParts, Refuted, Shared, Solved
@@ -56,7 +66,10 @@ class Witness:
             case Theorem():
                 return theorem(left, right) == evidence.name
             case DeadTime():
-                return (left.dead_time, right.dead_time) == (evidence.left_given, not evidence.left_given)
+                return (left.dead_time, right.dead_time) == (
+                    evidence.left_given,
+                    not evidence.left_given,
+                )
             case FullParts():
                 return _full_parts(evidence, left, right)
             case Shared():
@@ -64,7 +77,9 @@ class Witness:
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
             case ByRow():
-                return confirms_row(evidence, *(rational_part(canonical(chain).chain) for chain in (left, right)))
+                return confirms_row(
+                    evidence, *(rational_part(canonical(chain).chain) for chain in (left, right))
+                )
             case BothWays():
                 return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
             case OddFibres():
@@ -77,7 +92,9 @@ class Witness:
                 return False  # these speak of general models, see `parametric.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)
 
-    def _by_condition(self, evidence: ByConditions, representation: str, a: Structure, b: Structure) -> bool:
+    def _by_condition(
+        self, evidence: ByConditions, representation: str, a: Structure, b: Structure
+    ) -> bool:
         """Evidence of conditions 1 to 9."""
         match evidence:
             case Counts():
@@ -101,7 +118,9 @@ class Witness:
         seen = [self._samples(s, representation, _count(evidence.rows))[0].labels for s in (a, b)]
         ranks = tuple(self._rank(s, representation, evidence.rows) for s in (a, b))
         known = set(evidence.rows) <= {label for labels in seen for label in labels}
-        return known and ranks == (evidence.left, evidence.right) and evidence.left != evidence.right
+        return (
+            known and ranks == (evidence.left, evidence.right) and evidence.left != evidence.right
+        )
 
     def _embeds(self, evidence: Embedding, a: Structure, b: Structure) -> bool:
         """The numbering of the part's masses once more, and both ranks."""
@@ -128,12 +147,18 @@ class Witness:
             return False  # no numbers
         found = fibre(searched, target(given.structure, point))
         refuted = evidence.grounds == Grounds.REFUTED
-        return found.status is Status.EMPTY if refuted else len(found.solutions) == evidence.solutions > 0
+        return (
+            found.status is Status.EMPTY
+            if refuted
+            else len(found.solutions) == evidence.solutions > 0
+        )
 
     def _samples(self, structure: Structure, representation: str, count: int) -> tuple[Sample, ...]:
         key = (structure, representation, count)
         if key not in self.memo:
-            self.memo[key] = tuple(samples(structure, Representation(representation), count, POINTS, self.seed))
+            self.memo[key] = tuple(
+                samples(structure, Representation(representation), count, POINTS, self.seed)
+            )
         return self.memo[key]
 
     def _degrees(self, structure: Structure) -> tuple[int, int]:
@@ -148,20 +173,30 @@ class Witness:
 
     def _free(self, structure: Structure, representation: str, count: int) -> set[str]:
         seen = self._samples(structure, representation, count)
-        return {label for i, label in enumerate(seen[0].labels) if any(any(s.rows[i]) for s in seen)}
+        return {
+            label for i, label in enumerate(seen[0].labels) if any(any(s.rows[i]) for s in seen)
+        }
 
     def _forms(self, evidence: Forms, representation: str, a: Structure, b: Structure) -> bool:
         only = {*evidence.only_left, *evidence.only_right}
         here, there = (self._free(s, representation, _count(tuple(only))) for s in (a, b))
-        return bool(only) and set(evidence.only_left) <= here - there and set(evidence.only_right) <= there - here
+        return (
+            bool(only)
+            and set(evidence.only_left) <= here - there
+            and set(evidence.only_right) <= there - here
+        )
 
     def _freely(self, evidence: FreeChoice, representation: str, structure: Structure) -> bool:
         free = self._free(structure, representation, _count(evidence.free))
-        return free == set(evidence.free) and self._rank(structure, representation, evidence.free) == len(free)
+        return free == set(evidence.free) and self._rank(
+            structure, representation, evidence.free
+        ) == len(free)
 
 
 def _renames(evidence: Renaming, a: Structure, b: Structure) -> bool:
-    """The renaming put into both transfer functions, if it is one: every parameter once on either side."""
+    """The renaming put into both transfer functions, if it is one: every parameter once on
+    either side.
+    """
     complete = sorted(p for p, _ in evidence.pairs) == sorted(a.parameters)
     onto = sorted(q for _, q in evidence.pairs) == sorted(b.parameters)
     return complete and onto and is_renaming(a, b, dict(evidence.pairs))
@@ -169,15 +204,21 @@ def _renames(evidence: Renaming, a: Structure, b: Structure) -> bool:
 
 def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
     """What is known of either way, once more; something is."""
-    ways = [(x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty]
+    ways = [
+        (x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty
+    ]
     return bool(ways) and all(proves(*way) for way in ways)
 
 
 def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     """Both once more."""
     given, other = (a, b) if evidence.with_left_given else (b, a)
-    known = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(evidence.with_one, given, other)
-    return known and confirms_real(evidence.without, *((a, b) if evidence.without_left_given else (b, a)))
+    known = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(
+        evidence.with_one, given, other
+    )
+    return known and confirms_real(
+        evidence.without, *((a, b) if evidence.without_left_given else (b, a))
+    )
 
 
 def _full_parts(evidence: FullParts, left: Chain, right: Chain) -> bool:
@@ -190,27 +231,40 @@ def _shares(evidence: Shared, left: Chain, right: Chain) -> bool:
     """Every share refuted once more, at a fresh point."""
     a, b = (rational_part(canonical(chain).chain) for chain in (left, right))
     again = chains_told_apart(a, b, "verify")
-    return again is not None and (again[0].part, again[0].shares > 0) == (evidence.part, evidence.shares > 0)
+    return again is not None and (again[0].part, again[0].shares > 0) == (
+        evidence.part,
+        evidence.shares > 0,
+    )
 
 
 def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
     """Both numbers once more, at fresh points."""
     fresh = Settings(seed="verify")
-    found = [(identifiability(chain, fresh), n) for chain, n in ((left, evidence.left), (right, evidence.right))]
+    found = [
+        (identifiability(chain, fresh), n)
+        for chain, n in ((left, evidence.left), (right, evidence.right))
+    ]
     return all(n % 2 == 1 and x.least == x.most == n for x, n in found)
 
 
 def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:
-    """A solution put into both models; a contradiction found again by plain elimination or, where that is too large, at a fresh
-    point by the fast one.
+    """A solution put into both models; a contradiction found again by plain elimination or, where
+    that is too large, at a fresh point by the fast one.
     """
     coordinates = normalised if evidence.is_normalised else coefficient_map
     a, b = (coordinates(rational_part(canonical(chain).chain)) for chain in (left, right))
-    if isinstance(evidence, Solved) or comb(len(a.parameters) + evidence.degree, evidence.degree) <= PLAIN_MONOMIALS:
+    if (
+        isinstance(evidence, Solved)
+        or comb(len(a.parameters) + evidence.degree, evidence.degree) <= PLAIN_MONOMIALS
+    ):
         return confirms(evidence, a, b)
     given, other = (a, b) if evidence.left_given else (b, a)
     again = decide(
-        given, other, equal_rank=evidence.tangent, seed="verify", limits=Limits(seconds=1800, entries=10**9, safety=1)
+        given,
+        other,
+        equal_rank=evidence.tangent,
+        seed="verify",
+        limits=Limits(seconds=1800, entries=10**9, safety=1),
     )
     return again.membership is Membership.EXCLUDED
 

@@ -1,14 +1,18 @@
-"""All pairs of thousands of models of one size, by buckets and classes: no pair is stored, every pair is looked up.
+"""All pairs of thousands of models of one size, by buckets and classes: no pair is stored, every
+pair is looked up.
 
-1. Necessary conditions are functions of one model, so each is a column of bucket numbers. A pair that differs in a column is
-   distinguishable by that condition; the first such column decides.
-2. Models whose closures of the image are equal form a class, because equality is transitive: renamings (6), free choice (7),
-   models that contain one another with equal rank (8, 9), the exact decision (one representative of a class decides for all).
-3. What is left are pairs of classes of one bucket: distinguishable by the exact decision, or listed as open.
+1. Necessary conditions are functions of one model, so each is a column of bucket numbers. A pair
+   that differs in a column is distinguishable by that condition; the first such column decides.
+2. Models whose closures of the image are equal form a class, because equality is transitive:
+   renamings (6), free choice (7), models that contain one another with equal rank (8, 9), the
+   exact decision (one representative of a class decides for all).
+3. What is left are pairs of classes of one bucket: distinguishable by the exact decision, or
+   listed as open.
 
-The relation of a pair is that of `compare`, wherever that is found here; what is open here `compare` may still decide with more
-time. So is the rule, but for two cases: a pair whose models are linked by a chain of rules of different kinds, and one that is
-separated by ranks of 1/G (see `invariants.inverse`), is said to be decided by the exact decision.
+The relation of a pair is that of `compare`, wherever that is found here; what is open here
+`compare` may still decide with more time. So is the rule, but for two cases: a pair whose models
+are linked by a chain of rules of different kinds, and one that is separated by ranks of 1/G (see
+`invariants.inverse`), is said to be decided by the exact decision.
 """
 
 from collections import Counter
@@ -33,11 +37,13 @@ Masses = frozenset[int]
 
 @dataclass(frozen=True)
 class Classes:
-    """Models `chains`, in order; `tests` names the rule of each column (the exact decision for ranks of 1/G).
+    """Models `chains`, in order; `tests` names the rule of each column (the exact decision for
+    ranks of 1/G).
 
-    `columns[i, t]`: bucket of model i in test t, -1 where that is not known; `group[i]`: its class; `renamed[i]`: models of
-    equal number are renamings of each other; `free[i]`: models of equal number, not -1, have a free choice (condition 7);
-    `rank[i]`; `open_groups`: pairs (low, high) of classes that nothing decides.
+    `columns[i, t]`: bucket of model i in test t, -1 where that is not known; `group[i]`: its
+    class; `renamed[i]`: models of equal number are renamings of each other; `free[i]`: models of
+    equal number, not -1, have a free choice (condition 7); `rank[i]`; `open_groups`: pairs (low,
+    high) of classes that nothing decides.
     """
 
     chains: tuple[Chain, ...]
@@ -57,9 +63,13 @@ class Classes:
         return self.look_up(i, j)[0]
 
     def look_up(self, i: int, j: int) -> tuple[Relation, str]:
-        """Relation and deciding rule ("" if undecided) of two different models, counted from 0; raises InputError."""
+        """Relation and deciding rule ("" if undecided) of two different models, counted from 0;
+        raises InputError.
+        """
         if i == j or not (0 <= i < len(self) and 0 <= j < len(self)):
-            raise InputError(f"a pair is two different models 0 to {len(self) - 1}, not {i} and {j}")
+            raise InputError(
+                f"a pair is two different models 0 to {len(self) - 1}, not {i} and {j}"
+            )
         here, there = self.columns[i], self.columns[j]
         differ = np.flatnonzero((here != there) & (here >= 0) & (there >= 0))
         if len(differ):
@@ -81,7 +91,11 @@ class Classes:
         same = sum(s * (s - 1) // 2 for s in size.values())
         undecided = sum(size[a] * size[b] for a, b in self.open_groups)
         apart = n * (n - 1) // 2 - same - undecided
-        return {Relation.DISTINGUISHABLE: apart, Relation.INDISTINGUISHABLE: same, Relation.UNDECIDED: undecided}
+        return {
+            Relation.DISTINGUISHABLE: apart,
+            Relation.INDISTINGUISHABLE: same,
+            Relation.UNDECIDED: undecided,
+        }
 
     def counts_by_rule(self) -> dict[str, int]:
         """Number of pairs by deciding rule, "" for the undecided ones: whole buckets at once."""
@@ -96,7 +110,9 @@ class Classes:
         counts = self.counts()
         found[""] = counts[Relation.UNDECIDED]
         inside = sum(_pairs(len(p)) for p in parts)
-        found[EXACT.name] += inside - counts[Relation.INDISTINGUISHABLE] - counts[Relation.UNDECIDED]
+        found[EXACT.name] += (
+            inside - counts[Relation.INDISTINGUISHABLE] - counts[Relation.UNDECIDED]
+        )
         return {rule: n for rule, n in sorted(found.items()) if n or not rule}
 
     def pairs(self) -> Iterator[tuple[int, int, Relation, str]]:
@@ -114,7 +130,10 @@ class Classes:
     @cached_property
     def _ranks(self) -> dict[tuple[Chain, Masses], int]:
         sets = (frozenset(c.ground_dampers) for c in self.chains)
-        return {(base, masses): int(r) for base, masses, r in zip(self._bases, sets, self.rank, strict=True)}
+        return {
+            (base, masses): int(r)
+            for base, masses, r in zip(self._bases, sets, self.rank, strict=True)
+        }
 
     @cached_property
     def _bases(self) -> tuple[Chain, ...]:
@@ -129,7 +148,9 @@ class Classes:
         return self._by_structure(i, j)
 
     def _by_structure(self, i: int, j: int) -> str:
-        """8 where one set of ground dampers contains the other, 9 where their union has the same rank."""
+        """8 where one set of ground dampers contains the other, 9 where their union has the
+        same rank.
+        """
         bases = [self._bases[k] for k in (i, j)]
         mine, yours = (frozenset(self.chains[k].ground_dampers) for k in (i, j))
         for base, own in self._turned(bases[1], yours):
@@ -142,7 +163,9 @@ class Classes:
 
     @staticmethod
     def _turned(base: Chain, masses: Masses) -> Iterator[tuple[Chain, Masses]]:
-        """The chain itself, and mirrored where force and sensor of the free part sit at its centre."""
+        """The chain itself, and mirrored where force and sensor of the free part sit at its
+        centre.
+        """
         yield base, masses
         fold = base.gap + 1 + base.n_masses
         if base.act_plus == base.meas_plus == fold - base.act_plus:

@@ -1,8 +1,9 @@
-"""Which code a cached result depends on: a digest of it, found from the imports, with the versions of the libraries it uses.
+"""Which code a cached result depends on: a digest of it, found from the imports, with the versions
+of the libraries it uses.
 
-A key that names too little code serves a stale result after a change; so nothing is listed by hand. The modules are those that
-one imports, directly or not, inside this package. What a package's `__init__` offers to others counts only where the package
-itself is imported from.
+A key that names too little code serves a stale result after a change; so nothing is listed by
+hand. The modules are those that one imports, directly or not, inside this package. What a
+package's `__init__` offers to others counts only where the package itself is imported from.
 """
 
 import re
@@ -23,8 +24,8 @@ NAME = re.compile(r"\w+")
 
 @cache
 def digest(module: str) -> str:
-    """SHA-256 of the source of a module and of all that it imports here, of the shipped answers about rows, and of the versions
-    of Python and the libraries.
+    """SHA-256 of the source of a module and of all that it imports here, of the shipped answers
+    about rows, and of the versions of Python and the libraries.
 
     >>> digest("disting.fit.estimate") == digest("disting.engine.engine")
     False
@@ -37,7 +38,8 @@ def digest(module: str) -> str:
 
 @cache
 def modules_of(module: str) -> tuple[str, ...]:
-    """A module and all modules of this package that it imports, directly or not, in order of their names.
+    """A module and all modules of this package that it imports, directly or not, in order of their
+    names.
 
     >>> modules_of("disting.certainty")
     ('disting.certainty',)
@@ -50,7 +52,9 @@ def modules_of(module: str) -> tuple[str, ...]:
 
 
 def _imported(source: str) -> Iterator[str]:
-    """Names that may be modules: what is imported from, and with what is imported from it (a name may be a module)."""
+    """Names that may be modules: what is imported from, and with what is imported from it (a
+    name may be a module).
+    """
     for origin, names in IMPORT.findall(source):
         yield origin
         yield from (f"{origin}.{name}" for name in NAME.findall(names))
@@ -58,9 +62,15 @@ def _imported(source: str) -> Iterator[str]:
 
 @cache
 def _sources() -> dict[str, str]:
-    """Source text by the name of the module, a package by its own name; without the top one, which only names the API."""
+    """Source text by the name of the module, a package by its own name; without the top one,
+    which only names the API.
+    """
     texts = {}
-    for path in sorted(PACKAGE.rglob("*/*.py")) + [p for p in sorted(PACKAGE.glob("*.py")) if p.stem != "__init__"]:
+    for path in sorted(PACKAGE.rglob("*/*.py")) + [
+        p for p in sorted(PACKAGE.glob("*.py")) if p.stem != "__init__"
+    ]:
         parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
-        texts[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(encoding="utf-8")
+        texts[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(
+            encoding="utf-8"
+        )
     return texts

@@ -1,9 +1,9 @@
 """The file behind a store: where it is, whether it is ours and whole, how it is made and set aside.
 
-The path holds either nothing or a complete database: a new one is made under another name and renamed
-into place under an advisory lock, so a process killed at any moment leaves no half-made file, and of many
-processes that find the same damage one alone replaces the file. The others see by the inode number that
-the path holds another file, and open that one.
+The path holds either nothing or a complete database: a new one is made under another name and
+renamed into place under an advisory lock, so a process killed at any moment leaves no half-made
+file, and of many processes that find the same damage one alone replaces the file. The others see
+by the inode number that the path holds another file, and open that one.
 """
 
 import contextlib
@@ -19,7 +19,9 @@ Identity = tuple[int, int]  # device and inode number: which file a path holds
 
 APPLICATION_ID: Final = 0x64737467  # "dstg" in ASCII, bytes 68 to 71 of the file
 SCHEMA_VERSION: Final = 1
-SCHEMA: Final = "CREATE TABLE entry (key BLOB PRIMARY KEY, checksum BLOB NOT NULL, value BLOB NOT NULL)"
+SCHEMA: Final = (
+    "CREATE TABLE entry (key BLOB PRIMARY KEY, checksum BLOB NOT NULL, value BLOB NOT NULL)"
+)
 NOWHERE: Final = ""
 MEMORY: Final = ":memory:"
 MISSING: Final = (0, 0)
@@ -28,9 +30,11 @@ LOCK: Final = ".lock"
 SIDES: Final = ("-wal", "-shm", "-journal")  # what SQLite appends to the name for its other files
 MOST_SET_ASIDE: Final = 99  # bounds the disk space taken by damaged files
 PAUSE_SECONDS: Final = 0.01
-# SQLite's primary result codes. Those in neither list (full disk, no permission) say nothing about the file.
+# SQLite's primary result codes. Those in neither list (full disk, no permission) say nothing about
+# the file.
 BUSY_CODES: Final = (5, 6, 15)  # BUSY, LOCKED, PROTOCOL
-DAMAGE_CODES: Final = (1, 2, 11, 17, 19, 20, 24, 26)  # ERROR to CORRUPT, SCHEMA to MISMATCH, FORMAT, NOTADB
+# ERROR to CORRUPT, SCHEMA to MISMATCH, FORMAT, NOTADB
+DAMAGE_CODES: Final = (1, 2, 11, 17, 19, 20, 24, 26)
 
 
 class _ForeignError(sqlite3.DatabaseError):
@@ -69,15 +73,16 @@ def _create(connection: sqlite3.Connection) -> None:
     connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
     connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
     connection.execute(SCHEMA)
-    # Last, so that the table is in the main file. Where WAL is impossible the rollback journal stays.
+    # Last, so that the table is in the main file. Where WAL is impossible the rollback journal
+    # stays.
     with contextlib.suppress(sqlite3.OperationalError):
         connection.execute("PRAGMA journal_mode = WAL")
 
 
 def _build(path: str) -> None:
     draft = path + ".new"
-    # Left by a process that was killed in here, or by a removal of the main file alone. SQLite would replay
-    # a log that lies beside the new database, whatever database it came from.
+    # Left by a process that was killed in here, or by a removal of the main file alone. SQLite
+    # would replay a log that lies beside the new database, whatever database it came from.
     for name in (draft, *(file + side for file in (draft, path) for side in SIDES)):
         Path(name).unlink(missing_ok=True)
     with contextlib.closing(sqlite3.connect(draft, isolation_level=None)) as connection:
@@ -87,7 +92,9 @@ def _build(path: str) -> None:
 
 def _set_aside(path: str) -> str:
     names = [f"{path}.damaged-{number}" for number in range(1, MOST_SET_ASIDE + 1)]
-    free = [name for name in names if not any(os.path.lexists(name + side) for side in ("", *SIDES))]
+    free = [
+        name for name in names if not any(os.path.lexists(name + side) for side in ("", *SIDES))
+    ]
     if not free:
         raise OSError(f"{MOST_SET_ASIDE} damaged files are kept beside it, remove some")
     for side in ("", *SIDES):  # the main file first, so that nobody opens it without its log
@@ -100,7 +107,9 @@ def replace(path: str, suspect: Identity, wait: float) -> str:
     """Put an empty database in place of `suspect`; "" if there was nothing to set aside."""
     os.makedirs(os.path.dirname(path), exist_ok=True)
     if suspect != MISSING and not _was_ours(path):
-        raise OSError("it is no cache of disting and is left as it is; name another file with DISTING_CACHE")
+        raise OSError(
+            "it is no cache of disting and is left as it is; name another file with DISTING_CACHE"
+        )
     with FileLock(path + LOCK).acquire(wait, PAUSE_SECONDS):
         if identity(path) != suspect:
             return ""
@@ -110,10 +119,12 @@ def replace(path: str, suspect: Identity, wait: float) -> str:
 
 
 def _was_ours(path: str) -> bool:
-    """Whether what the path holds is a damaged cache, and not some file of the user's that was named by mistake.
+    """Whether what the path holds is a damaged cache, and not some file of the user's that was
+    named by mistake.
 
-    Our caches bear a stamp, and have a lock beside them from the moment they are made. The file is read only here, where it
-    could not be used: to close it would drop the locks on one that is in use.
+    Our caches bear a stamp, and have a lock beside them from the moment they are made. The file is
+    read only here, where it could not be used: to close it would drop the locks on one that is in
+    use.
     """
     if os.path.lexists(path + LOCK) or Path(path).parent == platformdirs.user_cache_path("disting"):
         return True
@@ -124,7 +135,9 @@ def _was_ours(path: str) -> bool:
 
 
 def _check_kind(path: str) -> None:
-    """What passes may be opened, or renamed if it is not ours; a device or a folder in use may not."""
+    """What passes may be opened, or renamed if it is not ours; a device or a folder in use may
+    not.
+    """
     if os.path.isdir(path) and not os.listdir(path):
         raise _ForeignError("it is a folder")
     if not os.path.isfile(path):
@@ -132,7 +145,11 @@ def _check_kind(path: str) -> None:
 
 
 def _check_stamps(connection: sqlite3.Connection) -> None:
-    queries = ("PRAGMA application_id", "PRAGMA user_version", "SELECT sql FROM sqlite_master WHERE sql > ''")
+    queries = (
+        "PRAGMA application_id",
+        "PRAGMA user_version",
+        "SELECT sql FROM sqlite_master WHERE sql > ''",
+    )
     stamps = [connection.execute(query).fetchall() for query in queries]
     if stamps != [[(APPLICATION_ID,)], [(SCHEMA_VERSION,)], [(SCHEMA.encode(),)]]:
         raise _ForeignError("it is not a cache of this version of disting")
@@ -142,14 +159,18 @@ def open_database(path: str, wait: float) -> sqlite3.Connection:
     """Connect to an existing database that passes the checks, or to a new one in memory."""
     if path != MEMORY:
         _check_kind(path)
-    target = path if path == MEMORY else Path(path).as_uri() + "?mode=rw"  # rw: never creates a file
-    connection = sqlite3.connect(target, timeout=wait, isolation_level=None, check_same_thread=False, uri=True)
+    # rw: never creates a file
+    target = path if path == MEMORY else Path(path).as_uri() + "?mode=rw"
+    connection = sqlite3.connect(
+        target, timeout=wait, isolation_level=None, check_same_thread=False, uri=True
+    )
     with contextlib.ExitStack() as on_failure:
         on_failure.callback(connection.close)
         connection.text_factory = bytes  # damaged text must not fail to decode before it is checked
         if path == MEMORY:
             _create(connection)
         _check_stamps(connection)
-        connection.execute("PRAGMA synchronous = NORMAL")  # a commit outlives the process, if not a power cut
+        # a commit outlives the process, if not a power cut
+        connection.execute("PRAGMA synchronous = NORMAL")
         on_failure.pop_all()
     return connection

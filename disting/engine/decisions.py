@@ -1,4 +1,6 @@
-"""What is decided of all pairs of a list of models, as numbers a pair. Evidence is made when somebody asks for a pair."""
+"""What is decided of all pairs of a list of models, as numbers a pair. Evidence is made when
+somebody asks for a pair.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -30,11 +32,12 @@ Numbers = NDArray[np.uint8]
 class Decisions:
     """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` REPRESENTATIONS.
 
-    `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs whose bounded finding by a
-    necessary condition was proven afterwards, `inclusions` the findings on pairs of unequal rank. `shares[i, j]` tells, for i
-    before or after j, which positive models i have a positive equivalent j: of indistinguishable pairs both ways, of included
-    models in the ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that were asked again
-    over real or positive ones.
+    `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs
+    whose bounded finding by a necessary condition was proven afterwards, `inclusions` the findings
+    on pairs of unequal rank. `shares[i, j]` tells, for i before or after j, which positive models
+    i have a positive equivalent j: of indistinguishable pairs both ways, of included models in the
+    ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that
+    were asked again over real or positive ones.
     """
 
     subjects: tuple[Subject, ...]
@@ -72,23 +75,35 @@ class Decisions:
         i, j = min(i, j), max(i, j)
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
-            return self._included(i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain))
+            return self._included(
+                i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain)
+            )
         rule, where = self.rule(i, j), REPRESENTATIONS[self.representation[i, j]]
         if not rule:
             return decide(left, right, self.query)
         finding = GRADES[rule].check(self.profile(where, i), self.profile(where, j))
         if (i, j) in self.proven:
             finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
-        return self._included(i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain))
+        return self._included(
+            i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain)
+        )
 
     def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
         image, closure = (self.inclusion(i, j, sense) for sense in Sense)
         here, there = self.shares.get((i, j)), self.shares.get((j, i))
         found = self.inclusions.get((i, j))
-        return replace(verdict, image=image, closure=closure, inclusions=found, left_positive=here, right_positive=there)
+        return replace(
+            verdict,
+            image=image,
+            closure=closure,
+            inclusions=found,
+            left_positive=here,
+            right_positive=there,
+        )
 
     def inclusion(self, i: int, j: int, sense: Sense) -> Inclusion:
-        """Whose generic models have equivalents (IMAGE), or are limits of models (CLOSURE), on the other side, i < j.
+        """Whose generic models have equivalents (IMAGE), or are limits of models (CLOSURE), on the
+        other side, i < j.
 
         Not told by the paper's views, nor where it is not asked.
         """
@@ -100,7 +115,9 @@ class Decisions:
         if {(i, j), (j, i)} <= self.shares.keys():
             return Inclusion.EQUAL
         step = self.steps.get((i, j))
-        if step and (step.finding.rule is ADMISSIBLE or step.relation is Relation.INDISTINGUISHABLE):
+        if step and (
+            step.finding.rule is ADMISSIBLE or step.relation is Relation.INDISTINGUISHABLE
+        ):
             return Inclusion.EQUAL
         return Inclusion.NEITHER if self.decided_by[i, j] else Inclusion.UNKNOWN
 
@@ -126,13 +143,17 @@ class Decisions:
             yield i, j, rule, REPRESENTATIONS[where], str(grade[0]), grade[1]
 
     def counts(self) -> dict[str, int]:
-        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the undecided ones."""
+        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
+        undecided ones.
+        """
         found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=1)
         return {NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
 
 
 def markov_count(r: Representation, query: Query, subjects: Sequence[Subject]) -> int:
-    """Markov parameters after G_0: as asked, or twice the number of states of the largest model, enough for every pair."""
+    """Markov parameters after G_0: as asked, or twice the number of states of the largest
+    model, enough for every pair.
+    """
     if r is Representation.TF or not subjects:
         return 0
     largest = max(subjects, key=lambda s: s.chain.structure.n_states)

@@ -1,7 +1,9 @@
-"""Settings and cache around the pure functions: chain -> profile, pair -> verdict, list -> decisions.
+"""Settings and cache around the pure functions: chain -> profile, pair -> verdict, list ->
+decisions.
 
-Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which code. So nothing is ever
-invalidated; what changes has another key. Every finished profile is stored at once, so a run that is killed resumes there.
+Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which
+code. So nothing is ever invalidated; what changes has another key. Every finished profile is
+stored at once, so a run that is killed resumes there.
 """
 
 import hashlib
@@ -30,7 +32,8 @@ from disting.verdict import Query, Verdict, audit, decide
 T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
 """Told what is done, how much of it is finished, and how much there is."""
-BATCH = 8  # structures a task: large enough to be worth a message, small enough that a kill loses little
+# structures a task: large enough to be worth a message, small enough that a kill loses little
+BATCH = 8
 
 
 def silent(what: str, done: int, total: int) -> None:
@@ -39,7 +42,9 @@ def silent(what: str, done: int, total: int) -> None:
 
 @dataclass
 class Engine:
-    """Compares models with a store behind it; what is computed once in a process is kept in `memo` and `answers`."""
+    """Compares models with a store behind it; what is computed once in a process is kept in
+    `memo` and `answers`.
+    """
 
     settings: Settings = field(default_factory=Settings)
     store: Store = field(default_factory=lambda: Store.open(""))
@@ -50,7 +55,9 @@ class Engine:
         """A side of a comparison whose profiles come from this engine."""
         return Subject(name, chain, self.settings, self.profile, self.answer)
 
-    def profile(self, structure: Structure, representation: Representation, count: int, settings: Settings) -> Profile:
+    def profile(
+        self, structure: Structure, representation: Representation, count: int, settings: Settings
+    ) -> Profile:
         """The profile, from memory, from the store, or computed and stored."""
         key = profile_key(structure, representation, count, settings)
         if key not in self.memo:
@@ -69,11 +76,22 @@ class Engine:
         found: T = self.answers[key]
         return found
 
-    def verdict(self, left: Subject, right: Subject, query: Query, *, audited: bool = False) -> Verdict:
-        """The verdict on a pair, from the store or decided and stored; an audited one is always computed."""
+    def verdict(
+        self, left: Subject, right: Subject, query: Query, *, audited: bool = False
+    ) -> Verdict:
+        """The verdict on a pair, from the store or decided and stored; an audited one is always
+        computed.
+        """
         if audited:
             return audit(left, right, query)
-        content = [left.name, right.name, repr(left.chain), repr(right.chain), repr(query), self.settings.to_dict()]
+        content = [
+            left.name,
+            right.name,
+            repr(left.chain),
+            repr(right.chain),
+            repr(query),
+            self.settings.to_dict(),
+        ]
         key = _key("verdict", *map(str, content))
         for text in self.store.get_many([key]).values():
             return Verdict.from_dict(json.loads(text))
@@ -89,11 +107,15 @@ class Engine:
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> Decisions:
-        """All pairs of models, of one size or several; the executor's workers compute what is asked for."""
+        """All pairs of models, of one size or several; the executor's workers compute what is
+        asked for.
+        """
 
         def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
             """Have the profiles of these models computed, many at a time."""
-            self.prefetch({s.canonical.chain.structure for s in wanted}, r, count, executor, progress)
+            self.prefetch(
+                {s.canonical.chain.structure for s in wanted}, r, count, executor, progress
+            )
 
         def ask(question: Question[Any], pairs: Sequence[Chains]) -> None:
             """Have the question answered for these pairs, many at a time."""
@@ -102,31 +124,62 @@ class Engine:
         return decisions(subjects, query, prefetch, ask)
 
     def profiles_of(
-        self, chains: Iterable[Chain], *, executor: Executor | None = None, progress: Progress = silent
+        self,
+        chains: Iterable[Chain],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
     ) -> list[Profile]:
         """Transfer-function profiles of chains, in order."""
         subjects = [self.subject("", chain) for chain in chains]
-        self.prefetch({s.canonical.chain.structure for s in subjects}, Representation.TF, 0, executor, progress)
+        self.prefetch(
+            {s.canonical.chain.structure for s in subjects},
+            Representation.TF,
+            0,
+            executor,
+            progress,
+        )
         return [s.profile(Representation.TF, 0) for s in subjects]
 
     def identifiabilities(
-        self, chains: Sequence[Chain], *, executor: Executor | None = None, progress: Progress = silent
+        self,
+        chains: Sequence[Chain],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
     ) -> list[Identifiability]:
         """Identifiability of chains, in order; each canonical form is looked at once."""
         formed = [(chain, canonical(chain)) for chain in chains]
-        self.answer_all(IDENTIFIABILITY, [(form.chain,) for _, form in formed], executor=executor, progress=progress)
-        return [as_given(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain) for chain, form in formed]
+        self.answer_all(
+            IDENTIFIABILITY,
+            [(form.chain,) for _, form in formed],
+            executor=executor,
+            progress=progress,
+        )
+        return [
+            as_given(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain)
+            for chain, form in formed
+        ]
 
     def prefetch(
-        self, structures: set[Structure], r: Representation, count: int, executor: Executor | None, progress: Progress
+        self,
+        structures: set[Structure],
+        r: Representation,
+        count: int,
+        executor: Executor | None,
+        progress: Progress,
     ) -> None:
-        """Bring the profiles of the structures into memory: from the store, the rest computed, each batch stored at once."""
+        """Bring the profiles of the structures into memory: from the store, the rest computed,
+        each batch stored at once.
+        """
         keys = {profile_key(s, r, count, self.settings): s for s in sorted(structures, key=repr)}
         self.memo |= self._stored([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
         absent = [keys[k] for k in missing]
-        batches = [(absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)]
+        batches = [
+            (absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)
+        ]
         for _, batch in mapped(compute, batches, executor):
             texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
             self.store.put_many(texts)
@@ -171,7 +224,9 @@ def question_key(question: Question[Any], chains: Chains, settings: Settings) ->
     return _key(question.name, *map(repr, chains), repr(settings))
 
 
-def compute(structures: Sequence[Structure], r: Representation, count: int, settings: Settings) -> list[tuple[Structure, str]]:
+def compute(
+    structures: Sequence[Structure], r: Representation, count: int, settings: Settings
+) -> list[tuple[Structure, str]]:
     """A task for a worker: profiles as JSON text."""
     return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
 
@@ -184,11 +239,15 @@ def compute_answer(question: Question[Any], chains: Chains, settings: Settings) 
 def mapped(
     function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
 ) -> Iterator[tuple[tuple[Any, ...], T]]:
-    """Tasks with their results as they come, in any order, from the executor's workers or from this process."""
+    """Tasks with their results as they come, in any order, from the executor's workers or from
+    this process.
+    """
     if executor is None:
         yield from ((task, function(*task)) for task in tasks)
         return
-    futures: dict[Future[T], tuple[Any, ...]] = {executor.submit(function, *task): task for task in tasks}
+    futures: dict[Future[T], tuple[Any, ...]] = {
+        executor.submit(function, *task): task for task in tasks
+    }
     try:
         yield from ((futures[future], future.result()) for future in as_completed(futures))
     finally:

@@ -1,16 +1,21 @@
-"""Builds `Classes`: profiles and buckets of canonical forms, then classes, then the exact decision between classes.
+"""Builds `Classes`: profiles and buckets of canonical forms, then classes, then the exact decision
+between classes.
 
-Everything dear goes through the engine's store, so a run that is killed resumes; the order of the work is that of its price:
+Everything dear goes through the engine's store, so a run that is killed resumes; the order of the
+work is that of its price:
 
-1. Profiles of the transfer function and, where pairs are left, of the Markov parameters: columns of conditions 1 to 5.
-2. Without looking at pairs: models of one bucket with full rank are free (7); a set of ground dampers contained in another of
-   equal rank on the same chain gives the same closure (8), two such sets with a union of equal rank as well (9); equal
-   fingerprints of colours are looked at for a renaming (6).
-3. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket that is still together is
-   asked: `quick` first, then whatever questions are added.
+1. Profiles of the transfer function and, where pairs are left, of the Markov parameters: columns
+   of conditions 1 to 5.
+2. Without looking at pairs: models of one bucket with full rank are free (7); a set of ground
+   dampers contained in another of equal rank on the same chain gives the same closure (8), two
+   such sets with a union of equal rank as well (9); equal fingerprints of colours are looked at
+   for a renaming (6).
+3. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket
+   that is still together is asked: `quick` first, then whatever questions are added.
 
-Certainty: every step is a theorem, proven, or bounded by 2^-LEAST_SAFETY at most; the relation of a pair rests on as many steps
-as link its two models to their representatives, and one more, so its error is bounded by that many times 2^-LEAST_SAFETY.
+Certainty: every step is a theorem, proven, or bounded by 2^-LEAST_SAFETY at most; the relation of
+a pair rests on as many steps as link its two models to their representatives, and one more, so its
+error is bounded by that many times 2^-LEAST_SAFETY.
 """
 
 from collections import defaultdict
@@ -39,7 +44,8 @@ from disting.question import Question
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
 Key = Callable[[int], Hashable]
 OF_MARKOV = tuple(c for c in NECESSARY if not c.of_degrees)
-TESTS = (*(c.rule.name for c in (*NECESSARY, *OF_MARKOV)), EXACT.name)  # transfer function, Markov parameters, 1/G
+# transfer function, Markov parameters, 1/G
+TESTS = (*(c.rule.name for c in (*NECESSARY, *OF_MARKOV)), EXACT.name)
 
 
 def classes(
@@ -50,20 +56,35 @@ def classes(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Classes:
-    """The classes of chains of one size and sensor without dead time; `more`: questions about what `quick` leaves open.
+    """The classes of chains of one size and sensor without dead time; `more`: questions about what
+    `quick` leaves open.
 
-    Raises InputError for chains that differ in size, sensor or dampers beside the springs, or that have a dead time.
+    Raises InputError for chains that differ in size, sensor or dampers beside the springs, or that
+    have a dead time.
     """
-    if len({(c.n_masses, c.sensor, c.damped) for c in chains}) != 1 or any(c.dead_time for c in chains):
-        raise InputError("classes are made of chains of one size, sensor and damping without dead time")
+    if len({(c.n_masses, c.sensor, c.damped) for c in chains}) != 1 or any(
+        c.dead_time for c in chains
+    ):
+        raise InputError(
+            "classes are made of chains of one size, sensor and damping without dead time"
+        )
     work = _Work.of(chains, engine)
     count = 2 * max(s.chain.structure.n_states for s in work.subjects)
     everyone = range(len(work.subjects))
     profiles = work.profiles(everyone, Representation.TF, 0, executor, progress)
     work.split_by(profiles, NECESSARY, 0)
     work.link(profiles)
-    several = [i for bucket in work.buckets(everyone) for i in bucket if len(bucket) > 1 and work.free[i] < 0]
-    work.split_by(work.profiles(several, Representation.MARKOV, count, executor, progress), OF_MARKOV, len(NECESSARY))
+    several = [
+        i
+        for bucket in work.buckets(everyone)
+        for i in bucket
+        if len(bucket) > 1 and work.free[i] < 0
+    ]
+    work.split_by(
+        work.profiles(several, Representation.MARKOV, count, executor, progress),
+        OF_MARKOV,
+        len(NECESSARY),
+    )
     work.rename()
     _invert(work, executor, progress)
     for question in (QUICKLY, *more):
@@ -73,7 +94,9 @@ def classes(
 
 @dataclass
 class _Work:
-    """Canonical subjects, what is known of each, and the classes found so far (a forest of parents)."""
+    """Canonical subjects, what is known of each, and the classes found so far (a forest of
+    parents).
+    """
 
     engine: Engine
     subjects: list[Subject]
@@ -89,14 +112,26 @@ class _Work:
     def of(chains: Sequence[Chain], engine: Engine) -> "_Work":
         """Nothing is known yet but the canonical forms."""
         numbers: dict[Chain, int] = {}
-        place = [numbers.setdefault(engine.subject("", c).canonical.chain, len(numbers)) for c in chains]
+        place = [
+            numbers.setdefault(engine.subject("", c).canonical.chain, len(numbers)) for c in chains
+        ]
         subjects, n = [engine.subject(f"form {i}", c) for c, i in numbers.items()], len(numbers)
-        unions = {(without_dampers(c), frozenset(c.ground_dampers)): i for c, i in zip(chains, place, strict=True)}
+        unions = {
+            (without_dampers(c), frozenset(c.ground_dampers)): i
+            for c, i in zip(chains, place, strict=True)
+        }
         empty = [[-1] * len(TESTS) for _ in range(n)]
-        return _Work(engine, subjects, place, empty, list(range(n)), list(range(n)), [-1] * n, unions=unions)
+        return _Work(
+            engine, subjects, place, empty, list(range(n)), list(range(n)), [-1] * n, unions=unions
+        )
 
     def profiles(
-        self, wanted: Iterable[int], r: Representation, count: int, executor: Executor | None, progress: Progress
+        self,
+        wanted: Iterable[int],
+        r: Representation,
+        count: int,
+        executor: Executor | None,
+        progress: Progress,
     ) -> dict[int, Profile]:
         """Profiles of the wanted subjects."""
         chosen = list(wanted)
@@ -104,7 +139,9 @@ class _Work:
         self.engine.prefetch(structures, r, count, executor, progress)
         return {i: self.subjects[i].profile(r, count) for i in chosen}
 
-    def split_by(self, profiles: dict[int, Profile], conditions: Iterable[Necessary], first: int) -> None:
+    def split_by(
+        self, profiles: dict[int, Profile], conditions: Iterable[Necessary], first: int
+    ) -> None:
         """Columns of necessary conditions, from the `first` one on."""
         for column, condition in enumerate(conditions, first):
             self.fill(column, {i: condition.key(p) for i, p in profiles.items()})
@@ -144,7 +181,11 @@ class _Work:
             prints: dict[str, int] = {}
             for i in bucket if len(bucket) > 1 else []:
                 first = prints.setdefault(self.subjects[i].colouring.fingerprint, i)
-                if first != i and condition_6(self.subjects[first], self.subjects[i], True).outcome is Outcome.HOLDS:
+                if (
+                    first != i
+                    and condition_6(self.subjects[first], self.subjects[i], True).outcome
+                    is Outcome.HOLDS
+                ):
                     self.renamed[i] = first
                     self.unite(first, i)
 
@@ -158,7 +199,10 @@ class _Work:
     def unite(self, i: int, j: int) -> None:
         """Make one class of two; the model with the fewest dampers represents it."""
         a, b = self.root(i), self.root(j)
-        keys = {k: (len(self.subjects[k].chain.ground_dampers), self.subjects[k].chain.indices, k) for k in (a, b)}
+        keys = {
+            k: (len(self.subjects[k].chain.ground_dampers), self.subjects[k].chain.indices, k)
+            for k in (a, b)
+        }
         low, high = sorted((a, b), key=keys.__getitem__)
         self.parent[high] = low
 
@@ -166,7 +210,9 @@ class _Work:
         """Pairs of representatives that share all columns and are not refuted."""
         roots = [i for i in range(len(self.subjects)) if self.root(i) == i]
         apart = {_sorted(self.root(a), self.root(b)) for a, b in self.refuted}
-        pairs = (_sorted(i, j) for bucket in self.buckets(roots) for i, j in combinations(bucket, 2))
+        pairs = (
+            _sorted(i, j) for bucket in self.buckets(roots) for i, j in combinations(bucket, 2)
+        )
         return [pair for pair in pairs if pair not in apart]
 
     def finished(self, chains: Sequence[Chain]) -> Classes:
@@ -175,7 +221,9 @@ class _Work:
         apart = [*self.refuted, *((i, self.root(i)) for i in told if told[i] != told[self.root(i)])]
         for a, b in apart:
             if self.root(a) == self.root(b):
-                raise ContradictionError(f"one class holds {self.subjects[a].chain} and {self.subjects[b].chain}")
+                raise ContradictionError(
+                    f"one class holds {self.subjects[a].chain} and {self.subjects[b].chain}"
+                )
         at = self.place
         return Classes(
             chains=tuple(chains),
@@ -190,7 +238,9 @@ class _Work:
 
 
 def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
-    """Split the representatives that are still together by the dependences of the Markov parameters of 1/G."""
+    """Split the representatives that are still together by the dependences of the Markov
+    parameters of 1/G.
+    """
     wanted = sorted({i for pair in work.open_pairs() for i in pair})
     asked = [(work.subjects[i].chain,) for i in wanted]
     work.engine.answer_all(INVERSELY, asked, executor=executor, progress=progress)
@@ -201,7 +251,9 @@ def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
     work.fill(len(TESTS) - 1, values)
 
 
-def _decide(work: _Work, question: Question[Finding], executor: Executor | None, progress: Progress) -> None:
+def _decide(
+    work: _Work, question: Question[Finding], executor: Executor | None, progress: Progress
+) -> None:
     """Ask about all open pairs of representatives, and take over what is decided."""
     pairs = work.open_pairs()
     asked = [work.subjects[i].in_order(work.subjects[j]) for i, j in pairs]

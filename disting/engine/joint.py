@@ -1,10 +1,12 @@
 """How surely everything that is said of a family holds together.
 
-The error bound of a pair is that of the pair alone. Pairs share the points and primes of their models, so a bound of all of
-them adds up what can go wrong, independent or not (union bound): a profile errs for all pairs of its model at once, so it
-counts once for each representation in which it decides; a bounded exact decision, inclusion or finding on positive equivalents
-counts by itself. Where inclusion is told, it rests on the order of the ranks: of unequal ranks the larger model does not lie in
-the smaller one, and of equal ranks distinguishable models lie neither in the other. So every rank that is not proven counts.
+The error bound of a pair is that of the pair alone. Pairs share the points and primes of their
+models, so a bound of all of them adds up what can go wrong, independent or not (union bound): a
+profile errs for all pairs of its model at once, so it counts once for each representation in which
+it decides; a bounded exact decision, inclusion or finding on positive equivalents counts by
+itself. Where inclusion is told, it rests on the order of the ranks: of unequal ranks the larger
+model does not lie in the smaller one, and of equal ranks distinguishable models lie neither in the
+other. So every rank that is not proven counts.
 """
 
 from collections.abc import Iterator
@@ -18,7 +20,8 @@ from disting.invariants.sample import Representation
 
 
 def family_safety(decided: Decisions) -> int:
-    """Largest b such that all statements on all pairs hold, but for a probability of 2**-b at most; 0: all is proven.
+    """Largest b such that all statements on all pairs hold, but for a probability of 2**-b at
+    most; 0: all is proven.
 
     `certainty.USELESS` where no bound is left.
     """
@@ -26,10 +29,12 @@ def family_safety(decided: Decisions) -> int:
 
 
 def classes_safety(found: Classes) -> int:
-    """The same for classes of models, from the number of statements alone: each is wrong with 2^-LEAST_SAFETY at most.
+    """The same for classes of models, from the number of statements alone: each is wrong with
+    2^-LEAST_SAFETY at most.
 
-    Three profiles a model (transfer function, Markov parameters, 1/G), as many links as models beyond the first of each class,
-    and one exact decision for each pair of classes that no column tells apart.
+    Three profiles a model (transfer function, Markov parameters, 1/G), as many links as models
+    beyond the first of each class, and one exact decision for each pair of classes that no column
+    tells apart.
     """
     first: dict[int, int] = {}
     for i, group in enumerate(found.group):
@@ -44,7 +49,9 @@ def classes_safety(found: Classes) -> int:
 
 
 def _safeties(decided: Decisions) -> Iterator[int]:
-    """Yield the bits of everything that rests on chance. Those of an exact decision count the ranks it needs."""
+    """Yield the bits of everything that rests on chance. Those of an exact decision count the
+    ranks it needs.
+    """
     profiles = set[tuple[str, int]]()
     for i, j, _, where, certainty, safety in decided.grades():
         if certainty == Certainty.BOUNDED and (i, j) in decided.steps:
@@ -63,4 +70,8 @@ def _safeties(decided: Decisions) -> Iterator[int]:
 def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[str, int]]:
     """Yield the models whose ranks are not proven, with the representation that tells them."""
     where = Representation.TF.value
-    yield from ((where, i) for i in range(len(decided.subjects)) if not decided.profile(where, i).rank_proven)
+    yield from (
+        (where, i)
+        for i in range(len(decided.subjects))
+        if not decided.profile(where, i).rank_proven
+    )

@@ -1,12 +1,14 @@
 """Content-addressed store of computed results, kept in one SQLite file.
 
-A wrong answer is the worst fault of a scientific cache, so nothing in the file is believed without proof:
-the file is ours only if application id, schema version and table definition agree, and a row is used only
-if its checksum over key and value agrees. What fails is set aside or removed, and computed anew.
+A wrong answer is the worst fault of a scientific cache, so nothing in the file is believed without
+proof: the file is ours only if application id, schema version and table definition agree, and a
+row is used only if its checksum over key and value agrees. What fails is set aside or removed, and
+computed anew.
 
-Two POSIX traps: closing any descriptor of a file drops all locks that the process has on it, so the file is
-read through SQLite only. And a child of fork inherits SQLite's record of locks but not the locks, so that
-even commits on a connection of its own can vanish; so the connection is closed before every fork.
+Two POSIX traps: closing any descriptor of a file drops all locks that the process has on it, so
+the file is read through SQLite only. And a child of fork inherits SQLite's record of locks but not
+the locks, so that even commits on a connection of its own can vanish; so the connection is closed
+before every fork.
 """
 
 import contextlib
@@ -40,7 +42,8 @@ from disting.engine.database_file import (
 T = TypeVar("T")
 Row = tuple[bytes, bytes, bytes]  # key, checksum, value
 
-# A damaged or altered cell may have any type; read as bytes it fails the checksum instead of the program.
+# A damaged or altered cell may have any type; read as bytes it fails the checksum instead of the
+# program.
 CELLS: Final = "CAST(coalesce(checksum, '') AS BLOB), CAST(coalesce(value, '') AS BLOB)"
 SELECT: Final = f"SELECT {CELLS} FROM entry WHERE key = ?"
 REPLACE: Final = "INSERT OR REPLACE INTO entry (key, checksum, value) VALUES (?, ?, ?)"
@@ -65,7 +68,9 @@ class StoreInfo:
 
 
 def _checksum(key: bytes, value: bytes) -> bytes:
-    """BLAKE2b-128 of key length (8 bytes, big-endian), key, value: a value under another key fails too."""
+    """BLAKE2b-128 of key length (8 bytes, big-endian), key, value: a value under another key
+    fails too.
+    """
     return blake2b(len(key).to_bytes(8, "big") + key + value, digest_size=16).digest()
 
 
@@ -81,7 +86,8 @@ def _change(connection: sqlite3.Connection, statement: str, rows: Iterable[Row])
 
 def _empty(connection: sqlite3.Connection) -> int:
     removed = connection.execute("DELETE FROM entry").rowcount
-    with contextlib.suppress(sqlite3.OperationalError):  # space is given back only if nobody is reading
+    # space is given back only if nobody is reading
+    with contextlib.suppress(sqlite3.OperationalError):
         connection.execute("VACUUM")
         connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
     return removed
@@ -90,9 +96,10 @@ def _empty(connection: sqlite3.Connection) -> int:
 class Store(contextlib.AbstractContextManager["Store", None]):
     """Text values by content-addressed key; every value read has passed its checksum.
 
-    Keys are SHA-256 hex strings that the caller makes from all that determines the value (model, settings,
-    code version); values are JSON text. UnicodeEncodeError if one is not encodable as UTF-8; no state of the
-    file or the disk raises an error, see CacheWarning. Threads may share a store, and so may forks.
+    Keys are SHA-256 hex strings that the caller makes from all that determines the value (model,
+    settings, code version); values are JSON text. UnicodeEncodeError if one is not encodable as
+    UTF-8; no state of the file or the disk raises an error, see CacheWarning. Threads may share a
+    store, and so may forks.
     """
 
     def __init__(self, path: str, wait_seconds: float) -> None:
@@ -106,11 +113,13 @@ class Store(contextlib.AbstractContextManager["Store", None]):
 
     @classmethod
     def open(cls, where: str | Path | None = None, *, wait_seconds: float = 10.0) -> Self:
-        """Open the store at a file path, ":memory:" (private to this object), or "" or "off" (no cache).
+        """Open the store at a file path, ":memory:" (private to this object), or "" or "off" (no
+        cache).
 
-        None means the environment variable DISTING_CACHE, or if that is not set `cache.sqlite3` in the user's
-        cache folder. Missing folders are made. An operation that finds the database locked by another process
-        waits up to twice `wait_seconds`, and then the store gives up the cache.
+        None means the environment variable DISTING_CACHE, or if that is not set `cache.sqlite3` in
+        the user's cache folder. Missing folders are made. An operation that finds the database
+        locked by another process waits up to twice `wait_seconds`, and then the store gives up the
+        cache.
         """
         store = cls(located(where), wait_seconds)
         store._run(lambda connection: None, None)
@@ -122,7 +131,9 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         return cls(NOWHERE, 0.0)
 
     def get_many(self, keys: Iterable[str]) -> dict[str, str]:
-        """The values of those keys that are present; rows with a wrong checksum are absent, and deleted."""
+        """The values of those keys that are present; rows with a wrong checksum are absent, and
+        deleted.
+        """
         names = [key.encode() for key in dict.fromkeys(keys)]
         nothing: list[Row] = []
         rows = self._run(lambda connection: _read(connection, names), nothing)
@@ -160,7 +171,9 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         self.close()
 
     def _run(self, operation: Callable[[sqlite3.Connection], T], nothing: T) -> T:
-        """The result of the operation, repeated once after a repair; `nothing` if there is no cache."""
+        """The result of the operation, repeated once after a repair; `nothing` if there is no
+        cache.
+        """
         if not self._usable:
             return nothing
         deadline = time.monotonic() + self._wait
@@ -181,13 +194,16 @@ class Store(contextlib.AbstractContextManager["Store", None]):
             self._disconnect()
             self._seen = current
             self._connection = open_database(self._path, self._wait)
-            # If the path changed hands in between, SQLite may have paired the old file with the new log.
+            # If the path changed hands in between, SQLite may have paired the old file with the new
+            # log.
             if identity(self._path) != self._seen:
                 raise sqlite3.OperationalError("the file was replaced while it was opened")
         return self._connection
 
     def _recover(self, error: Exception, deadline: float, repaired: bool) -> bool:
-        """Prepare another attempt, or switch the store off; tells whether a repair has been made."""
+        """Prepare another attempt, or switch the store off; tells whether a repair has been
+        made.
+        """
         self._disconnect()
         code = result_code(error)
         try:
@@ -219,7 +235,9 @@ class Store(contextlib.AbstractContextManager["Store", None]):
 
 
 def _guard_forks(store: Store) -> None:
-    """At every fork, wait until no thread is inside the store, and close its file (see the module's text)."""
+    """At every fork, wait until no thread is inside the store, and close its file (see the
+    module's text).
+    """
     reference = weakref.ref(store)
     held: list[Store] = []
 

@@ -1,4 +1,6 @@
-"""Equivalent models with their values: what else a measured system could be, as numbers and as formulas."""
+"""Equivalent models with their values: what else a measured system could be, as numbers and as
+formulas.
+"""
 
 from disting.equivalence.given import assignments as assignments
 from disting.equivalence.given import chain_of as chain_of

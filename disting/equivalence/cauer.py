@@ -1,9 +1,12 @@
-"""Undamped chains seen from one end: masses and springs are rational functions of those of other chains.
+"""Undamped chains seen from one end: masses and springs are rational functions of those of other
+chains.
 
-In x = s^2 the receptance N/D of a row of masses at its end obeys D/N = m x + 1/(1/k + N'/D'), N'/D' that of the rest (Cauer's
-continued fraction): m is the ratio of leading coefficients, k the limit of P/N, P = D - m x N, and the next receptance is
-(N - P/k)/P. A free end leaves nothing after the last mass, a wall nothing after the last spring. No root is taken, so the map
-is rational from every chain whose receptance, or that of one of its parts, belongs to one place (force and sensor together).
+In x = s^2 the receptance N/D of a row of masses at its end obeys D/N = m x + 1/(1/k + N'/D'),
+N'/D' that of the rest (Cauer's continued fraction): m is the ratio of leading coefficients, k the
+limit of P/N, P = D - m x N, and the next receptance is (N - P/k)/P. A free end leaves nothing
+after the last mass, a wall nothing after the last spring. No root is taken, so the map is rational
+from every chain whose receptance, or that of one of its parts, belongs to one place (force and
+sensor together).
 """
 
 from collections.abc import Callable, Iterator
@@ -30,16 +33,22 @@ class Expansion:
 
 
 def expansions(given: Chain) -> Iterator[Expansion]:
-    """The chains seen from the end of the whole receptance, of the free part, of the grounded part, or of both parts."""
+    """The chains seen from the end of the whole receptance, of the free part, of the grounded
+    part, or of both parts.
+    """
     if given.damped or given.ground_dampers or given.lag or given.dead_time:
         return
     n, g = given.n_masses, given.gap
     if given.collocated:
         plain = replace(given, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=1)
-        yield Expansion(plain, lambda: _named(plain, *_seen(given, given.structure.ports, wall=False)))
+        yield Expansion(
+            plain, lambda: _named(plain, *_seen(given, given.structure.ports, wall=False))
+        )
     if not g:
         return
-    for free, grounded in product((given.act_plus == given.meas_plus, False), (given.act_minus == given.meas_minus, False)):
+    for free, grounded in product(
+        (given.act_plus == given.meas_plus, False), (given.act_minus == given.meas_minus, False)
+    ):
         if free or grounded:
             yield _by_parts(given, n, g, free, grounded)
 
@@ -71,9 +80,14 @@ def _by_parts(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expan
     def values() -> dict[str, RationalFunction]:
         """Masses and springs in terms of those of the given chain."""
         known = {name: RationalFunction(p, p**0) for name, p in _ring(given).items() if name != "s"}
-        masses, springs = [known[f"m{i}"] for i in range(1, n + 1)], [known[k] for k in known if k[0] == "k"]
+        masses, springs = (
+            [known[f"m{i}"] for i in range(1, n + 1)],
+            [known[k] for k in known if k[0] == "k"],
+        )
         if free:
-            masses[g:], springs[g:] = _seen(given, Ports(0, given.act_plus, 0, given.meas_plus), wall=False)
+            masses[g:], springs[g:] = _seen(
+                given, Ports(0, given.act_plus, 0, given.meas_plus), wall=False
+            )
         if grounded:
             inner = _seen(given, Ports(given.act_minus, 0, given.meas_minus, 0), wall=True)
             masses[:g], springs[:g] = inner[0][::-1], inner[1][::-1]
@@ -96,5 +110,7 @@ def _ring(given: Chain) -> dict[str, Any]:
     return symbols(["s", *given.parameters])
 
 
-def _named(chain: Chain, masses: list[RationalFunction], springs: list[RationalFunction]) -> dict[str, RationalFunction]:
+def _named(
+    chain: Chain, masses: list[RationalFunction], springs: list[RationalFunction]
+) -> dict[str, RationalFunction]:
     return dict(zip(chain.parameters, [*masses, *springs], strict=True))

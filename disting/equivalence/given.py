@@ -1,7 +1,9 @@
-"""What a user gives: models as chains or text such as 3:1+b2, values as numbers or text, taken exactly as fractions.
+"""What a user gives: models as chains or text such as 3:1+b2, values as numbers or text, taken
+exactly as fractions.
 
-Behind masses and number +b2 stands for a damper from mass 2 to the ground, +lag for a first-order lag, +delay for a dead time.
-A lag and a dead time belong to the actuator and the bench: other structures inherit them from the given model.
+Behind masses and number +b2 stands for a damper from mass 2 to the ground, +lag for a first-order
+lag, +delay for a dead time. A lag and a dead time belong to the actuator and the bench: other
+structures inherit them from the given model.
 """
 
 import re
@@ -24,7 +26,8 @@ Value = Number | str
 
 
 def chain_of(model: Chain | str, family: Family) -> Chain:
-    """A chain as it is; text such as 3:11 is model 11 of the 3-mass family, with damping and sensor of the given family.
+    """A chain as it is; text such as 3:11 is model 11 of the 3-mass family, with damping and
+    sensor of the given family.
 
     Raises InputError.
 
@@ -35,16 +38,20 @@ def chain_of(model: Chain | str, family: Family) -> Chain:
         return model
     match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
     if not match:
-        raise InputError(f"a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not {shown(model)}")
+        raise InputError(
+            "a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not"
+            f" {shown(model)}"
+        )
     return _extended(_sized(family, match[1])[int(match[2])], match[3])
 
 
 def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
-    """The chains to look at: one, or all of a family; text such as 3:11 or 3 means damping and sensor of the given chain.
+    """The chains to look at: one, or all of a family; text such as 3:11 or 3 means damping and
+    sensor of the given chain.
 
-    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with any set of them. Families and
-    structures given as text have the lag and the dead time of the given chain too: without them none could do the same. A
-    Chain is taken as it is.
+    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with
+    any set of them. Families and structures given as text have the lag and the dead time of the
+    given chain too: without them none could do the same. A Chain is taken as it is.
 
     Raises InputError.
 
@@ -53,7 +60,10 @@ def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
     """
     if isinstance(to, Chain):
         return (to,)
-    return tuple(replace(c, lag=c.lag or given.lag, dead_time=c.dead_time or given.dead_time) for c in _named(to, given))
+    return tuple(
+        replace(c, lag=c.lag or given.lag, dead_time=c.dead_time or given.dead_time)
+        for c in _named(to, given)
+    )
 
 
 def _named(to: Family | str, given: Chain) -> tuple[Chain, ...]:
@@ -85,7 +95,9 @@ def _extended(chain: Chain, extras: str) -> Chain:
 def _rubbed(chain: Chain) -> Iterator[Chain]:
     """The chain with every set of dampers to the ground."""
     masses = range(1, chain.n_masses + 1)
-    for chosen in chained.from_iterable(combinations(masses, size) for size in range(chain.n_masses + 1)):
+    for chosen in chained.from_iterable(
+        combinations(masses, size) for size in range(chain.n_masses + 1)
+    ):
         yield replace(chain, ground_dampers=chosen)
 
 
@@ -100,10 +112,16 @@ def point_of(chain: Chain, values: Mapping[str, Value]) -> dict[str, fmpq]:
     names = ", ".join(chain.parameters)
     unknown = [str(name) for name in values if name not in chain.parameters]
     if unknown:
-        raise InputError(f"{', '.join(unknown)}: no parameter of the chain with {chain}; its parameters are {names}")
+        raise InputError(
+            f"{', '.join(unknown)}: no parameter of the chain with {chain}; its parameters are"
+            f" {names}"
+        )
     missing = [name for name in chain.parameters if name not in values]
     if missing:
-        raise InputError(f"the value of {', '.join(missing)} is missing; the parameters of the chain with {chain} are {names}")
+        raise InputError(
+            f"the value of {', '.join(missing)} is missing; the parameters of the chain with"
+            f" {chain} are {names}"
+        )
     return {name: _fraction(name, values[name]) for name in chain.parameters}
 
 
@@ -117,7 +135,10 @@ def assignments(texts: list[str]) -> dict[str, str]:
     for part in (part.strip() for text in texts for part in text.split(",")):
         name, equals, value = (piece.strip() for piece in part.partition("="))
         if not (name and equals and value):
-            raise InputError(f"values are written name=number, separated by commas, such as m1=1,k12=3/4, not {shown(part)}")
+            raise InputError(
+                "values are written name=number, separated by commas, such as m1=1,k12=3/4, not"
+                f" {shown(part)}"
+            )
         if name in found:
             raise InputError(f"{name} is given twice")
         found[name] = value
@@ -133,7 +154,10 @@ def _fraction(name: str, value: Value) -> fmpq:
     if exact is None:
         raise InputError(f"{name} = {shown(value)}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
     if exact <= 0:
-        reason = "masses, springs, dampers and times are positive; a chain without an element is another model"
+        reason = (
+            "masses, springs, dampers and times are positive; a chain without an element is another"
+            " model"
+        )
         raise InputError(f"{name} = {value}: {reason}")
     return fmpq(exact.numerator, exact.denominator)
 

@@ -1,8 +1,11 @@
-"""Equivalent parameter vectors that theorems give for every value: symmetries of the class and duality.
+"""Equivalent parameter vectors that theorems give for every value: symmetries of the class and
+duality.
 
-Symmetries (`disting.model.symmetry`) rename parameters; the duality theorem (`disting.synthesis.duality`) applies where both
-ports sit at the two sides of the gap. All are exact in any field, numbers or rational functions, and keep positive parameters
-positive. Symmetries, duality, symmetries again: more duality leads back, as only the mirrored form leaves the gap.
+Symmetries (`disting.model.symmetry`) rename parameters; the duality theorem
+(`disting.synthesis.duality`) applies where both ports sit at the two sides of the gap. All are
+exact in any field, numbers or rational functions, and keep positive parameters positive.
+Symmetries, duality, symmetries again: more duality leads back, as only the mirrored form leaves
+the gap.
 """
 
 from collections.abc import Iterator, Mapping
@@ -20,7 +23,9 @@ DUALITY = "duality of chains with both ports at the gap"
 
 @dataclass(frozen=True, slots=True)
 class Image:
-    """A chain with the same transfer function, its parameters, and the theorems that lead to it (none: the chain itself)."""
+    """A chain with the same transfer function, its parameters, and the theorems that lead to it
+    (none: the chain itself).
+    """
 
     chain: Chain
     values: Values

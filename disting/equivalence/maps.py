@@ -1,7 +1,9 @@
-"""Equivalent models as formulas: each parameter of one structure as a rational function of the parameters of another.
+"""Equivalent models as formulas: each parameter of one structure as a rational function of the
+parameters of another.
 
-Symmetries and duality for all chains that they connect; for undamped chains Cauer's continued fraction where a chain, or a
-part of it, is seen from its end; and both together. Each map is checked as an identity of both transfer functions.
+Symmetries and duality for all chains that they connect; for undamped chains Cauer's continued
+fraction where a chain, or a part of it, is seen from its end; and both together. Each map is
+checked as an identity of both transfer functions.
 """
 
 from collections.abc import Iterator, Mapping
@@ -30,9 +32,10 @@ CAUER = "Cauer's continued fraction"
 class Map:
     """Parameters of `other` as functions of those of `given`, with the same transfer function.
 
-    `steps`: the theorems used. `certainty`: PROVEN, the identity is written out, or BOUNDED, it holds at a random point, and
-    wrong formulas do so with probability 2^-safety at most. The formulas hold wherever no denominator and no formula is zero,
-    and give positive parameters for positive ones there.
+    `steps`: the theorems used. `certainty`: PROVEN, the identity is written out, or BOUNDED, it
+    holds at a random point, and wrong formulas do so with probability 2^-safety at most. The
+    formulas hold wherever no denominator and no formula is zero, and give positive parameters for
+    positive ones there.
     """
 
     given: Chain
@@ -43,27 +46,41 @@ class Map:
     safety: int
 
     def at(self, values: Mapping[str, Value]) -> dict[str, Any]:
-        """Parameters of `other`, exact fractions, at values of the given ones. Raises InputError as `point_of` does."""
+        """Parameters of `other`, exact fractions, at values of the given ones. Raises
+        InputError as `point_of` does.
+        """
         point: dict[str, fmpq] = point_of(self.given, values)
         return {name: formula.value(point) for name, formula in self.formulas.items()}
 
     @property
     def python(self) -> str:
-        """Python source: symbols for SymPy, positive as those of `sympy`, and a dictionary of the formulas."""
+        """Python source: symbols for SymPy, positive as those of `sympy`, and a dictionary of
+        the formulas.
+        """
         names = ", ".join(self.given.parameters)
-        lines = "".join(f'    "{name}": {text(formula)},\n' for name, formula in self.formulas.items())
-        return f'from sympy import symbols\n\n{names} = symbols("{names}", positive=True)\nequivalent = {{\n{lines}}}'
+        lines = "".join(
+            f'    "{name}": {text(formula)},\n' for name, formula in self.formulas.items()
+        )
+        return (
+            f'from sympy import symbols\n\n{names} = symbols("{names}", positive=True)\nequivalent'
+            f" = {{\n{lines}}}"
+        )
 
     @property
     def text(self) -> str:
         """One line a parameter, in Python's notation; a prime marks the parameters of `other`."""
         width = max(map(len, self.formulas)) + 1
-        return "\n".join(f"{name + chr(39):{width}} = {text(formula)}" for name, formula in self.formulas.items())
+        return "\n".join(
+            f"{name + chr(39):{width}} = {text(formula)}" for name, formula in self.formulas.items()
+        )
 
     @property
     def latex(self) -> str:
         """An align environment (amsmath); a prime marks the parameters of `other`."""
-        lines = (f"  {latex_symbol(name)}' &= {latex(formula)}" for name, formula in self.formulas.items())
+        lines = (
+            f"  {latex_symbol(name)}' &= {latex(formula)}"
+            for name, formula in self.formulas.items()
+        )
         return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
 
     def sympy(self) -> dict[str, Any]:
@@ -72,7 +89,8 @@ class Map:
 
 
 def explicit_map(given: Chain, other: Chain) -> Map | None:
-    """The formulas, the simplest ones known; None if no rational map is known here (there may be one).
+    """The formulas, the simplest ones known; None if no rational map is known here (there may be
+    one).
 
     From a structure to itself: another map than the identity, if there is one.
 
@@ -93,12 +111,17 @@ def explicit_map(given: Chain, other: Chain) -> Map | None:
         holds = holds_at_random(given, other, formulas, f"{given}:{other}")
         grade = (Certainty.BOUNDED, safety(given, formulas))
     if not holds:
-        raise ContradictionError(f"the formulas from {name_of(given, short=False)} to {name_of(other, short=False)} are wrong")
+        raise ContradictionError(
+            f"the formulas from {name_of(given, short=False)} to {name_of(other, short=False)} are"
+            " wrong"
+        )
     return Map(given, other, formulas, steps, *grade)
 
 
 def _candidates(given: Chain, other: Chain) -> Iterator[Image]:
-    """Yield the models of `other` that are known as formulas, simplest first, without the identity."""
+    """Yield the models of `other` that are known as formulas, simplest first, without the
+    identity.
+    """
     names = variables(["s", *given.parameters])
     start = {name: names[name] for name in given.parameters}
     for image in _images(given, start, other):
@@ -109,6 +132,9 @@ def _candidates(given: Chain, other: Chain) -> Iterator[Image]:
 def _images(given: Chain, start: Mapping[str, RationalFunction], other: Chain) -> Iterator[Image]:
     yield from images(given, start)
     for expansion in expansions(given) if given.n_masses <= CAUER_UP_TO else ():
-        if any(image.chain == other for image in images(expansion.chain, dict.fromkeys(expansion.chain.parameters, 1.0))):
+        if any(
+            image.chain == other
+            for image in images(expansion.chain, dict.fromkeys(expansion.chain.parameters, 1.0))
+        ):
             for image in images(expansion.chain, expansion.values()):
                 yield Image(image.chain, image.values, (CAUER, *image.steps))

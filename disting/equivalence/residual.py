@@ -1,4 +1,6 @@
-"""How well two parameter vectors agree: the coefficients of both transfer functions, in exact or ball arithmetic."""
+"""How well two parameter vectors agree: the coefficients of both transfer functions, in exact
+or ball arithmetic.
+"""
 
 from collections.abc import Iterator, Mapping
 from itertools import zip_longest
@@ -14,10 +16,14 @@ BITS = 320  # of the evaluation; inputs of 15 digits leave far more than enough
 
 
 def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, fmpq]) -> bool:
-    """Whether two models at rational points have the same transfer function: exact, common factors do not matter."""
+    """Whether two models at rational points have the same transfer function: exact, common
+    factors do not matter.
+    """
     one, s = fmpq_poly([1]), fmpq_poly([0, 1])
     (f_num, f_den), (g_num, g_den) = (
-        plain_receptance(chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, one)
+        plain_receptance(
+            chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, one
+        )
         for chain, values in ((left, a), (right, b))
     )
     return bool(f_num * g_den == g_num * f_den)
@@ -26,7 +32,8 @@ def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[s
 def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, Number]) -> float:
     """Upper bound of the largest relative difference of a coefficient, denominators made monic.
 
-    Relative to the coefficient of the left model, or to its largest one where that coefficient is zero.
+    Relative to the coefficient of the left model, or to its largest one where that coefficient is
+    zero.
     """
     with ctx.workprec(BITS):
         pairs = zip(_coefficients(left, a), _coefficients(right, b), strict=True)

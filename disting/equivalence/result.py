@@ -1,4 +1,6 @@
-"""Equivalent models as a user gets them: values, signs, how well they agree, and whether these are all."""
+"""Equivalent models as a user gets them: values, signs, how well they agree, and whether these
+are all.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,7 +22,9 @@ class Signs(StrEnum):
 
 
 class Origin(StrEnum):
-    """Where a parameter vector comes from. All but SYNTHESIS are exact theorems, PROPORTIONAL applied to a synthesis."""
+    """Where a parameter vector comes from. All but SYNTHESIS are exact theorems, PROPORTIONAL
+    applied to a synthesis.
+    """
 
     GIVEN = "the given model"
     RENAMING = "renaming by symmetry"
@@ -33,12 +37,14 @@ class Origin(StrEnum):
 class Equivalent:
     """A parameter vector of `chain` with the same transfer function.
 
-    `values`: floats (complex where `signs` says so) by parameter name; `text`: the same with 15 digits; `exact`: fractions
-    where the values are known exactly, else empty. `residual`: the largest relative difference between a transfer-function
-    coefficient of the values in `text` and the given one (an upper bound, in ball arithmetic, so rounding to 15 digits counts);
-    `bound`: the same for the values before rounding, 0 where they are exact. `free_choices`: dimension of the family of which
-    this is a member. `proven`: whether the signs are proven. A vector from the synthesis is known to agree within `bound`, no
-    more: that it exists exactly is proven only where `exact` is given, that no other exists where the listing is complete.
+    `values`: floats (complex where `signs` says so) by parameter name; `text`: the same with 15
+    digits; `exact`: fractions where the values are known exactly, else empty. `residual`: the
+    largest relative difference between a transfer-function coefficient of the values in `text` and
+    the given one (an upper bound, in ball arithmetic, so rounding to 15 digits counts); `bound`:
+    the same for the values before rounding, 0 where they are exact. `free_choices`: dimension of
+    the family of which this is a member. `proven`: whether the signs are proven. A vector from the
+    synthesis is known to agree within `bound`, no more: that it exists exactly is proven only
+    where `exact` is given, that no other exists where the listing is complete.
     """
 
     chain: Chain
@@ -68,7 +74,9 @@ class Equivalent:
 
 @dataclass(frozen=True, slots=True)
 class Listing:
-    """The equivalents in one structure; `complete`: there are no others. `sentence` says it in words."""
+    """The equivalents in one structure; `complete`: there are no others. `sentence` says it in
+    words.
+    """
 
     name: str
     chain: Chain
@@ -93,8 +101,8 @@ class Listing:
 class Equivalents:
     """The given model, its exact values, and a listing for each structure looked at.
 
-    `proportional`: all of two or more springs have the same ratio k/d, which makes more structures equivalent than other
-    dampers do. Iterates over all parameter vectors, positive ones first.
+    `proportional`: all of two or more springs have the same ratio k/d, which makes more structures
+    equivalent than other dampers do. Iterates over all parameter vectors, positive ones first.
     """
 
     name: str

@@ -17,14 +17,20 @@ def sentence(found: Fibre, count: int, cause: str) -> str:
     if found.status is Status.EMPTY:
         return f"{NONE} ({found.reason})"
     if found.status is Status.COMPLETE:
-        return "all there are" if not found.tests.boundary else "all there are, but for any with an element near zero"
+        return (
+            "all there are"
+            if not found.tests.boundary
+            else "all there are, but for any with an element near zero"
+        )
     if found.status is Status.INFINITE:
         return "infinitely many: one member of each family is listed, others may have other signs"
     listed = "the list may be incomplete" if count else "nothing can be said"
     if found.status is Status.NOT_COVERED:
         return f"{listed}: {found.reason}"
     if found.tests.boundary:
-        return f"{listed}, since an element cannot be told from zero: a structure without it may serve"
+        return (
+            f"{listed}, since an element cannot be told from zero: a structure without it may serve"
+        )
     return f"special values: {listed}, since {cause}; change a value slightly"
 
 
@@ -60,7 +66,11 @@ def special(given: Chain, point: Mapping[str, fmpq]) -> str:
     if target(given.structure, point).denominator.degree() < 2 * given.n_masses + given.lag:
         return "a vibration mode is not seen by force and sensor (poles and zeros cancel)"
     equal = _equal_ratios(given, point)
-    return f"springs have the same ratio k/d ({equal})" if equal else "poles, zeros or elements coincide"
+    return (
+        f"springs have the same ratio k/d ({equal})"
+        if equal
+        else "poles, zeros or elements coincide"
+    )
 
 
 def _equal_ratios(given: Chain, point: Mapping[str, fmpq]) -> str:

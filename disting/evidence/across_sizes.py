@@ -1,4 +1,6 @@
-"""What shows that a chain is, or is not, a limit of chains with more masses: kinds of evidence, each checked again alone."""
+"""What shows that a chain is, or is not, a limit of chains with more masses: kinds of evidence,
+each checked again alone.
+"""
 
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
@@ -7,10 +9,12 @@ _WORDS = {"∞": "without bound", "0": "zero"}
 
 
 class PartLimit(NamedTuple):
-    """A row (free or grounded) of the larger chain becomes one of the smaller chain, by `steps` and by a count.
+    """A row (free or grounded) of the larger chain becomes one of the smaller chain, by `steps`
+    and by a count.
 
-    Step: an element and what it tends to, masses of the row numbered anew after each. `room`: rank, coordinates, factors and
-    1 or 0 for the mass (see `meeting`) of the last step; () if the steps lead to the row itself. Rows are canonical.
+    Step: an element and what it tends to, masses of the row numbered anew after each. `room`:
+    rank, coordinates, factors and 1 or 0 for the mass (see `meeting`) of the last step; () if the
+    steps lead to the row itself. Rows are canonical.
     """
 
     given: str
@@ -23,7 +27,11 @@ class PartLimit(NamedTuple):
         """What happens to the row, without names of models."""
         path = ", then ".join(f"{element} {_WORDS[limit]}" for element, limit in self.steps)
         ways = [f"with {path}"] * bool(path) + ["by a count of dimensions"] * bool(self.room)
-        becomes = f"becomes the {self.wanted} one {' and '.join(ways)}" if ways else f"is the {self.wanted} one"
+        becomes = (
+            f"becomes the {self.wanted} one {' and '.join(ways)}"
+            if ways
+            else f"is the {self.wanted} one"
+        )
         return f"the {self.given} row {becomes}"
 
     @property
@@ -35,9 +43,11 @@ class PartLimit(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """The smaller chain is a limit of the larger one, row by row; a row that is not named comes to rest.
+    """The smaller chain is a limit of the larger one, row by row; a row that is not named comes to
+    rest.
 
-    `smaller`, `larger`: indices of the chains of which this is said, the same as those given by a theorem; () for themselves.
+    `smaller`, `larger`: indices of the chains of which this is said, the same as those given by a
+    theorem; () for themselves.
     """
 
     kind: ClassVar[str] = "limit"
@@ -53,10 +63,15 @@ class Limit:
         """What becomes of each row."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         path = "; ".join(part.sentence for part in self.parts)
-        same = [f"{name} being the same as the chain {given}" for name, given in self._replaced(smaller, larger)]
+        same = [
+            f"{name} being the same as the chain {given}"
+            for name, given in self._replaced(smaller, larger)
+        ]
         why = f" ({' and '.join(same)})" if same else ""
         how = "masses of a row numbered from 1 at each step"
-        return f"{smaller} is a limit of {larger} for all parameters of {smaller}{why}; {how}: {path}."
+        return (
+            f"{smaller} is a limit of {larger} for all parameters of {smaller}{why}; {how}: {path}."
+        )
 
     @property
     def formula(self) -> str:
@@ -64,12 +79,18 @@ class Limit:
         return "; ".join(f"{part.given} ⇒ {part.wanted}: {part.formula}" for part in self.parts)
 
     def _replaced(self, smaller: str, larger: str) -> list[tuple[str, tuple[int, ...]]]:
-        return [(name, given) for name, given in ((smaller, self.smaller), (larger, self.larger)) if given]
+        return [
+            (name, given)
+            for name, given in ((smaller, self.smaller), (larger, self.larger))
+            if given
+        ]
 
 
 @dataclass(frozen=True, slots=True)
 class Meeting:
-    """Dimensions of closures add up (see `meeting`), so a common factor exists with which the smaller model is a limit."""
+    """Dimensions of closures add up (see `meeting`), so a common factor exists with which the
+    smaller model is a limit.
+    """
 
     kind: ClassVar[str] = "meeting"
     left_is_larger: bool
@@ -83,9 +104,10 @@ class Meeting:
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         mass = ", total masses being equal" if self.same_mass else ""
         return (
-            f"{larger} has {self.rank} determinable parameters for {self.coordinates} coefficients up to a factor, those of "
-            f"{smaller} may be multiplied by any polynomial of {self.factors} coefficients: dimensions add up{mass}, so every "
-            f"{smaller} is a limit of {larger}."
+            f"{larger} has {self.rank} determinable parameters for {self.coordinates} coefficients"
+            f" up to a factor, those of {smaller} may be multiplied by any polynomial of"
+            f" {self.factors} coefficients: dimensions add up{mass}, so every {smaller} is a limit"
+            f" of {larger}."
         )
 
     @property
@@ -96,7 +118,9 @@ class Meeting:
 
 @dataclass(frozen=True, slots=True)
 class TooLarge:
-    """Numbers of determinable parameters, in the pair's order: the chain with fewer masses has as many or more."""
+    """Numbers of determinable parameters, in the pair's order: the chain with fewer masses has
+    as many or more.
+    """
 
     kind: ClassVar[str] = "too-large"
     left: int
@@ -105,8 +129,8 @@ class TooLarge:
     def sentence(self, left: str, right: str) -> str:
         """Both numbers, and what follows."""
         return (
-            f"{left} has {self.left} determinable parameters, {right} {self.right}: limits with fewer poles have fewer than "
-            "the models that they are limits of."
+            f"{left} has {self.left} determinable parameters, {right} {self.right}: limits with"
+            " fewer poles have fewer than the models that they are limits of."
         )
 
     @property
@@ -117,10 +141,12 @@ class TooLarge:
 
 @dataclass(frozen=True, slots=True)
 class PoleSharing:
-    """Smaller models whose poles cannot be distributed to the rows of the larger chain (see `pole_sharing`).
+    """Smaller models whose poles cannot be distributed to the rows of the larger chain (see
+    `pole_sharing`).
 
-    `points`: their parameters in order, canonical form, each modulo the prime that belongs to the label and its place. One
-    point needs no more; at several, equations of the grounded row were used too, found with an error bound.
+    `points`: their parameters in order, canonical form, each modulo the prime that belongs to the
+    label and its place. One point needs no more; at several, equations of the grounded row were
+    used too, found with an error bound.
     """
 
     kind: ClassVar[str] = "pole-sharing"
@@ -134,8 +160,8 @@ class PoleSharing:
         found = "A model" if len(self.points) == 1 else f"Each of {len(self.points)} models"
         row = "" if len(self.points) == 1 else " that its grounded row can have"
         return (
-            f"{found} of {smaller} given in numbers is no limit of {larger}: no distribution of the poles to its two "
-            f"rows gives the zeros{row}."
+            f"{found} of {smaller} given in numbers is no limit of {larger}: no distribution of the"
+            f" poles to its two rows gives the zeros{row}."
         )
 
     @property
@@ -146,10 +172,12 @@ class PoleSharing:
 
 @dataclass(frozen=True, slots=True)
 class LimitFibre:
-    """Generic smaller models are found, with an error bound, among what limits of the larger chain's rows lead to.
+    """Generic smaller models are found, with an error bound, among what limits of the larger
+    chain's rows lead to.
 
-    `steps` of each row by name, the others being at rest; `solutions` at the prime and point of each label, see
-    `disting.ideals.Solved`, where `small_given` says that the points are of the smaller chain.
+    `steps` of each row by name, the others being at rest; `solutions` at the prime and point of
+    each label, see `disting.ideals.Solved`, where `small_given` says that the points are of the
+    smaller chain.
     """
 
     kind: ClassVar[str] = "limit-fibre"
@@ -163,16 +191,26 @@ class LimitFibre:
         """The limits, and what was computed."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         given, searched = (smaller, "the limit") if self.small_given else ("the limit", smaller)
-        rows = [f"{', then '.join(f'{e} {_WORDS[x]}' for e, x in path)} in the {name} row" for name, path in self.steps if path]
+        rows = [
+            f"{', then '.join(f'{e} {_WORDS[x]}' for e, x in path)} in the {name} row"
+            for name, path in self.steps
+            if path
+        ]
         return (
-            f"{smaller} is part of a limit of {larger} with {' and '.join(rows) or 'a row at rest'}: for random parameters of "
-            f"{given} modulo random primes, parameters of {searched} with the same transfer function were computed."
+            f"{smaller} is part of a limit of {larger} with"
+            f" {' and '.join(rows) or 'a row at rest'}: for random parameters of {given} modulo"
+            f" random primes, parameters of {searched} with the same transfer function were"
+            " computed."
         )
 
     @property
     def formula(self) -> str:
         """The limits, and that the fibre has a point."""
-        rows = [f"{name}: {', '.join(f'{e} → {x}' for e, x in path)}" for name, path in self.steps if path]
+        rows = [
+            f"{name}: {', '.join(f'{e} → {x}' for e, x in path)}"
+            for name, path in self.steps
+            if path
+        ]
         return "; ".join([*rows, "Φ₂(q₀) ≡ Φ₁(p₀)"])
 
 

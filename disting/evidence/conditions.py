@@ -1,11 +1,15 @@
-"""Evidence of conditions 1 to 9: degrees, symbolic forms, ranks, a renaming, a numbering of masses."""
+"""Evidence of conditions 1 to 9: degrees, symbolic forms, ranks, a renaming, a numbering of
+masses.
+"""
 
 from dataclasses import dataclass
 from itertools import groupby
 from typing import ClassVar
 
 Labels = tuple[str, ...]
-TRANSCENDENTAL = "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
+TRANSCENDENTAL = (
+    "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +22,10 @@ class Counts:
 
     def sentence(self, left: str, right: str) -> str:
         """Both degrees in words."""
-        a, b = (f"a numerator of degree {n} over a denominator of degree {m}" for n, m in (self.left, self.right))
+        a, b = (
+            f"a numerator of degree {n} over a denominator of degree {m}"
+            for n, m in (self.left, self.right)
+        )
         return f"{left} has {a}, {right} {b}."
 
     @property
@@ -46,7 +53,10 @@ class Forms:
     @property
     def formula(self) -> str:
         """Labels that vary on one side only."""
-        return f"free in one only: {spelled(self.only_left) or '–'} | {spelled(self.only_right) or '–'}"
+        return (
+            f"free in one only: {spelled(self.only_left) or '–'} |"
+            f" {spelled(self.only_right) or '–'}"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +73,10 @@ class Ranks:
         """Both ranks in words."""
         if self.all_rows:
             return f"{left} has {self.left} determinable parameters, {right} {self.right}."
-        return f"In {left} the invariants {spelled(self.rows)} have rank {self.left}, in {right} rank {self.right}."
+        return (
+            f"In {left} the invariants {spelled(self.rows)} have rank {self.left}, in {right} rank"
+            f" {self.right}."
+        )
 
     @property
     def formula(self) -> str:
@@ -74,7 +87,9 @@ class Ranks:
 
 @dataclass(frozen=True, slots=True)
 class Renaming:
-    """Condition 6: pairs (left parameter, right parameter), and the symmetries that give the renaming, if any do."""
+    """Condition 6: pairs (left parameter, right parameter), and the symmetries that give the
+    renaming, if any do.
+    """
 
     kind: ClassVar[str] = "renaming"
     pairs: tuple[tuple[str, str], ...]
@@ -85,7 +100,10 @@ class Renaming:
         moved = [f"{a} to {b}" for a, b in self.pairs if a != b]
         rename = f"after renaming {', '.join(moved)}" if moved else "without renaming any parameter"
         why = f" ({' and '.join(self.symmetries)})" if self.symmetries else ""
-        return f"{left} has the transfer function of {right} {rename}{why}, over positive parameters too."
+        return (
+            f"{left} has the transfer function of {right} {rename}{why}, over positive parameters"
+            " too."
+        )
 
     @property
     def formula(self) -> str:
@@ -104,8 +122,9 @@ class FreeChoice:
     def sentence(self, left: str, right: str) -> str:
         """The two equal numbers in words."""
         return (
-            f"Both have {self.rank} determinable parameters for {len(self.free)} non-constant invariants, "
-            f"so each of {left} and {right} can give them any generic values, with complex parameters."
+            f"Both have {self.rank} determinable parameters for {len(self.free)} non-constant"
+            f" invariants, so each of {left} and {right} can give them any generic values, with"
+            " complex parameters."
         )
 
     @property
@@ -116,7 +135,9 @@ class FreeChoice:
 
 @dataclass(frozen=True, slots=True)
 class Embedding:
-    """Condition 8: the side that is the submodel, the numbering of its masses in the larger model, the common rank."""
+    """Condition 8: the side that is the submodel, the numbering of its masses in the larger
+    model, the common rank.
+    """
 
     kind: ClassVar[str] = "embedding"
     left_is_submodel: bool
@@ -126,7 +147,10 @@ class Embedding:
     def sentence(self, left: str, right: str) -> str:
         """Which model is part of which."""
         part, whole = (left, right) if self.left_is_submodel else (right, left)
-        ranks = f"both have {self.rank} determinable parameters, so their behaviours agree over complex parameters"
+        ranks = (
+            f"both have {self.rank} determinable parameters, so their behaviours agree over complex"
+            " parameters"
+        )
         return f"{part} is {whole} with some elements missing, and {ranks}."
 
     @property
@@ -147,8 +171,9 @@ class Supermodel:
         """The third model in words."""
         third = ", ".join(self.parameters)
         return (
-            f"{left} and {right} are submodels of the chain with {third}; all three have {self.rank} determinable parameters, "
-            "so their behaviours agree over complex parameters."
+            f"{left} and {right} are submodels of the chain with {third}; all three have"
+            f" {self.rank} determinable parameters, so their behaviours agree over complex"
+            " parameters."
         )
 
     @property
@@ -167,7 +192,10 @@ def spelled(labels: Labels) -> str:
     'b0–b2, a1'
     """
     numbered = [(label[0], int(label[1:]) if label[1:].isdigit() else -1) for label in labels]
-    runs = [list(run) for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))]
+    runs = [
+        list(run)
+        for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))
+    ]
     ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
     return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)
 

@@ -6,24 +6,38 @@ from typing import ClassVar
 from disting.evidence.conditions import TRANSCENDENTAL
 
 THEOREMS = {
-    "Foster and Cauer": "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such impedance",
+    "Foster and Cauer": (
+        "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such"
+        " impedance"
+    ),
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
-    "duality": "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and scaled",
-    "Foster": "{left} and {right} are undamped with force and sensor at one place: both give any such resonances "
-    "(Foster's theorem)",
-    "parts": "{left} and {right} are undamped and their parts at both sides of the gap can be exchanged one by one",
+    "duality": (
+        "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and"
+        " scaled"
+    ),
+    "Foster": (
+        "{left} and {right} are undamped with force and sensor at one place: both give any such"
+        " resonances (Foster's theorem)"
+    ),
+    "parts": (
+        "{left} and {right} are undamped and their parts at both sides of the gap can be exchanged"
+        " one by one"
+    ),
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Theorem:
-    """A theorem of that `name` gives each model an equivalent in the other, with positive parameters if its own are."""
+    """A theorem of that `name` gives each model an equivalent in the other, with positive
+    parameters if its own are.
+    """
 
     kind: ClassVar[str] = "theorem"
     name: str
 
     def __post_init__(self) -> None:
-        if self.name not in THEOREMS:  # from a damaged file: said here, and not when it is to be told
+        # from a damaged file: said here, and not when it is to be told
+        if self.name not in THEOREMS:
             raise ValueError(f"no theorem is called {self.name!r}")
 
     def sentence(self, left: str, right: str) -> str:
@@ -38,7 +52,9 @@ class Theorem:
 
 @dataclass(frozen=True, slots=True)
 class DeadTime:
-    """Exact decision: one of the two has a dead time, so a factor that is no rational function (see `exact`)."""
+    """Exact decision: one of the two has a dead time, so a factor that is no rational function
+    (see `exact`).
+    """
 
     kind: ClassVar[str] = "dead time"
     left_given: bool
@@ -56,11 +72,12 @@ class DeadTime:
 
 @dataclass(frozen=True, slots=True)
 class FibreAt:
-    """Exact decision: the fibre of one model over the transfer function of the other at a rational parameter point.
+    """Exact decision: the fibre of one model over the transfer function of the other at a rational
+    parameter point.
 
-    Both models are in their canonical forms. `left_given`: the point (name, fraction) is of the left model and the right one
-    was searched; `grounds`: "refuted" or "construction" (see `synthesis.decide`); so many of the `solutions` listed are real,
-    so many positive.
+    Both models are in their canonical forms. `left_given`: the point (name, fraction) is of the
+    left model and the right one was searched; `grounds`: "refuted" or "construction" (see
+    `synthesis.decide`); so many of the `solutions` listed are real, so many positive.
     """
 
     kind: ClassVar[str] = "fibre"
@@ -76,12 +93,14 @@ class FibreAt:
         given, searched = (left, right) if self.left_given else (right, left)
         if self.grounds == "refuted":
             return (
-                f"For one choice of rational parameters of {given} no parameters of {searched}, real or complex, give the same "
-                "transfer function: every branch of the inverse synthesis is refuted."
+                f"For one choice of rational parameters of {given} no parameters of {searched},"
+                " real or complex, give the same transfer function: every branch of the inverse"
+                " synthesis is refuted."
             )
         return (
-            f"For one choice of rational parameters of {given}, parameters of {searched} with the same transfer function are "
-            f"proven to exist: {self.solutions} solutions listed, {self.real} of them real, {self.positive} positive."
+            f"For one choice of rational parameters of {given}, parameters of {searched} with the"
+            f" same transfer function are proven to exist: {self.solutions} solutions listed,"
+            f" {self.real} of them real, {self.positive} positive."
         )
 
     @property

@@ -1,18 +1,24 @@
-"""Evidence of general models: equivalents as formulas for all parameters, or none; points with and without one; constants."""
+"""Evidence of general models: equivalents as formulas for all parameters, or none; points with
+and without one; constants.
+"""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
-"""Left given; polynomials in its parameters that are positive; values of the other model's parameters; and, if a value contains
-a root, (its name, the equation's polynomial, two numbers or fractions between which it is)."""
+"""Left given; polynomials in its parameters that are positive; values of the other model's
+parameters; and, if a value contains a root, (its name, the equation's polynomial, two numbers or
+fractions between which it is).
+"""
 Point = tuple[tuple[str, str], ...]  # parameter name, number
 SHOWN = 3
 
 
 @dataclass(frozen=True, slots=True)
 class Explicit:
-    """All generic parameters of either model have an equivalent: those of the first formula that applies."""
+    """All generic parameters of either model have an equivalent: those of the first formula
+    that applies.
+    """
 
     kind: ClassVar[str] = "explicit"
     domain: str
@@ -42,10 +48,11 @@ def _told(formula: Formula) -> str:
 
 @dataclass(frozen=True, slots=True)
 class NoEquivalent:
-    """No generic parameters of one model have an equivalent: in each case one of the `contradictions` would have to hold.
+    """No generic parameters of one model have an equivalent: in each case one of the
+    `contradictions` would have to hold.
 
-    They are equations polynomial = 0 or inequalities, in the given parameters p0, p1, .. and the unknown ones q0, q1, .. in the
-    order of the models.
+    They are equations polynomial = 0 or inequalities, in the given parameters p0, p1, .. and the
+    unknown ones q0, q1, .. in the order of the models.
     """
 
     kind: ClassVar[str] = "no equivalent"
@@ -56,10 +63,12 @@ class NoEquivalent:
     def sentence(self, left: str, right: str) -> str:
         """What would have to hold."""
         given, searched = (left, right) if self.left_given else (right, left)
-        some = "; ".join(self.contradictions[:SHOWN]) + ("; .." if len(self.contradictions) > SHOWN else "")
+        some = "; ".join(self.contradictions[:SHOWN]) + (
+            "; .." if len(self.contradictions) > SHOWN else ""
+        )
         return (
-            f"{given} with parameters p0, p1, .. has no equivalent in {searched} with {self.domain} parameters q0, q1, ..: "
-            f"impossible are {some}."
+            f"{given} with parameters p0, p1, .. has no equivalent in {searched} with {self.domain}"
+            f" parameters q0, q1, ..: impossible are {some}."
         )
 
     @property
@@ -79,7 +88,10 @@ class Constants:
 
     def sentence(self, left: str, right: str) -> str:
         """The first of them."""
-        return f"{self.labels[0]} is {self.left[0]} in {left} and {self.right[0]} in {right}, for all parameters."
+        return (
+            f"{self.labels[0]} is {self.left[0]} in {left} and {self.right[0]} in {right}, for all"
+            " parameters."
+        )
 
     @property
     def formula(self) -> str:
@@ -89,11 +101,12 @@ class Constants:
 
 @dataclass(frozen=True, slots=True)
 class Witnesses:
-    """At the rational `point_with` the other model has the `equivalent` (rounded), at `point_without` none in the domain.
+    """At the rational `point_with` the other model has the `equivalent` (rounded), at
+    `point_without` none in the domain.
 
-    The same is true of all parameters near each point. `with_left_given`, `without_left_given`: the point is of the left model
-    and the right one was searched. `solutions`: how many complex ones there are at the point without, -1 for infinitely
-    many, -2 where they were not counted.
+    The same is true of all parameters near each point. `with_left_given`, `without_left_given`:
+    the point is of the left model and the right one was searched. `solutions`: how many complex
+    ones there are at the point without, -1 for infinitely many, -2 where they were not counted.
     """
 
     kind: ClassVar[str] = "witnesses"
@@ -109,11 +122,13 @@ class Witnesses:
         """Both points in words."""
         given, searched = (left, right) if self.with_left_given else (right, left)
         without, nowhere = (left, right) if self.without_left_given else (right, left)
-        many = {-1: " (infinitely many complex)", -2: ""}.get(self.solutions, f" ({self.solutions} complex)")
+        many = {-1: " (infinitely many complex)", -2: ""}.get(
+            self.solutions, f" ({self.solutions} complex)"
+        )
         return (
-            f"{given} at {_spelled(self.point_with)} is {searched} at {_spelled(self.equivalent)}; "
-            f"{without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with {self.domain} parameters{many}; "
-            "the same is true all around both points."
+            f"{given} at {_spelled(self.point_with)} is {searched} at {_spelled(self.equivalent)};"
+            f" {without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with"
+            f" {self.domain} parameters{many}; the same is true all around both points."
         )
 
     @property

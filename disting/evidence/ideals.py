@@ -1,4 +1,5 @@
-"""Evidence of fibres as polynomial ideals: what one or more of them show, of whole chains, of their parts, of rows.
+"""Evidence of fibres as polynomial ideals: what one or more of them show, of whole chains, of
+their parts, of rows.
 
 A label stands for a random prime and a random point, so evidence holds labels, not numbers.
 """
@@ -14,10 +15,12 @@ SAME = 0  # in place of the number of coefficients of a part
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """At the prime and point of each label the searched model has the parameters `solutions` with the same transfer function.
+    """At the prime and point of each label the searched model has the parameters `solutions` with
+    the same transfer function.
 
-    `left_given`: the points are of the left model and the right one was searched. A scale factor, where needed, comes last.
-    `is_normalised`: in the coordinates of `system.normalised`, for chains.
+    `left_given`: the points are of the left model and the right one was searched. A scale factor,
+    where needed, comes last. `is_normalised`: in the coordinates of `system.normalised`, for
+    chains.
     """
 
     kind: ClassVar[str] = "solved"
@@ -30,8 +33,9 @@ class Solved:
         """What was found."""
         given, searched = (left, right) if self.left_given else (right, left)
         return (
-            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a random prime, "
-            f"parameters of {searched} with exactly the same transfer function were computed."
+            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a"
+            f" random prime, parameters of {searched} with exactly the same transfer function were"
+            " computed."
         )
 
     @property
@@ -42,10 +46,11 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Refuted:
-    """At the prime and point of each label the equations of the fibre have no solution: 1 is a combination of degree `degree`.
+    """At the prime and point of each label the equations of the fibre have no solution: 1 is a
+    combination of degree `degree`.
 
-    `tangent`: the tangent equations belong to them, which is right for models of equal rank only. `is_normalised`: in the
-    coordinates of `system.normalised`, for chains.
+    `tangent`: the tangent equations belong to them, which is right for models of equal rank only.
+    `is_normalised`: in the coordinates of `system.normalised`, for chains.
     """
 
     kind: ClassVar[str] = "refuted"
@@ -59,9 +64,9 @@ class Refuted:
         """What was found."""
         given, searched = (left, right) if self.left_given else (right, left)
         return (
-            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a random prime, no parameters of "
-            f"{searched}, in any extension, have the same transfer function: the equations contradict each other in degree "
-            f"{self.degree}."
+            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a"
+            f" random prime, no parameters of {searched}, in any extension, have the same transfer"
+            f" function: the equations contradict each other in degree {self.degree}."
         )
 
     @property
@@ -72,7 +77,9 @@ class Refuted:
 
 @dataclass(frozen=True, slots=True)
 class Vanishing:
-    """Markov parameter `index` of a part is a product of elements and has to be zero, or is zero and has to be something."""
+    """Markov parameter `index` of a part is a product of elements and has to be zero, or is
+    zero and has to be something.
+    """
 
     kind: ClassVar[str] = "vanishing"
     index: int
@@ -92,7 +99,9 @@ class PartStep:
 
 @dataclass(frozen=True, slots=True)
 class ByParts:
-    """In each split a part that cannot be, or in one split two parts that can; `left_given`: the right model is searched."""
+    """In each split a part that cannot be, or in one split two parts that can; `left_given`:
+    the right model is searched.
+    """
 
     kind: ClassVar[str] = "by-parts"
     left_given: bool
@@ -113,10 +122,18 @@ class ByParts:
         given, searched = (left, right) if self.left_given else (right, left)
         told = "; ".join(_told(step, searched) for step in self.steps)
         if self.is_member:
-            return f"Both parts of {searched} can have, at least in the limit, the receptances that add up to {given}: {told}."
-        start = f"The poles of each part of a generic {given} stay together in an equivalent {searched}"
+            return (
+                f"Both parts of {searched} can have, at least in the limit, the receptances that"
+                f" add up to {given}: {told}."
+            )
+        start = (
+            f"The poles of each part of a generic {given} stay together in an equivalent {searched}"
+        )
         if not self.steps:
-            return f"{start}, and no choice of parts has as many poles as the grounded part of {searched}."
+            return (
+                f"{start}, and no choice of parts has as many poles as the grounded part of"
+                f" {searched}."
+            )
         return f"{start}, so its parts have given receptances: {told}."
 
     @property
@@ -139,10 +156,12 @@ class ByParts:
 
 @dataclass(frozen=True, slots=True)
 class Shared:
-    """No way to share out the roots of N at the prime and point of `label` leaves parameters of the searched row.
+    """No way to share out the roots of N at the prime and point of `label` leaves parameters of
+    the searched row.
 
-    `part`: the row in question where both chains have the other one in common ("grounded", "free"), "" for whole chains;
-    `shares` that were refuted, each standing for its type, in degree `degree` at most.
+    `part`: the row in question where both chains have the other one in common ("grounded",
+    "free"), "" for whole chains; `shares` that were refuted, each standing for its type, in degree
+    `degree` at most.
     """
 
     kind: ClassVar[str] = "shared"
@@ -157,9 +176,10 @@ class Shared:
         given, searched = (left, right) if self.left_given else (right, left)
         where = f"The {self.part} parts decide, the others are the same. " if self.part else ""
         return (
-            f"{where}For one choice of random parameters of {given} modulo a random prime, no parameters of "
-            f"{searched}, in any extension, have the same receptance: each of the {self.shares} ways in which the numerator's "
-            "roots could be shared out among its factors leads to a contradiction."
+            f"{where}For one choice of random parameters of {given} modulo a random prime, no"
+            f" parameters of {searched}, in any extension, have the same receptance: each of the"
+            f" {self.shares} ways in which the numerator's roots could be shared out among its"
+            " factors leads to a contradiction."
         )
 
     @property
@@ -170,9 +190,11 @@ class Shared:
 
 @dataclass(frozen=True, slots=True)
 class ByRow:
-    """Exact decision: the `part` of both chains ("grounded", "free", "whole") is a row of so many masses, with a wall or not.
+    """Exact decision: the `part` of both chains ("grounded", "free", "whole") is a row of so many
+    masses, with a wall or not.
 
-    A generic one with the ports `given` is none with the ports `searched`: see `zeros.Branched` for the rest.
+    A generic one with the ports `given` is none with the ports `searched`: see `zeros.Branched`
+    for the rest.
     """
 
     kind: ClassVar[str] = "row"
@@ -187,13 +209,21 @@ class ByRow:
 
     def sentence(self, left: str, right: str) -> str:
         """What was found of the rows, and why it decides."""
-        ports = (f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched))
+        ports = (
+            f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched)
+        )
         where = "are one row" if self.part == "whole" else f"have a {self.part} part"
-        rest = "" if self.part == "whole" else " An equivalent model would have the same poles in each of its parts."
+        rest = (
+            ""
+            if self.part == "whole"
+            else " An equivalent model would have the same poles in each of its parts."
+        )
         return (
-            f"{left} and {right} {where} of {self.masses} masses{' with the wall' if self.wall else ''}.{rest} For random "
-            f"elements modulo a random prime, a row with {next(ports)} has no equivalent with {next(ports)}: of the "
-            f"ways to give the zeros to the factors of its numerator, all {self.branches} that need be tried are contradictory."
+            f"{left} and {right} {where} of {self.masses}"
+            f" masses{' with the wall' if self.wall else ''}.{rest} For random elements modulo a"
+            f" random prime, a row with {next(ports)} has no equivalent with {next(ports)}: of the"
+            f" ways to give the zeros to the factors of its numerator, all {self.branches} that"
+            " need be tried are contradictory."
         )
 
     @property
@@ -204,7 +234,9 @@ class ByRow:
 
 @dataclass(frozen=True, slots=True)
 class FullParts:
-    """Exact decision: `free` coefficients of each part, as many as its rank; 0 where both chains have the very same part."""
+    """Exact decision: `free` coefficients of each part, as many as its rank; 0 where both
+    chains have the very same part.
+    """
 
     kind: ClassVar[str] = "full-parts"
     free: tuple[int, ...]
@@ -212,13 +244,20 @@ class FullParts:
     def sentence(self, left: str, right: str) -> str:
         """Part by part."""
         parts = zip(("grounded", "free"), self.free, strict=True)
-        told = [f"the {name} parts are equal" if n == SAME else f"both {name} parts {_FULL.format(n)}" for name, n in parts]
-        return f"In {left} and {right} {' and '.join(told)}, so each can have the parts of the other."
+        told = [
+            f"the {name} parts are equal" if n == SAME else f"both {name} parts {_FULL.format(n)}"
+            for name, n in parts
+        ]
+        return (
+            f"In {left} and {right} {' and '.join(told)}, so each can have the parts of the other."
+        )
 
     @property
     def formula(self) -> str:
         """Rank and number of coefficients of the parts that are not equal."""
-        return ", ".join(f"N_R = {n} = |Φ_{name}|" for name, n in zip("RF", self.free, strict=True) if n != SAME)
+        return ", ".join(
+            f"N_R = {n} = |Φ_{name}|" for name, n in zip("RF", self.free, strict=True) if n != SAME
+        )
 
 
 def _times(count: int, what: str) -> str:
@@ -234,11 +273,20 @@ def _told(step: PartStep, searched: str) -> str:
     part = f"the {step.part} part of {searched}"
     match step.shown:
         case Vanishing():
-            found = f"Markov parameter {step.shown.index} of {part} is a product of elements and had to be zero, or the reverse"
+            found = (
+                f"Markov parameter {step.shown.index} of {part} is a product of elements and had to"
+                " be zero, or the reverse"
+            )
         case Solved():
-            found = f"{part} was solved for {len(step.shown.labels)} random receptances modulo random primes"
+            found = (
+                f"{part} was solved for {len(step.shown.labels)} random receptances modulo random"
+                " primes"
+            )
         case Refuted():
-            found = f"{part} was refuted for {len(step.shown.labels)} random receptances modulo random primes"
+            found = (
+                f"{part} was refuted for {len(step.shown.labels)} random receptances modulo random"
+                " primes"
+            )
     return f"{_SPLITS[step.split]}, {found}"
 
 

@@ -1,4 +1,5 @@
-"""Every kind of evidence that verdicts and inclusions rest on, and which statement each of them proves.
+"""Every kind of evidence that verdicts and inclusions rest on, and which statement each of them
+proves.
 
 Those of findings on positive parameters are `positive.PositiveEvidence`.
 """
@@ -7,32 +8,60 @@ from typing import Any, get_args
 
 from disting.evidence import plain
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
-from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.evidence.conditions import (
+    Counts,
+    Embedding,
+    Forms,
+    FreeChoice,
+    Ranks,
+    Renaming,
+    Supermodel,
+)
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import ByParts, ByRow, FullParts, Refuted, Shared, Solved
-from disting.evidence.limits import FullImage, LargerProjection, Outside, PartsInside, RelativeDegrees
+from disting.evidence.limits import (
+    FullImage,
+    LargerProjection,
+    Outside,
+    PartsInside,
+    RelativeDegrees,
+)
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 
 ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
 ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted | Shared
 OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
-Evidence = ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
+Evidence = (
+    ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
+)
 AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
 PartByPart = Outside | PartsInside | ByParts
 InclusionEvidence = (
-    AcrossSizes | Counts | LargerProjection | FullImage | RelativeDegrees | PartByPart | FibreAt | Solved | Refuted
+    AcrossSizes
+    | Counts
+    | LargerProjection
+    | FullImage
+    | RelativeDegrees
+    | PartByPart
+    | FibreAt
+    | Solved
+    | Refuted
 )
 
 
 def evidence_from(data: dict[str, Any]) -> Evidence:
-    """Evidence of a verdict from plain data; raises KeyError, TypeError or ValueError for what is none."""
+    """Evidence of a verdict from plain data; raises KeyError, TypeError or ValueError for what
+    is none.
+    """
     found: Evidence = plain.from_dict(data, get_args(Evidence))
     return found
 
 
 def inclusion_evidence_from(data: dict[str, Any]) -> InclusionEvidence:
-    """Evidence of an inclusion from plain data; raises KeyError, TypeError or ValueError for what is none."""
+    """Evidence of an inclusion from plain data; raises KeyError, TypeError or ValueError for
+    what is none.
+    """
     found: InclusionEvidence = plain.from_dict(data, get_args(InclusionEvidence))
     return found
 
@@ -53,10 +82,14 @@ def tells_limits(evidence: InclusionEvidence) -> bool:
 
 
 def excludes_limits(evidence: InclusionEvidence) -> bool:
-    """Whether it says that generic models are no limits, so that they have no equivalents either."""
+    """Whether it says that generic models are no limits, so that they have no equivalents
+    either.
+    """
     return isinstance(evidence, Counts | LargerProjection | TooLarge | PoleSharing | Outside)
 
 
 def excludes_equivalents(evidence: InclusionEvidence) -> bool:
-    """Whether it says that generic models have no equivalent with finite elements other than zero."""
+    """Whether it says that generic models have no equivalent with finite elements other than
+    zero.
+    """
     return excludes_limits(evidence) or not tells_limits(evidence)

@@ -1,4 +1,6 @@
-"""Evidence on limits of models of one size: of whole chains, and of what a part of a chain can be, or cannot."""
+"""Evidence on limits of models of one size: of whole chains, and of what a part of a chain can
+be, or cannot.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -23,9 +25,11 @@ SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
 
 
 class PartLimits(NamedTuple):
-    """What is shown of one `part` in one `split` (see `disting.ideals.parts`; "whole" for a chain without a gap).
+    """What is shown of one `part` in one `split` (see `disting.ideals.parts`; "whole" for a chain
+    without a gap).
 
-    `detail`: the coefficient's name, both ranks, or the label from which primes and points of an equation are drawn.
+    `detail`: the coefficient's name, both ranks, or the label from which primes and points of an
+    equation are drawn.
     """
 
     split: str
@@ -48,7 +52,9 @@ class _Steps:
     steps: tuple[PartLimits, ...]
 
     def __post_init__(self) -> None:
-        made = (PartLimits(split, part, Why(why), detail) for split, part, why, detail in self.steps)
+        made = (
+            PartLimits(split, part, Why(why), detail) for split, part, why, detail in self.steps
+        )
         object.__setattr__(self, "steps", tuple(made))
 
     def _names(self, left: str, right: str) -> tuple[str, str]:
@@ -57,7 +63,8 @@ class _Steps:
 
 @dataclass(frozen=True, slots=True)
 class Outside(_Steps):
-    """In every split some part cannot be, even in a limit; `left_given`: the right model is the one that is searched.
+    """In every split some part cannot be, even in a limit; `left_given`: the right model is the
+    one that is searched.
 
     No steps: no set of poles is large enough for the searched grounded part.
     """
@@ -69,8 +76,9 @@ class Outside(_Steps):
         given, searched = self._names(left, right)
         if not self.steps:
             return (
-                f"The poles of each part of a generic {given} stay together in every limit of models {searched}, and no "
-                f"choice of parts has as many poles as the grounded part of {searched}."
+                f"The poles of each part of a generic {given} stay together in every limit of"
+                f" models {searched}, and no choice of parts has as many poles as the grounded part"
+                f" of {searched}."
             )
         told = "; ".join(step.told(searched) for step in self.steps)
         return f"A generic {given} is no limit of models {searched}: {told}."
@@ -83,7 +91,10 @@ class Outside(_Steps):
     @property
     def formula(self) -> str:
         """What does not vanish."""
-        return "; ".join(_FORMULAS[step.why].format(detail=step.detail) for step in self.steps) or "R₂ + F₂ ≠ R₁ + F₁"
+        return (
+            "; ".join(_FORMULAS[step.why].format(detail=step.detail) for step in self.steps)
+            or "R₂ + F₂ ≠ R₁ + F₁"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +127,9 @@ _TOLD = {
     Why.MOMENTUM: "{part} can have any coefficients that keep the momentum (a₂ b₁ = a₃ b₀)",
     Why.COEFFICIENT: "coefficient {detail} is zero in {part} and would not be",
     Why.RANK: "{part} has too few determinable parameters ({detail})",
-    Why.RESULTANT: "the coefficients of {part} fulfil an equation, a resultant, that would not hold",
+    Why.RESULTANT: (
+        "the coefficients of {part} fulfil an equation, a resultant, that would not hold"
+    ),
     Why.EQUATION: "a polynomial equation between the coefficients of {part} does not hold",
 }
 _FORMULAS = {
@@ -129,7 +142,9 @@ _FORMULAS = {
 
 @dataclass(frozen=True, slots=True)
 class LargerProjection:
-    """The invariants `rows` have a larger rank in the model of the smaller rank; ranks in the pair's order."""
+    """The invariants `rows` have a larger rank in the model of the smaller rank; ranks in the
+    pair's order.
+    """
 
     kind: ClassVar[str] = "larger-projection"
     rows: Labels
@@ -138,7 +153,10 @@ class LargerProjection:
 
     def sentence(self, left: str, right: str) -> str:
         """Both ranks in words."""
-        return f"The invariants {spelled(self.rows)} have rank {self.left} in {left} and {self.right} in {right}."
+        return (
+            f"The invariants {spelled(self.rows)} have rank {self.left} in {left} and {self.right}"
+            f" in {right}."
+        )
 
     @property
     def formula(self) -> str:
@@ -148,7 +166,9 @@ class LargerProjection:
 
 @dataclass(frozen=True, slots=True)
 class FullImage:
-    """The model of the larger rank has as many determinable parameters as non-constant invariants."""
+    """The model of the larger rank has as many determinable parameters as non-constant
+    invariants.
+    """
 
     kind: ClassVar[str] = "full-image"
     left_is_larger: bool
@@ -158,7 +178,10 @@ class FullImage:
     def sentence(self, left: str, right: str) -> str:
         """What that means for the other."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        return f"{larger} gives its {self.rank} invariants any generic values, so those of {smaller} are limits of its own."
+        return (
+            f"{larger} gives its {self.rank} invariants any generic values, so those of {smaller}"
+            " are limits of its own."
+        )
 
     @property
     def formula(self) -> str:
@@ -168,7 +191,9 @@ class FullImage:
 
 @dataclass(frozen=True, slots=True)
 class RelativeDegrees:
-    """Relative degrees of the receptances in s, in the pair's order; no elements other than zero change the larger model's."""
+    """Relative degrees of the receptances in s, in the pair's order; no elements other than
+    zero change the larger model's.
+    """
 
     kind: ClassVar[str] = "relative-degrees"
     left_is_larger: bool
@@ -180,8 +205,8 @@ class RelativeDegrees:
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
         return (
-            f"The receptance of {larger} falls as s^-{here} for all elements other than zero, that of {smaller} at least as "
-            f"fast as s^-{there}."
+            f"The receptance of {larger} falls as s^-{here} for all elements other than zero, that"
+            f" of {smaller} at least as fast as s^-{there}."
         )
 
     @property

@@ -1,4 +1,6 @@
-"""Evidence as plain data and back: its kind and its fields. A class of another layout says so in methods of these names."""
+"""Evidence as plain data and back: its kind and its fields. A class of another layout says so
+in methods of these names.
+"""
 
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -13,9 +15,13 @@ def to_dict(evidence: Any) -> dict[str, object]:
 
 
 def from_dict(data: dict[str, Any], kinds: Iterable[type[Any]]) -> Any:
-    """Evidence of one of these kinds; lists become tuples. Raises KeyError, TypeError or ValueError for what is none."""
+    """Evidence of one of these kinds; lists become tuples. Raises KeyError, TypeError or
+    ValueError for what is none.
+    """
     if data["kind"] == "program":
-        raise ValueError("this verdict rests on an external program, which decides nothing now; ask for it again")
+        raise ValueError(
+            "this verdict rests on an external program, which decides nothing now; ask for it again"
+        )
     kind = {k.kind: k for k in kinds}[str(data["kind"])]
     if hasattr(kind, "from_dict"):
         return kind.from_dict(data)

@@ -1,6 +1,8 @@
-"""Findings on positive equivalents, how many of the positive models of one chain have one in another, and their evidence.
+"""Findings on positive equivalents, how many of the positive models of one chain have one in
+another, and their evidence.
 
-`given` is the model whose positive parameters are asked about, `other` the one in which equivalents are looked for.
+`given` is the model whose positive parameters are asked about, `other` the one in which
+equivalents are looked for.
 """
 
 import json
@@ -17,30 +19,50 @@ Values = tuple[tuple[str, str], ...]  # parameter name, fraction
 Z95 = 1.96  # quantile of the normal distribution for 95 %
 
 _OBSTACLES = {
-    "decay": "the transfer functions of {0} and {1} fall off at different rates for high frequencies",
-    "residues": "{0} has negative residues in the part where force and sensor are apart, {1} has positive ones alone",
-    "own poles": "the grounded and the free part of {1} would have to be those of {0}, which are of another kind",
-    "signs": "in the order of the poles the residues of a part of {0} change their signs more often than those of {1} can",
-    "swapped parts": "the parts of {1} would be those of {0}, equal or exchanged, which decay or positive masses rule out",
+    "decay": (
+        "the transfer functions of {0} and {1} fall off at different rates for high frequencies"
+    ),
+    "residues": (
+        "{0} has negative residues in the part where force and sensor are apart, {1} has positive"
+        " ones alone"
+    ),
+    "own poles": (
+        "the grounded and the free part of {1} would have to be those of {0}, which are of another"
+        " kind"
+    ),
+    "signs": (
+        "in the order of the poles the residues of a part of {0} change their signs more often than"
+        " those of {1} can"
+    ),
+    "swapped parts": (
+        "the parts of {1} would be those of {0}, equal or exchanged, which decay or positive masses"
+        " rule out"
+    ),
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Excluded:
-    """NEVER: the statement of `parts` of that `name`; at the rational `point`, if one is needed, balls are looked at."""
+    """NEVER: the statement of `parts` of that `name`; at the rational `point`, if one is
+    needed, balls are looked at.
+    """
 
     kind: ClassVar[str] = "excluded"
     name: str
     point: Values = ()
 
     def __post_init__(self) -> None:
-        if self.name not in _OBSTACLES:  # from a damaged file: said here, and not when it is to be told
+        # from a damaged file: said here, and not when it is to be told
+        if self.name not in _OBSTACLES:
             raise ValueError(f"nothing that excludes equivalents is called {self.name!r}")
 
     def sentence(self, given: str, other: str) -> str:
         """What stands against equivalents."""
         why = _OBSTACLES[self.name].format(given, other)
-        return f"No generic positive parameters of {given} have a positive equivalent in {other}: {why}."
+        return (
+            f"No generic positive parameters of {given} have a positive equivalent in {other}:"
+            f" {why}."
+        )
 
     @property
     def formula(self) -> str:
@@ -50,7 +72,9 @@ class Excluded:
 
 @dataclass(frozen=True, slots=True)
 class EmptyFibre:
-    """NEVER: at this rational point of `given` no parameters of `other`, not even complex ones, are equivalent."""
+    """NEVER: at this rational point of `given` no parameters of `other`, not even complex ones,
+    are equivalent.
+    """
 
     kind: ClassVar[str] = "no-equivalent"
     point: Values
@@ -58,8 +82,8 @@ class EmptyFibre:
     def sentence(self, given: str, other: str) -> str:
         """What the fibre shows."""
         return (
-            f"For one choice of rational parameters of {given} no parameters of {other}, real or complex, give the same "
-            "transfer function; so generic parameters have no equivalent."
+            f"For one choice of rational parameters of {given} no parameters of {other}, real or"
+            " complex, give the same transfer function; so generic parameters have no equivalent."
         )
 
     @property
@@ -70,7 +94,8 @@ class EmptyFibre:
 
 @dataclass(frozen=True, slots=True)
 class PartWords:
-    """A part of both models: number of masses, ports of `given` and of `other`, and words that only `given` can have.
+    """A part of both models: number of masses, ports of `given` and of `other`, and words that
+    only `given` can have.
 
     A word says how many zeros lie in each gap between neighbouring poles (see `words`).
     """
@@ -84,7 +109,9 @@ class PartWords:
 
 @dataclass(frozen=True, slots=True)
 class Interlacing:
-    """ALWAYS or SOMETIMES: how poles and zeros of each part may lie; rational points with and without an equivalent."""
+    """ALWAYS or SOMETIMES: how poles and zeros of each part may lie; rational points with and
+    without an equivalent.
+    """
 
     kind: ClassVar[str] = "interlacing"
     parts: tuple[PartWords, ...]
@@ -95,18 +122,24 @@ class Interlacing:
         """Which arrangements of poles and zeros `other` lacks."""
         lacking = [(p.part, _spelled(p.lacking)) for p in self.parts if p.lacking]
         if not lacking:
-            return f"However the zeros of {given} lie between its poles, positive parameters of {other} can do the same."
+            return (
+                f"However the zeros of {given} lie between its poles, positive parameters of"
+                f" {other} can do the same."
+            )
         which = " and ".join(f"{words} in the {part} part" for part, words in lacking)
         return (
-            f"Some positive parameters of {given} have a positive equivalent in {other}, others have none: those where the "
-            f"zeros of a part lie between its poles as in no {other} (zeros a gap, slowest gap first: {which})."
+            f"Some positive parameters of {given} have a positive equivalent in {other}, others"
+            f" have none: those where the zeros of a part lie between its poles as in no {other}"
+            f" (zeros a gap, slowest gap first: {which})."
         )
 
     @property
     def formula(self) -> str:
         """Numbers of lacking words."""
         counted = ((p.part, len(p.lacking)) for p in self.parts)
-        return ", ".join(f"{part}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for part, n in counted)
+        return ", ".join(
+            f"{part}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for part, n in counted
+        )
 
     @staticmethod
     def from_dict(data: dict[str, Any]) -> "Interlacing":
@@ -117,7 +150,9 @@ class Interlacing:
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """SOMETIMES: rational points of `given`, one in an open set with positive equivalents, one in an open set without."""
+    """SOMETIMES: rational points of `given`, one in an open set with positive equivalents, one
+    in an open set without.
+    """
 
     kind: ClassVar[str] = "points"
     with_one: Values
@@ -126,8 +161,8 @@ class Points:
     def sentence(self, given: str, other: str) -> str:
         """What the two points show."""
         return (
-            f"All models near one choice of positive rational parameters of {given} have a positive equivalent in {other}, "
-            "generic ones near another choice have none."
+            f"All models near one choice of positive rational parameters of {given} have a positive"
+            f" equivalent in {other}, generic ones near another choice have none."
         )
 
     @property
@@ -138,14 +173,19 @@ class Points:
 
 @dataclass(frozen=True, slots=True)
 class BoxMap:
-    """ALWAYS, within ranges: a renaming (given, other) takes the ranges of `given` into those of `other`."""
+    """ALWAYS, within ranges: a renaming (given, other) takes the ranges of `given` into those
+    of `other`.
+    """
 
     kind: ClassVar[str] = "box"
     pairs: tuple[tuple[str, str], ...]
 
     def sentence(self, given: str, other: str) -> str:
         """What the renaming does to the ranges."""
-        return f"A renaming turns {given} into {other}, and every range of {given} lies inside the range that it is renamed to."
+        return (
+            f"A renaming turns {given} into {other}, and every range of {given} lies inside the"
+            " range that it is renamed to."
+        )
 
     @property
     def formula(self) -> str:
@@ -157,7 +197,9 @@ PositiveEvidence = Theorem | Excluded | EmptyFibre | Interlacing | Points | BoxM
 
 
 class Share(StrEnum):
-    """Which generic positive models have a positive equivalent: all, some (and some have none), none; or that is not known."""
+    """Which generic positive models have a positive equivalent: all, some (and some have none),
+    none; or that is not known.
+    """
 
     ALWAYS = "always"
     SOMETIMES = "sometimes"
@@ -167,7 +209,9 @@ class Share(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Empirical:
-    """Of `tries` random models `hits` have an equivalent for certain; of `open` ones it is not known."""
+    """Of `tries` random models `hits` have an equivalent for certain; of `open` ones it is not
+    known.
+    """
 
     hits: int
     tries: int
@@ -175,11 +219,14 @@ class Empirical:
 
     def __post_init__(self) -> None:
         if min(self.hits, self.open, self.tries - self.hits - self.open) < 0 or not self.tries:
-            raise ValueError("hits and open points are at most as many as tries, of which there are some")
+            raise ValueError(
+                "hits and open points are at most as many as tries, of which there are some"
+            )
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson's 95 % interval (1927) of the share for this distribution; open points count as misses below, as hits above.
+        """Wilson's 95 % interval (1927) of the share for this distribution; open points count as
+        misses below, as hits above.
 
         >>> tuple(round(x, 3) for x in Empirical(0, 10).interval)
         (0.0, 0.278)
@@ -190,14 +237,19 @@ class Empirical:
     def sentence(self) -> str:
         """The share in words."""
         low, high = self.interval
-        return f"{self.hits} of {self.tries} random points have one: empirically {low:.0%} to {high:.0%}"
+        return (
+            f"{self.hits} of {self.tries} random points have one: empirically {low:.0%} to"
+            f" {high:.0%}"
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class PositiveFinding:
-    """`share` is proven as `certainty` says (BOUNDED: wrong with a probability of at most 2**-safety); `empirical` is sampled.
+    """`share` is proven as `certainty` says (BOUNDED: wrong with a probability of at most
+    2**-safety); `empirical` is sampled.
 
-    `reason` says why nothing is known. A bound that does not reach 2**-LEAST_SAFETY leaves the share unknown.
+    `reason` says why nothing is known. A bound that does not reach 2**-LEAST_SAFETY leaves the
+    share unknown.
     """
 
     share: Share
@@ -208,11 +260,19 @@ class PositiveFinding:
     reason: str = ""
 
     def __post_init__(self) -> None:
-        if (self.share is Share.UNKNOWN) == (self.evidence is not None and self.certainty is not None):
+        if (self.share is Share.UNKNOWN) == (
+            self.evidence is not None and self.certainty is not None
+        ):
             raise ValueError("exactly a share that is not unknown carries certainty and evidence")
         lacking = shortfall(self.certainty, self.safety)
         if lacking:
-            given_up = {"share": Share.UNKNOWN, "certainty": None, "safety": 0, "evidence": None, "reason": lacking}
+            given_up = {
+                "share": Share.UNKNOWN,
+                "certainty": None,
+                "safety": 0,
+                "evidence": None,
+                "reason": lacking,
+            }
             for name, value in given_up.items():
                 object.__setattr__(self, name, value)
 
@@ -222,15 +282,26 @@ class PositiveFinding:
     def sentence(self, given: str, other: str) -> str:
         """What is known and why; a sampled share is called empirical."""
         if self.evidence is None:
-            return f"Which positive {given} have a positive equivalent in {other} is not known: {self.reason}."
-        seen = f" {self.empirical.sentence}." if self.empirical and self.share is Share.SOMETIMES else ""
+            return (
+                f"Which positive {given} have a positive equivalent in {other} is not known:"
+                f" {self.reason}."
+            )
+        seen = (
+            f" {self.empirical.sentence}."
+            if self.empirical and self.share is Share.SOMETIMES
+            else ""
+        )
         return self.evidence.sentence(given, other) + seen
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; what is empty is left out."""
         told: dict[str, object] = {"share": self.share.value}
         if self.evidence and self.certainty:
-            told |= {"certainty": self.certainty.value, "safety": self.safety, "evidence": plain.to_dict(self.evidence)}
+            told |= {
+                "certainty": self.certainty.value,
+                "safety": self.safety,
+                "evidence": plain.to_dict(self.evidence),
+            }
         if self.empirical:
             told["empirical"] = asdict(self.empirical)
         return told | ({"reason": self.reason} if self.reason else {})
@@ -239,10 +310,19 @@ class PositiveFinding:
     def from_dict(data: dict[str, Any]) -> "PositiveFinding":
         """Inverse of `to_dict`; raises ValueError, KeyError or TypeError for what is none."""
         certainty = Certainty(data["certainty"]) if "certainty" in data else None
-        evidence = plain.from_dict(data["evidence"], get_args(PositiveEvidence)) if "evidence" in data else None
+        evidence = (
+            plain.from_dict(data["evidence"], get_args(PositiveEvidence))
+            if "evidence" in data
+            else None
+        )
         empirical = Empirical(**data["empirical"]) if "empirical" in data else None
         return PositiveFinding(
-            Share(data["share"]), certainty, data.get("safety", 0), evidence, empirical, data.get("reason", "")
+            Share(data["share"]),
+            certainty,
+            data.get("safety", 0),
+            evidence,
+            empirical,
+            data.get("reason", ""),
         )
 
     def to_json(self) -> str:
@@ -257,8 +337,13 @@ class PositiveFinding:
 
 def _wilson(hits: int, tries: int) -> tuple[float, float]:
     p, z = hits / tries, Z95
-    middle, spread = p + z * z / (2 * tries), z * sqrt(p * (1 - p) / tries + z * z / (4 * tries * tries))
-    return max(0.0, (middle - spread) / (1 + z * z / tries)), min(1.0, (middle + spread) / (1 + z * z / tries))
+    middle, spread = (
+        p + z * z / (2 * tries),
+        z * sqrt(p * (1 - p) / tries + z * z / (4 * tries * tries)),
+    )
+    return max(0.0, (middle - spread) / (1 + z * z / tries)), min(
+        1.0, (middle + spread) / (1 + z * z / tries)
+    )
 
 
 def _spelled(words: tuple[tuple[int, ...], ...]) -> str:

@@ -1,4 +1,6 @@
-"""Evidence on admissible parameters: positive equivalents both ways; real factors, witnesses, odd numbers of equivalents."""
+"""Evidence on admissible parameters: positive equivalents both ways; real factors, witnesses,
+odd numbers of equivalents.
+"""
 
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
@@ -11,15 +13,18 @@ Point = tuple[tuple[str, str], ...]  # parameter name, fraction
 
 @dataclass(frozen=True, slots=True)
 class RealFactors:
-    """Every polynomial that either chain must split into real factors can be split so (see `positivity.real`)."""
+    """Every polynomial that either chain must split into real factors can be split so (see
+    `positivity.real`).
+    """
 
     kind: ClassVar[str] = "real factors"
 
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says."""
         return (
-            f"Poles and zeros of {left} can always be shared out among the parts of {right} with real coefficients, and the "
-            "reverse: real polynomials have real factors of the degrees that are needed. The rest is rational."
+            f"Poles and zeros of {left} can always be shared out among the parts of {right} with"
+            " real coefficients, and the reverse: real polynomials have real factors of the"
+            " degrees that are needed. The rest is rational."
         )
 
     @property
@@ -32,8 +37,9 @@ class RealFactors:
 class RealWitnesses:
     """Some real models have real equivalents and others have none, either kind in an open set.
 
-    `without`: a rational point of the left chain (`without_left_given`) or the right one, around which none has. `with_one`:
-    the finding on positive models of the left chain (`with_left_given`) or the right one, of which all or some have.
+    `without`: a rational point of the left chain (`without_left_given`) or the right one, around
+    which none has. `with_one`: the finding on positive models of the left chain
+    (`with_left_given`) or the right one, of which all or some have.
     """
 
     kind: ClassVar[str] = "real witnesses"
@@ -46,10 +52,12 @@ class RealWitnesses:
         """Both in words."""
         given, other = (left, right) if self.without_left_given else (right, left)
         values = ", ".join(f"{name} = {_rounded(value)}" for name, value in self.without)
-        positive = self.with_one.sentence(*((left, right) if self.with_left_given else (right, left)))
+        positive = self.with_one.sentence(
+            *((left, right) if self.with_left_given else (right, left))
+        )
         return (
-            f"{positive} But near {values} no real {given} has a real equivalent in {other}: its poles and zeros cannot be "
-            "shared out among the parts without parting two conjugates."
+            f"{positive} But near {values} no real {given} has a real equivalent in {other}: its"
+            " poles and zeros cannot be shared out among the parts without parting two conjugates."
         )
 
     @property
@@ -66,7 +74,9 @@ class RealWitnesses:
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
         without = tuple((str(name), str(value)) for name, value in data["without"])
         with_one = PositiveFinding.from_dict(data["with_one"])
-        return RealWitnesses(bool(data["without_left_given"]), without, bool(data["with_left_given"]), with_one)
+        return RealWitnesses(
+            bool(data["without_left_given"]), without, bool(data["with_left_given"]), with_one
+        )
 
 
 def _rounded(value: str) -> str:
@@ -76,7 +86,8 @@ def _rounded(value: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class BothWays:
-    """Which positive models of the left chain have a positive equivalent in the right one, and the reverse.
+    """Which positive models of the left chain have a positive equivalent in the right one, and the
+    reverse.
 
     Both chains are in their canonical forms.
     """
@@ -94,7 +105,9 @@ class BothWays:
     @property
     def formula(self) -> str:
         """Both formulas, from left to right and back, or one if they are the same."""
-        here, there = (x.evidence.formula if x.evidence else "not known" for x in (self.left, self.right))
+        here, there = (
+            x.evidence.formula if x.evidence else "not known" for x in (self.left, self.right)
+        )
         return here if here == there else f"→ {here}; ← {there}"
 
     def to_dict(self) -> dict[str, object]:
@@ -109,9 +122,11 @@ class BothWays:
 
 @dataclass(frozen=True, slots=True)
 class OddFibres:
-    """Over real parameters: so many parameter vectors of either chain have one generic behaviour, all of them simple.
+    """Over real parameters: so many parameter vectors of either chain have one generic behaviour,
+    all of them simple.
 
-    Those of a real behaviour that are not real are pairs of conjugates, so of an odd number at least one is real.
+    Those of a real behaviour that are not real are pairs of conjugates, so of an odd number at
+    least one is real.
     """
 
     kind: ClassVar[str] = "odd fibres"
@@ -122,8 +137,9 @@ class OddFibres:
         """Both numbers and what they mean."""
         here, there = (_equivalents(n) for n in (self.right, self.left))
         return (
-            f"Generic parameters of {left} have {here} in {right}, and those of {right} have {there} in {left}; solutions "
-            "that are not real are pairs of conjugates, so of an odd number at least one is real."
+            f"Generic parameters of {left} have {here} in {right}, and those of {right} have"
+            f" {there} in {left}; solutions that are not real are pairs of conjugates, so of an odd"
+            " number at least one is real."
         )
 
     @property

@@ -1,4 +1,5 @@
-"""From a measured frequency response to the structures that explain it (sections 2 and 3 of the paper).
+"""From a measured frequency response to the structures that explain it (sections 2 and 3 of the
+paper).
 
 >>> import numpy as np
 >>> from disting import Chain

@@ -1,10 +1,11 @@
 """Which fitted candidates may be selected.
 
-The paper's rule looks at the three criteria of section 2.4, which do not see the noise: a model whose every parameter is known
-within 1 % may exceed a condition index of 30. The rule `determined` accepts what the paper accepts and also a candidate that
-the data determine well in spite of a criterion: every parameter differs from zero by three standard errors, and every inertia,
-stiffness, resonance and antiresonance is known to 10 %. What no data determine is excluded by both, and so is a parameter at
-its bound.
+The paper's rule looks at the three criteria of section 2.4, which do not see the noise: a model
+whose every parameter is known within 1 % may exceed a condition index of 30. The rule `determined`
+accepts what the paper accepts and also a candidate that the data determine well in spite of a
+criterion: every parameter differs from zero by three standard errors, and every inertia,
+stiffness, resonance and antiresonance is known to 10 %. What no data determine is excluded by
+both, and so is a parameter at its bound.
 """
 
 from enum import StrEnum
@@ -40,16 +41,26 @@ def undetermined(candidate: Candidate, task: Task) -> str:
     """What the data do not determine well, in one sentence; "" where they determine all."""
     loose = {n: e for n, e in candidate.practical.relative_errors.items() if not e <= FROM_ZERO}
     if not loose:
-        loose = {r.name: _share(r) for r in physical(candidate, task) if _is_designed(r) and not _share(r) <= KNOWN}
+        loose = {
+            r.name: _share(r)
+            for r in physical(candidate, task)
+            if _is_designed(r) and not _share(r) <= KNOWN
+        }
     if not loose:
         return ""
     name, error = max(loose.items(), key=lambda row: row[1])
     more = f" and {len(loose) - 1} more" if len(loose) > 1 else ""
-    return f"{name}{more} known to ± {100 * error:.0f} % only" if error < 10 else f"{name}{more} not determined"
+    return (
+        f"{name}{more} known to ± {100 * error:.0f} % only"
+        if error < 10
+        else f"{name}{more} not determined"
+    )
 
 
 def _is_designed(found: Result) -> bool:
-    return any(word in DESIGNED for word in found.name.split()) and not found.name.startswith("damping")
+    return any(word in DESIGNED for word in found.name.split()) and not found.name.startswith(
+        "damping"
+    )
 
 
 def _share(found: Result) -> float:

@@ -1,15 +1,19 @@
 """Structures that no data can tell apart: left out before a fit, named after it.
 
-A fit looks at positive parameters, some of them given (`fixed`) or kept in a range (`bounds`). So one candidate may stand for
-another only if every positive model of either has a positive equivalent in the other, within what is given:
+A fit looks at positive parameters, some of them given (`fixed`) or kept in a range (`bounds`). So
+one candidate may stand for another only if every positive model of either has a positive
+equivalent in the other, within what is given:
 
-- where neither has a parameter that is given or bounded, both shares of positive equivalents are "always" (see `positivity`);
-- where one has, a renaming of parameters by symmetry turns the one into the other and takes each range into that of the
-  parameter that it becomes, both ways. A dead time and a lag that both have are renamed to themselves.
+- where neither has a parameter that is given or bounded, both shares of positive equivalents are
+  "always" (see `positivity`);
+- where one has, a renaming of parameters by symmetry turns the one into the other and takes each
+  range into that of the parameter that it becomes, both ways. A dead time and a lag that both have
+  are renamed to themselves.
 
 Anything else is fitted separately, which costs time but decides nothing wrongly.
 
-The candidates of Fig. 1 have their verdicts shipped (`catalogs.candidates`): those are looked up, only others are computed.
+The candidates of Fig. 1 have their verdicts shipped (`catalogs.candidates`): those are looked up,
+only others are computed.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -31,8 +35,9 @@ Limits = Mapping[str, tuple[float, float]]
 
 @dataclass(frozen=True)
 class Alternative:
-    """A structure that behaves the same (`relation` indistinguishable, over positive parameters within the limits of the fit),
-    does so for some of them (sometimes), or may do so (undecided); why in a sentence.
+    """A structure that behaves the same (`relation` indistinguishable, over positive parameters
+    within the limits of the fit), does so for some of them (sometimes), or may do so (undecided);
+    why in a sentence.
     """
 
     chain: Chain
@@ -50,66 +55,112 @@ def limits_of(bounds: Mapping[str, tuple[float, float]], fixed: Mapping[str, flo
     return cutting | {name: (value, value) for name, value in fixed.items()}
 
 
-def representatives(candidates: Sequence[Chain], engine: Engine, limits: Limits) -> dict[Chain, Chain]:
-    """For each candidate the first one that has the same positive models within the limits, itself if none has."""
+def representatives(
+    candidates: Sequence[Chain], engine: Engine, limits: Limits
+) -> dict[Chain, Chain]:
+    """For each candidate the first one that has the same positive models within the limits,
+    itself if none has.
+    """
     first: dict[Chain, Chain] = {}
     for same_size in _by_size(candidates):
         relation = _relation(same_size, engine)
         for j, chain in enumerate(same_size):
             equal = (same_size[i] for i in range(j) if relation(i, j) is Relation.INDISTINGUISHABLE)
-            first[chain] = next((first[c] for c in equal if stands_for(c, chain, engine, limits)), chain)
+            first[chain] = next(
+                (first[c] for c in equal if stands_for(c, chain, engine, limits)), chain
+            )
     return first
 
 
 def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bool:
-    """Whether two chains have the same models with positive parameters within the limits, as far as that is known."""
+    """Whether two chains have the same models with positive parameters within the limits, as
+    far as that is known.
+    """
     if set(limits) & {*chain.parameters, *other.parameters}:
-        return all(any(_inside(r, limits) for r in renamings(*pair)) for pair in ((chain, other), (other, chain)))
+        return all(
+            any(_inside(r, limits) for r in renamings(*pair))
+            for pair in ((chain, other), (other, chain))
+        )
     here, there = (engine.subject(str(c), c) for c in (chain, other))
     return here.positive(there).share is there.positive(here).share is Share.ALWAYS
 
 
-def alternatives(winner: Chain, family: Iterable[Chain], engine: Engine, limits: Limits) -> tuple[Alternative, ...]:
-    """The members of a family, of the winner's size, that have the same positive models, or some of them, or may have."""
+def alternatives(
+    winner: Chain, family: Iterable[Chain], engine: Engine, limits: Limits
+) -> tuple[Alternative, ...]:
+    """The members of a family, of the winner's size, that have the same positive models, or
+    some of them, or may have.
+    """
     subject = engine.subject(str(winner), winner)
-    others = (c for c in family if c != winner and c.n_masses == winner.n_masses and not _surely_apart(winner, c))
-    found = (_alternative(subject, engine.subject(str(chain), chain), engine, limits) for chain in others)
+    others = (
+        c
+        for c in family
+        if c != winner and c.n_masses == winner.n_masses and not _surely_apart(winner, c)
+    )
+    found = (
+        _alternative(subject, engine.subject(str(chain), chain), engine, limits) for chain in others
+    )
     return tuple(a for a in found if a is not None)
 
 
-def _alternative(winner: Subject, other: Subject, engine: Engine, limits: Limits) -> Alternative | None:
-    """By the conditions, and only where they are silent by the exact decision: inclusions are not asked for."""
+def _alternative(
+    winner: Subject, other: Subject, engine: Engine, limits: Limits
+) -> Alternative | None:
+    """By the conditions, and only where they are silent by the exact decision: inclusions are
+    not asked for.
+    """
     if engine.verdict(winner, other, Query(View.COMBINED)).relation is Relation.DISTINGUISHABLE:
         return None
     verdict = engine.verdict(winner, other, Query(View.POSITIVE, inclusion=False))
     if verdict.relation is Relation.DISTINGUISHABLE:
         return None
-    if verdict.relation is not Relation.INDISTINGUISHABLE or stands_for(winner.chain, other.chain, engine, limits):
+    if verdict.relation is not Relation.INDISTINGUISHABLE or stands_for(
+        winner.chain, other.chain, engine, limits
+    ):
         return Alternative(other.chain, verdict.relation, verdict.sentence)
     names = [n for n in limits if n in {*winner.chain.parameters, *other.chain.parameters}]
-    cut = f"{verdict.sentence} Here {', '.join(names)} may not take every value, so whether they do within the limits is open."
+    cut = (
+        f"{verdict.sentence} Here {', '.join(names)} may not take every value, so whether they do"
+        " within the limits is open."
+    )
     return Alternative(other.chain, Relation.UNDECIDED, cut)
 
 
 def _inside(renaming: Mapping[str, str], limits: Limits) -> bool:
     """Whether the renaming takes every range into that of the parameter that it becomes."""
     anything = (0.0, inf)
-    pairs = [(limits.get(name, anything), limits.get(image, anything)) for name, image in renaming.items()]
+    pairs = [
+        (limits.get(name, anything), limits.get(image, anything))
+        for name, image in renaming.items()
+    ]
     return all(there[0] <= here[0] and here[1] <= there[1] for here, there in pairs)
 
 
 def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], Relation]:
-    """Relation over complex parameters by two places: looked up where all chains are shipped, else by the conditions."""
+    """Relation over complex parameters by two places: looked up where all chains are shipped,
+    else by the conditions.
+    """
     known = _shipped()
-    if known is not None and len({c.sensor for c in chains}) == 1 and all(c in known for c in chains):
+    if (
+        known is not None
+        and len({c.sensor for c in chains}) == 1
+        and all(c in known for c in chains)
+    ):
         return lambda i, j: known.relation(chains[i], chains[j])
-    return engine.decisions([engine.subject(str(c), c) for c in chains], Query(View.COMBINED)).relation
+    return engine.decisions(
+        [engine.subject(str(c), c) for c in chains], Query(View.COMBINED)
+    ).relation
 
 
 def _surely_apart(winner: Chain, other: Chain) -> bool:
     """Whether the shipped verdict says so."""
     known = _shipped()
-    if known is None or winner not in known or other not in known or winner.sensor is not other.sensor:
+    if (
+        known is None
+        or winner not in known
+        or other not in known
+        or winner.sensor is not other.sensor
+    ):
         return False
     return known.relation(winner, other) is Relation.DISTINGUISHABLE
 

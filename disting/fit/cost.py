@@ -2,12 +2,14 @@
 
 With g = G(p)/G_M line by line, the residuals of one line are, each times its weights:
 
-    case 1 (7):   Re G - Re G_M,         Im G - Im G_M;         S_1 = Re, Im of G dlnG/dp            (9)
-    case 2 (12):  |G| - |G_M|,           arg g;                 S_2 = |G| Re dlnG/dp, Im dlnG/dp     (13)
-    case 3 (14):  log10 |g|,             arg g;                 S_3 = Re dlnG/dp / ln 10, Im dlnG/dp (15)
+    case 1 (7):   Re G - Re G_M,         Im G - Im G_M;         S_1 = Re, Im of G dlnG/dp
+    (9) case 2 (12):  |G| - |G_M|,           arg g;                 S_2 = |G| Re dlnG/dp, Im
+    dlnG/dp     (13) case 3 (14):  log10 |g|,             arg g;                 S_3 = Re dlnG/dp /
+    ln 10, Im dlnG/dp (15)
 
-arg g lies in (-pi, pi]: the difference of two separately unwrapped phases would depend on where each unwrapping began. Case 3
-sees d ln G only, to which s^n adds nothing: cost and criteria do not depend on the sensor quantity.
+arg g lies in (-pi, pi]: the difference of two separately unwrapped phases would depend on where
+each unwrapping began. Case 3 sees d ln G only, to which s^n adds nothing: cost and criteria do not
+depend on the sensor quantity.
 """
 
 from dataclasses import dataclass
@@ -23,7 +25,9 @@ from disting.measurement import FrequencyResponse
 
 
 class Case(IntEnum):
-    """Which residuals: complex plane (7), amplitude and phase (12), logarithm of the amplitude and phase (14)."""
+    """Which residuals: complex plane (7), amplitude and phase (12), logarithm of the amplitude
+    and phase (14).
+    """
 
     COMPLEX = 1
     AMPLITUDE = 2
@@ -32,9 +36,11 @@ class Case(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Cost:
-    """J = |residual|^2 of a measured response; `weights` of the two residuals of a line, `lines` of each line, shape (n_f,).
+    """J = |residual|^2 of a measured response; `weights` of the two residuals of a line, `lines`
+    of each line, shape (n_f,).
 
-    Weights default to (pi, 1) in case 3, as in the paper: 20 dB count as much as 180 degrees; to (1, 1) in cases 1 and 2.
+    Weights default to (pi, 1) in case 3, as in the paper: 20 dB count as much as 180 degrees; to
+    (1, 1) in cases 1 and 2.
     """
 
     measured: FrequencyResponse
@@ -44,7 +50,10 @@ class Cost:
 
     def __post_init__(self) -> None:
         if self.lines is not None and np.shape(self.lines) != np.shape(self.measured.omega):
-            raise InputError(f"one weight a line is needed: {len(self.measured.omega)}, not {np.size(self.lines)}")
+            raise InputError(
+                f"one weight a line is needed: {len(self.measured.omega)}, not"
+                f" {np.size(self.lines)}"
+            )
 
     @property
     def n_residuals(self) -> int:
@@ -62,7 +71,9 @@ class Cost:
             amplitude = np.abs(response) - np.abs(self.measured.G)
         else:
             amplitude = np.log(ratio.real**2 + ratio.imag**2) * (0.5 / log(10))
-        return np.concatenate([amplitude * first, np.arctan2(ratio.imag, ratio.real) * second], axis=-1)
+        return np.concatenate(
+            [amplitude * first, np.arctan2(ratio.imag, ratio.real) * second], axis=-1
+        )
 
     def sensitivity(self, response: Complex, gradient: Complex) -> Real:
         """S, shape (..., 2 n_f, n_p), from G and d ln G / d p, shape (..., n_p, n_f)."""
@@ -83,16 +94,22 @@ class Cost:
         return np.asarray(np.einsum("...i,...i->...", residual, residual))
 
     def of(self, plant: Plant, p: Real) -> tuple[Real, Real]:
-        """Residuals and S d p / d ln p, the sensitivity to logarithms of the parameters: columns S_j p_j of (16)."""
+        """Residuals and S d p / d ln p, the sensitivity to logarithms of the parameters:
+        columns S_j p_j of (16).
+        """
         response, gradient = plant.logarithmic_gradient(p)
         gradient *= p[..., None]
         return self.residual(response), self.sensitivity(response, gradient)
 
     def scatter(self, rho: Real) -> Real:
-        """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation `rho`, shape (n_f,), of the data."""
+        """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation `rho`,
+        shape (n_f,), of the data.
+        """
         first, second = self._both
         size = np.abs(self.measured.G) if self.case is not Case.LOGARITHM else 1.0 / log(10)
-        return np.concatenate([first * size * rho, second * rho * (size if self.case is Case.COMPLEX else 1.0)])
+        return np.concatenate(
+            [first * size * rho, second * rho * (size if self.case is Case.COMPLEX else 1.0)]
+        )
 
     @cached_property
     def _both(self) -> tuple[Real, Real]:
@@ -106,16 +123,24 @@ class Cost:
 
 
 def lines_by_deviation(measured: FrequencyResponse) -> Real:
-    """Weight |G|/sigma of each line, scaled to a mean square of 1; raises InputError where the data has no deviation."""
+    """Weight |G|/sigma of each line, scaled to a mean square of 1; raises InputError where the
+    data has no deviation.
+    """
     if measured.deviation is None:
-        raise InputError("weights by standard deviation need a response that carries one; choose other weights")
+        raise InputError(
+            "weights by standard deviation need a response that carries one; choose other weights"
+        )
     return _scaled(np.abs(measured.G) / np.maximum(measured.deviation, 1e-12 * np.abs(measured.G)))
 
 
 def lines_by_coherence(measured: FrequencyResponse) -> Real:
-    """Weight sqrt(gamma^2 / (1 - gamma^2)), the inverse of the relative deviation, scaled to a mean square of 1."""
+    """Weight sqrt(gamma^2 / (1 - gamma^2)), the inverse of the relative deviation, scaled to a
+    mean square of 1.
+    """
     if measured.coherence is None:
-        raise InputError("weights by coherence need a response that carries one; choose other weights")
+        raise InputError(
+            "weights by coherence need a response that carries one; choose other weights"
+        )
     squared = np.clip(measured.coherence, 0.0, 1.0 - 1e-9)
     return _scaled(np.sqrt(squared / (1.0 - squared)))
 

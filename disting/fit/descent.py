@@ -1,7 +1,9 @@
-"""Local search: many starts at once by Levenberg-Marquardt on logarithms, then the best ones by `scipy.optimize.least_squares`.
+"""Local search: many starts at once by Levenberg-Marquardt on logarithms, then the best ones by
+`scipy.optimize.least_squares`.
 
-Logarithms keep masses, springs, dampers and times positive and make steps relative. The rough search costs little a start,
-because a batch shares every numpy call; the last digits, bounds and the stopping rule are those of scipy.
+Logarithms keep masses, springs, dampers and times positive and make steps relative. The rough
+search costs little a start, because a batch shares every numpy call; the last digits, bounds and
+the stopping rule are those of scipy.
 """
 
 from dataclasses import dataclass
@@ -15,18 +17,23 @@ from disting.fit.plant import Plant, Real
 
 Indices = NDArray[np.intp]
 
-BATCH = 8  # starts at once: more do not fit into a processor's cache, which costs half as much again
+# starts at once: more do not fit into a processor's cache, which costs half as much again
+BATCH = 8
 FIRST_DAMPING, HOPELESS = 1e-2, 1e8  # of Levenberg and Marquardt
 LARGEST_STEP = 1.5  # of a logarithm in one iteration
 WORTHLESS = 1e-4  # relative gain below which a start counts as settled
-FARTHEST = 60.0  # of a logarithm from its start: what runs there has no effect on the response any more
+# of a logarithm from its start: what runs there has no effect on the response any more
+FARTHEST = 60.0
 SMALLEST = 1e-200  # of a parameter: repeated runs towards zero end here, before numbers do
-TINY = 1e-9  # of the largest curvature, added to each: an element without effect must not take an unlimited step
+# of the largest curvature, added to each: an element without effect must not take an unlimited step
+TINY = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """Bounds of the parameters, shape (n_p,) each; 0 and infinity where there are none. Equal bounds fix a parameter."""
+    """Bounds of the parameters, shape (n_p,) each; 0 and infinity where there are none. Equal
+    bounds fix a parameter.
+    """
 
     low: Real
     high: Real
@@ -47,9 +54,11 @@ class Box:
 
 
 def rough(plant: Plant, cost: Cost, box: Box, starts: Real, iterations: int) -> tuple[Real, Real]:
-    """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each start.
+    """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each
+    start.
 
-    None is given up for being worse than others: what leads to the best optimum is often worse than half of them for long.
+    None is given up for being worse than others: what leads to the best optimum is often worse
+    than half of them for long.
     """
     points = box.clipped(starts)
     costs, damping = np.empty(len(points)), np.full(len(points), FIRST_DAMPING)
@@ -60,8 +69,11 @@ def rough(plant: Plant, cost: Cost, box: Box, starts: Real, iterations: int) -> 
     costs[np.isnan(costs)] = np.inf
     for _ in range(iterations):
         for part in _batches(active):
-            tried = box.clipped(points[part] * np.exp(_step(curvature[part], slope[part], damping[part])))
-            # Most steps lead downwards: their slope is computed along with their cost, which saves a response a step.
+            tried = box.clipped(
+                points[part] * np.exp(_step(curvature[part], slope[part], damping[part]))
+            )
+            # Most steps lead downwards: their slope is computed along with their cost, which saves
+            # a response a step.
             reached, *there = _normal(plant, cost, box, tried)
             better = reached < costs[part]
             settled = better & (reached > costs[part] * (1 - WORTHLESS))
@@ -81,11 +93,17 @@ def _batches(active: Indices) -> list[Indices]:
 
 
 def _normal(plant: Plant, cost: Cost, box: Box, points: Real) -> tuple[Real, Real, Real]:
-    """Cost J = r'r, shape (n_s,), with S'S and S'r of the free logarithms, shapes (n_s, n_p, n_p) and (n_s, n_p)."""
+    """Cost J = r'r, shape (n_s,), with S'S and S'r of the free logarithms, shapes (n_s, n_p,
+    n_p) and (n_s, n_p).
+    """
     residual, columns = cost.of(plant, points)
     columns *= box.free
     rows = columns.swapaxes(-1, -2)
-    return np.einsum("si,si->s", residual, residual), rows @ columns, (rows @ residual[..., None])[..., 0]
+    return (
+        np.einsum("si,si->s", residual, residual),
+        rows @ columns,
+        (rows @ residual[..., None])[..., 0],
+    )
 
 
 def _step(curvature: Real, slope: Real, damping: Real) -> Real:
@@ -118,8 +136,20 @@ def fine(plant: Plant, cost: Cost, box: Box, start: Real) -> tuple[Real, float]:
         return cost.of(plant, at(steps))[1][:, free]
 
     with np.errstate(divide="ignore"):
-        bounds = [np.clip(np.log(edge[free] / origin[free]), -FARTHEST, FARTHEST) for edge in (box.low, box.high)]
+        bounds = [
+            np.clip(np.log(edge[free] / origin[free]), -FARTHEST, FARTHEST)
+            for edge in (box.low, box.high)
+        ]
     inside = np.clip(np.zeros(int(free.sum())), bounds[0] + 1e-12, bounds[1] - 1e-12)
-    found = least_squares(residual, inside, sensitivity, bounds=bounds, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=300)
+    found = least_squares(
+        residual,
+        inside,
+        sensitivity,
+        bounds=bounds,
+        xtol=1e-10,
+        ftol=1e-12,
+        gtol=1e-12,
+        max_nfev=300,
+    )
     best, before = 2.0 * float(found.cost), float(cost.total(plant.response(origin)))
     return (np.maximum(at(found.x), SMALLEST), best) if best < before else (origin, before)

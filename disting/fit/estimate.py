@@ -1,10 +1,12 @@
-"""The best parameters of candidates: structured starts, a rough search of all, the last digits of the best, exchange.
+"""The best parameters of candidates: structured starts, a rough search of all, the last digits of
+the best, exchange.
 
-Candidates are taken in the order of masses and elements, so that each finds the fits of smaller ones ready. Those with the same
-masses, springs and ports then exchange their fits: what neighbours found is a start, round by round until no candidate gets
-better. A valley that one of them enters is thereby open to all, so that each needs to try a part of the starts only. Within one
-size a candidate that contains another one is never worse: the smaller one's fit, the additional elements hardly felt, is a
-start.
+Candidates are taken in the order of masses and elements, so that each finds the fits of smaller
+ones ready. Those with the same masses, springs and ports then exchange their fits: what neighbours
+found is a start, round by round until no candidate gets better. A valley that one of them enters
+is thereby open to all, so that each needs to try a part of the starts only. Within one size a
+candidate that contains another one is never worse: the smaller one's fit, the additional elements
+hardly felt, is a start.
 """
 
 import json
@@ -27,11 +29,23 @@ from disting.fit.descent import Box, fine, rough
 from disting.fit.neighbours import carried, neighbours
 from disting.fit.pairs import conspicuous, paired
 from disting.fit.plant import Plant, Real
-from disting.fit.starts import UNFELT, Values, extended, from_extrema, merged, random, scale, shortened, split, stacked
+from disting.fit.starts import (
+    UNFELT,
+    Values,
+    extended,
+    from_extrema,
+    merged,
+    random,
+    scale,
+    shortened,
+    split,
+    stacked,
+)
 from disting.model.chain import Chain
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
-FELLOWS, PARTS = 8, 6  # every so many candidates that exchange divide their starts into one part more, up to so many parts
+# every so many candidates that exchange divide their starts into one part more, up to so many parts
+FELLOWS, PARTS = 8, 6
 FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
 FINISHED = 4  # starts that are searched on, the best of which is brought to the last digit
 REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
@@ -43,10 +57,11 @@ NESTED = 1e-9  # relative excess of cost that a candidate may have over one that
 
 @dataclass(frozen=True)
 class Task:
-    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1: sensor reversed.
+    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1:
+    sensor reversed.
 
-    `divided`: each candidate takes one of so many parts of its starts. Where candidates exchange their fits, what one of them
-    finds helps all, and together they try every kind of start.
+    `divided`: each candidate takes one of so many parts of its starts. Where candidates exchange
+    their fits, what one of them finds helps all, and together they try every kind of start.
     """
 
     cost: Cost
@@ -70,16 +85,21 @@ class Task:
 
     def box(self, names: Sequence[str]) -> Box:
         """Bounds as arrays."""
-        limits = [(self.fixed[n],) * 2 if n in self.fixed else self.bounds.get(n, (0.0, inf)) for n in names]
+        limits = [
+            (self.fixed[n],) * 2 if n in self.fixed else self.bounds.get(n, (0.0, inf))
+            for n in names
+        ]
         low, high = np.array(limits, dtype=float).reshape(-1, 2).T
         return Box(low, high)
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A candidate's best parameters and their cost J; `costs` of all starts after the rough search, in rising order.
+    """A candidate's best parameters and their cost J; `costs` of all starts after the rough
+    search, in rising order.
 
-    Among the starts are those from the data and from smaller fits, then the fits of neighbours, once for each change.
+    Among the starts are those from the data and from smaller fits, then the fits of neighbours,
+    once for each change.
     """
 
     chain: Chain
@@ -90,14 +110,18 @@ class Estimate:
     @property
     def hit_rate(self) -> float:
         """Share of the starts whose rough search came within 0.1 % of the best cost."""
-        return sum(c <= self.j * (1 + REACHED) + NOTHING for c in self.costs) / max(len(self.costs), 1)
+        return sum(c <= self.j * (1 + REACHED) + NOTHING for c in self.costs) / max(
+            len(self.costs), 1
+        )
 
 
 Method = Callable[[Chain, Task, Mapping[Chain, Estimate]], Estimate]
 
 
 def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
-    """Best parameters of one candidate, from the data and from the fits of smaller candidates in `known`."""
+    """Best parameters of one candidate, from the data and from the fits of smaller candidates
+    in `known`.
+    """
     first = sha256(str(chain).encode()).digest()[0] % task.divided
     starts = stacked(list(_starts(chain, task, known))[first :: task.divided], chain.parameters)
     # One thread of linear algebra: matrices are small, and workers share the processors.
@@ -113,7 +137,9 @@ def evaluated(chain: Chain, task: Task) -> Estimate:
 
 
 def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
-    """The candidate's estimate in `known`, or a better one that the fits of its neighbours there lead to."""
+    """The candidate's estimate in `known`, or a better one that the fits of its neighbours
+    there lead to.
+    """
     own, names, size = known[chain], chain.parameters, scale(task.cost.measured)
     offered = [known[c].parameters for c in neighbours(chain) if c in known]
     starts = stacked([start for fit in offered for start in carried(chain, fit, size)], names)
@@ -136,16 +162,25 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
     ends, reached = rough(plant, task.cost, box, points[_different(costs)], ITERATIONS)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
     p, j = _nested(chain, task, known, p, j)
-    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs))))
+    return Estimate(
+        chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs)))
+    )
 
 
-def _nested(chain: Chain, task: Task, known: Mapping[Chain, Estimate], p: Real, j: float) -> tuple[Real, float]:
+def _nested(
+    chain: Chain, task: Task, known: Mapping[Chain, Estimate], p: Real, j: float
+) -> tuple[Real, float]:
     """Parameters and cost that are no worse than those of a candidate which this one contains."""
-    contained = min((known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None)
+    contained = min(
+        (known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None
+    )
     if contained is None or contained.j * (1 + NESTED) >= j:
         return p, j
     plant, box = task.plant(chain), task.box(chain.parameters)
-    slight = stacked(list(extended(chain, contained.parameters, scale(task.cost.measured), UNFELT)), chain.parameters)
+    slight = stacked(
+        list(extended(chain, contained.parameters, scale(task.cost.measured), UNFELT)),
+        chain.parameters,
+    )
     unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
     return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda found: found[1])
 
@@ -170,7 +205,9 @@ def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterat
     for fewer, joint in {fewer: joint for joint, fewer in merged(chain)}.items():
         if fewer in known:
             fit = known[fewer].parameters
-            missed = conspicuous(task.cost.measured, task.plant(fewer).response(np.array(list(fit.values()))))
+            missed = conspicuous(
+                task.cost.measured, task.plant(fewer).response(np.array(list(fit.values())))
+            )
             yield from paired(chain, joint, fit, size, missed)
     for fewer in shortened(chain):
         if fewer in known:
@@ -187,16 +224,22 @@ def estimates(
     executor: Executor | None = None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> dict[Chain, Estimate]:
-    """Best parameters of every candidate and of the smaller ones that lead to them; what `store` holds is not fitted again.
+    """Best parameters of every candidate and of the smaller ones that lead to them; what `store`
+    holds is not fitted again.
 
-    Another `method` than structured starts, such as `swarm.by_swarm`, gets no fits of smaller candidates.
+    Another `method` than structured starts, such as `swarm.by_swarm`, gets no fits of smaller
+    candidates.
     """
     store, run = store or Store.none(), method or estimate
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, variants in groupby(wanted, key=_body):
         fellows = list(variants)
-        part = replace(task, divided=min(1 + (len(fellows) - 1) // FELLOWS, PARTS)) if method is None else task
+        part = (
+            replace(task, divided=min(1 + (len(fellows) - 1) // FELLOWS, PARTS))
+            if method is None
+            else task
+        )
         for _, stage in groupby(fellows, key=_stage):
             whole = list(stage)
             known |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
@@ -212,15 +255,23 @@ def estimates(
     return known
 
 
-def _exchanged(known: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None) -> Iterator[Estimate]:
-    """Better estimates of variants of one chain, from the fits of neighbours that have changed, until none changes.
+def _exchanged(
+    known: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None
+) -> Iterator[Estimate]:
+    """Better estimates of variants of one chain, from the fits of neighbours that have changed,
+    until none changes.
 
-    All candidates of a round start from the estimates before it: their order and the number of workers do not matter.
+    All candidates of a round start from the estimates before it: their order and the number of
+    workers do not matter.
     """
     changed, left = set(known), ROUNDS
     while changed and left:
         offers = {c: changed.intersection(neighbours(c)) for c in known if not _is_given(c, task)}
-        helpful = {c: {o: known[o] for o in known if o in near or o == c} for c, near in offers.items() if near}
+        helpful = {
+            c: {o: known[o] for o in known if o in near or o == c}
+            for c, near in offers.items()
+            if near
+        }
         left -= 1
         after = dict(known)
         for found in _results(improved, helpful, task, store, executor):
@@ -231,13 +282,21 @@ def _exchanged(known: dict[Chain, Estimate], task: Task, store: Store, executor:
 
 
 def _results(
-    run: Method, helpful: Mapping[Chain, Mapping[Chain, Estimate]], task: Task, store: Store, executor: Executor | None
+    run: Method,
+    helpful: Mapping[Chain, Mapping[Chain, Estimate]],
+    task: Task,
+    store: Store,
+    executor: Executor | None,
 ) -> Iterator[Estimate]:
-    """The estimates that `run` finds of chains, each with what helps it, as they come; from `store` where it holds them."""
+    """The estimates that `run` finds of chains, each with what helps it, as they come; from
+    `store` where it holds them.
+    """
     keys = {c: _key(c, task, near, run.__name__) for c, near in helpful.items()}
     stored = store.get_many(keys.values())
     yield from (estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored)
-    for _, found in mapped(run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor):
+    for _, found in mapped(
+        run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor
+    ):
         store.put_many({keys[found.chain]: estimate_to_json(found)})
         yield found
 
@@ -254,9 +313,15 @@ def estimate_from_json(chain: Chain, text: str) -> Estimate:
 
 
 def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: str) -> str:
-    """Content address of an estimate: the data, the choices, the chain and what its starts come from."""
+    """Content address of an estimate: the data, the choices, the chain and what its starts come
+    from.
+    """
     cost = task.cost
-    arrays = [cost.measured.omega, cost.measured.G, np.zeros(0) if cost.lines is None else cost.lines]
+    arrays = [
+        cost.measured.omega,
+        cost.measured.G,
+        np.zeros(0) if cost.lines is None else cost.lines,
+    ]
     texts = [
         digest(__name__),
         method,
@@ -266,7 +331,9 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
     ]
     texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
     texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
-    return sha256(b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])).hexdigest()
+    return sha256(
+        b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])
+    ).hexdigest()
 
 
 def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:

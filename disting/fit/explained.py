@@ -1,12 +1,14 @@
-"""Whether a candidate explains the data: its residuals against the scatter of the lines, in absolute terms.
+"""Whether a candidate explains the data: its residuals against the scatter of the lines, in
+absolute terms.
 
-With residuals r and what they are expected to be under the rho of `scatter`, the errors of the parameters included
-(`noise.expected`),
+With residuals r and what they are expected to be under the rho of `scatter`, the errors of the
+parameters included (`noise.expected`),
 
     chi2 per line = mean (r / expected)^2
 
-is 1 for the true model and independent of what other candidates do. A candidate explains the data if it is at most `LARGEST`;
-none does where the data themselves are mostly noise, typical rho above `NOISY`.
+is 1 for the true model and independent of what other candidates do. A candidate explains the data
+if it is at most `LARGEST`; none does where the data themselves are mostly noise, typical rho above
+`NOISY`.
 """
 
 from collections.abc import Sequence
@@ -21,7 +23,8 @@ from disting.fit.plant import Complex, Real
 from disting.fit.scatter import Scatter, between, scatter
 from disting.measurement import FrequencyResponse
 
-LARGEST = 3.0  # chi2 per line of a model that explains the data: right ones reach 1.5 where few repeats are known
+# chi2 per line of a model that explains the data: right ones reach 1.5 where few repeats are known
+LARGEST = 3.0
 NOISY = 0.3  # typical rho from which on there is hardly a response
 SMOOTHED = 5  # lines over which what is missed is averaged before it is called a range
 RANGES = 3  # that are named, those that miss most
@@ -29,10 +32,11 @@ RANGES = 3  # that are named, those that miss most
 
 @dataclass(frozen=True, slots=True)
 class Miss:
-    """Frequencies `low` to `high` [Hz] where a model misses the data by more than their scatter, and by how much at most.
+    """Frequencies `low` to `high` [Hz] where a model misses the data by more than their scatter,
+    and by how much at most.
 
-    `factor` = largest |G_model / G - 1| in logarithms (0.1 = 10 %), `angle` [rad] likewise, of lines averaged over their
-    neighbours; `share` of chi2 that comes from there.
+    `factor` = largest |G_model / G - 1| in logarithms (0.1 = 10 %), `angle` [rad] likewise, of
+    lines averaged over their neighbours; `share` of chi2 that comes from there.
     """
 
     low: float
@@ -44,14 +48,27 @@ class Miss:
     @property
     def sentence(self) -> str:
         """Where, and by how much."""
-        where = f"{self.low:.3g} to {self.high:.3g} Hz" if self.high > self.low else f"{self.low:.3g} Hz"
-        size = f"a factor {np.exp(self.factor):.2g}" if self.factor > 0.5 else f"{100 * self.factor:.2g} %"
-        return f"{where} (by up to {size} and {max(degrees(self.angle), 0.1):.{0 if self.angle > 0.1 else 1}f} degrees)"
+        where = (
+            f"{self.low:.3g} to {self.high:.3g} Hz"
+            if self.high > self.low
+            else f"{self.low:.3g} Hz"
+        )
+        size = (
+            f"a factor {np.exp(self.factor):.2g}"
+            if self.factor > 0.5
+            else f"{100 * self.factor:.2g} %"
+        )
+        return (
+            f"{where} (by up to {size} and"
+            f" {max(degrees(self.angle), 0.1):.{0 if self.angle > 0.1 else 1}f} degrees)"
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring lines, what it misses where."""
+    """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring
+    lines, what it misses where.
+    """
 
     chi2: float
     scatter: Scatter
@@ -60,7 +77,9 @@ class Explanation:
 
     @property
     def explains(self) -> bool:
-        """Whether the candidate misses no more than the data scatter, and there is more than noise."""
+        """Whether the candidate misses no more than the data scatter, and there is more than
+        noise.
+        """
         return self.chi2 <= LARGEST and not self.noisy
 
     @property
@@ -69,47 +88,71 @@ class Explanation:
         return self.scatter.typical > NOISY
 
 
-def yardstick(train: FrequencyResponse, judged: FrequencyResponse, fitted: Sequence[Complex]) -> Scatter:
-    """Scatter of the data on which candidates are judged: their own, or what training and test differ by, whichever is larger.
+def yardstick(
+    train: FrequencyResponse, judged: FrequencyResponse, fitted: Sequence[Complex]
+) -> Scatter:
+    """Scatter of the data on which candidates are judged: their own, or what training and test
+    differ by, whichever is larger.
 
     `fitted` = responses of candidates at the lines of `judged`.
     """
     own, apart = scatter(judged, fitted), between(train, judged)
     if apart is None or apart <= own.typical:
         return own
-    return Scatter(np.hypot(own.rho, sqrt(apart**2 - own.typical**2)), "the difference of training and test data")
+    return Scatter(
+        np.hypot(own.rho, sqrt(apart**2 - own.typical**2)),
+        "the difference of training and test data",
+    )
 
 
 def chi2(residual: Real, missed: Real) -> float:
-    """chi2 per line of residuals, shape (n_y,), with their expected sizes; lines of weight zero do not count."""
+    """chi2 per line of residuals, shape (n_y,), with their expected sizes; lines of weight zero
+    do not count.
+    """
     used = missed > 0
     return float(np.mean((residual[used] / missed[used]) ** 2)) if used.any() else 0.0
 
 
 def explanation(residual: Real, missed: Real, cost: Cost, known: Scatter) -> Explanation:
-    """What residuals, shape (n_y,), of a cost on data with this scatter say; `missed` = their expected sizes."""
-    return Explanation(chi2(residual, missed), known, correlation(residual), _misses(residual, missed, cost))
+    """What residuals, shape (n_y,), of a cost on data with this scatter say; `missed` = their
+    expected sizes.
+    """
+    return Explanation(
+        chi2(residual, missed), known, correlation(residual), _misses(residual, missed, cost)
+    )
 
 
 def _misses(residual: Real, missed: Real, cost: Cost) -> tuple[Miss, ...]:
-    """Ranges of lines whose averaged excess is above `LARGEST`, those with the largest share of chi2 first."""
+    """Ranges of lines whose averaged excess is above `LARGEST`, those with the largest share of
+    chi2 first.
+    """
     power = np.sum((residual / np.maximum(missed, 1e-300)).reshape(2, -1) ** 2, axis=0) / 2
     ones = np.ones(min(SMOOTHED, len(power)))
-    averaged = np.convolve(power, ones, mode="same") / np.convolve(np.ones(len(power)), ones, mode="same")
+    averaged = np.convolve(power, ones, mode="same") / np.convolve(
+        np.ones(len(power)), ones, mode="same"
+    )
     beyond = np.flatnonzero(averaged > LARGEST)
     runs = np.split(beyond, np.flatnonzero(np.diff(beyond) > SMOOTHED) + 1) if beyond.size else []
     factor, angle = _plain(residual, cost)
     hertz, total = cost.measured.frequency, max(float(power.sum()), 1e-300)
     shares = [float(power[run[0] : run[-1] + 1].sum()) / total for run in runs]
     found = [
-        Miss(float(hertz[run[0]]), float(hertz[run[-1]]), float(factor[run].max()), float(angle[run].max()), share)
+        Miss(
+            float(hertz[run[0]]),
+            float(hertz[run[-1]]),
+            float(factor[run].max()),
+            float(angle[run].max()),
+            share,
+        )
         for run, share in zip(runs, shares, strict=True)
     ]
     return tuple(sorted(found, key=lambda miss: -miss.share)[:RANGES])
 
 
 def _plain(residual: Real, cost: Cost) -> tuple[Real, Real]:
-    """|ln of the amplitudes' ratio| and |difference of the phases| [rad], shape (n_f,) each, in the units of rho."""
+    """|ln of the amplitudes' ratio| and |difference of the phases| [rad], shape (n_f,) each, in
+    the units of rho.
+    """
     unit = np.maximum(cost.scatter(np.ones(len(cost.measured))), 1e-300)
     first, second = np.abs(residual / unit).reshape(2, -1)
     return first, np.minimum(second, pi)

@@ -1,4 +1,6 @@
-"""The selected model for other programs: state space (20) to (23), python-control, MATLAB, JSON that reads back bit-equal."""
+"""The selected model for other programs: state space (20) to (23), python-control, MATLAB, JSON
+that reads back bit-equal.
+"""
 
 import json
 from dataclasses import dataclass
@@ -26,12 +28,15 @@ if TYPE_CHECKING:
     import control
 
 
-MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)  # where SciPy writes the time of day
+# where SciPy writes the time of day
+MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)
 
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force; `delay` of the input [s]."""
+    """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force;
+    `delay` of the input [s].
+    """
 
     A: Real
     B: Real
@@ -55,7 +60,8 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
     b = np.concatenate([np.zeros(n), inverse[:, 0] * force])[:, None]
     c = np.concatenate([sign * shown, np.zeros(n)])[None, :]
     d = np.zeros((1, 1))
-    for _ in range(chain.sensor.order):  # differentiation: c (A x + B u), with D = 0 until the acceleration
+    # differentiation: c (A x + B u), with D = 0 until the acceleration
+    for _ in range(chain.sensor.order):
         c, d = c @ a, c @ b
     if chain.lag:
         a, b, c, d = _lagged(a, b, c, d, values["T1"])
@@ -66,21 +72,39 @@ def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real
     """The force follows the input through 1/(1 + s T1)."""
     n = len(a)
     whole = np.block([[a, b], [np.zeros((1, n)), np.full((1, 1), -1.0 / time)]])
-    return whole, np.concatenate([np.zeros((n, 1)), [[1.0 / time]]]), np.hstack([c, d]), np.zeros((1, 1))
+    return (
+        whole,
+        np.concatenate([np.zeros((n, 1)), [[1.0 / time]]]),
+        np.hstack([c, d]),
+        np.zeros((1, 1)),
+    )
 
 
 def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.StateSpace":
-    """A python-control StateSpace, without the dead time, which no finite state space has; needs disting[control]."""
+    """A python-control StateSpace, without the dead time, which no finite state space has;
+    needs disting[control].
+    """
     ss = state_space(chain, values, sign)
     return _control().StateSpace(ss.A, ss.B, ss.C, ss.D)
 
 
-def to_control_transfer_function(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.TransferFunction":
-    """A python-control TransferFunction, without the dead time, from poles, zeros and gain; needs disting[control]."""
+def to_control_transfer_function(
+    chain: Chain, values: dict[str, float], sign: int = 1
+) -> "control.TransferFunction":
+    """A python-control TransferFunction, without the dead time, from poles, zeros and gain;
+    needs disting[control].
+    """
     p = np.array([values[name] for name in chain.parameters])
-    bottom, top = (np.atleast_1d(np.poly(roots(chain.structure, p))).real for roots in (poles, zeros))
+    bottom, top = (
+        np.atleast_1d(np.poly(roots(chain.structure, p))).real for roots in (poles, zeros)
+    )
     at = 2.0 * np.abs(poles(chain.structure, p)).max() + 1.0  # a real point away from all of them
-    plain = Chain(*chain.indices, damped=chain.damped, ground_dampers=chain.ground_dampers, sensor=Sensor.POSITION)
+    plain = Chain(
+        *chain.indices,
+        damped=chain.damped,
+        ground_dampers=chain.ground_dampers,
+        sensor=Sensor.POSITION,
+    )
     whole = _real_response(plain, {name: values[name] for name in plain.parameters}, at)
     gain = whole * np.polyval(bottom, at) / np.polyval(top, at)
     top = sign * gain * np.append(top, np.zeros(chain.sensor.order))
@@ -99,7 +123,9 @@ def _control() -> Any:
     try:
         import control
     except ImportError:
-        raise InputError('python-control is not installed: pip install "disting[control]"') from None
+        raise InputError(
+            'python-control is not installed: pip install "disting[control]"'
+        ) from None
     return control
 
 
@@ -114,12 +140,19 @@ def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1)
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:
-    """Plain data of a selection: `selected` (null if none), whether it explains the data, what else is not excluded."""
+    """Plain data of a selection: `selected` (null if none), whether it explains the data, what
+    else is not excluded.
+    """
     return {
         "selected": candidate_to_dict(found.selected) if found.selected else None,
         "candidates": [candidate_to_dict(c) for c in found.candidates],
-        "alternatives": [{**_named(a.chain), "relation": a.relation.value, "reason": a.sentence} for a in found.alternatives],
-        "not_fitted": [{**_named(c), "same_as": _named(other)} for c, other in found.same_as.items()],
+        "alternatives": [
+            {**_named(a.chain), "relation": a.relation.value, "reason": a.sentence}
+            for a in found.alternatives
+        ],
+        "not_fitted": [
+            {**_named(c), "same_as": _named(other)} for c, other in found.same_as.items()
+        ],
         "explained": found.explanation.explains,
         "chi2_per_line": found.explanation.chi2,
         "scatter": found.explanation.scatter.typical,
@@ -138,16 +171,21 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
 
 
 def _fit_percent(found: Selection) -> dict[str, float | None]:
-    """Of the described candidate on training and test data; null where there are none or where it is not defined."""
+    """Of the described candidate on training and test data; null where there are none or where
+    it is not defined.
+    """
     train = found.task.cost.measured
     sizes = {"train": train, "test": None if found.test is train else found.test}
     return {
-        key: None if data is None else _finite(fit_percent(found.described, found.task, data)) for key, data in sizes.items()
+        key: None if data is None else _finite(fit_percent(found.described, found.task, data))
+        for key, data in sizes.items()
     }
 
 
 def member_to_dict(member: Member) -> dict[str, Any]:
-    """Plain data of a structure that the data do not exclude: name, values, intervals of 95 %, and what behaves the same."""
+    """Plain data of a structure that the data do not exclude: name, values, intervals of 95 %,
+    and what behaves the same.
+    """
     return {
         "name": member.name,
         **_named(member.candidate.chain),
@@ -155,10 +193,18 @@ def member_to_dict(member: Member) -> dict[str, Any]:
         "intervals": {n: [_finite(end) for end in both] for n, both in member.intervals.items()},
         "j_test": member.candidate.j_test,
         "chi2_per_line": member.candidate.chi2,
-        "equivalents": [{"name": t.name, "parameters": t.parameters, "free_choices": t.free_choices} for t in member.twins],
+        "equivalents": [
+            {"name": t.name, "parameters": t.parameters, "free_choices": t.free_choices}
+            for t in member.twins
+        ],
         "not_decided": list(member.open),
         "disagreements": [
-            {"parameter": d.name, "train": d.train, "test": d.test, "standard_errors_apart": d.distance}
+            {
+                "parameter": d.name,
+                "train": d.train,
+                "test": d.test,
+                "standard_errors_apart": d.distance,
+            }
             for d in member.disagreements
         ],
         "differs_at": [{"frequency": hertz, "by": size} for hertz, size in member.differs],
@@ -166,7 +212,9 @@ def member_to_dict(member: Member) -> dict[str, Any]:
 
 
 def candidate_to_dict(c: Candidate) -> dict[str, Any]:
-    """Plain data of one candidate; a number that is not finite is null, and so is `unidentifiable` where nothing is."""
+    """Plain data of one candidate; a number that is not finite is null, and so is
+    `unidentifiable` where nothing is.
+    """
     return {
         "name": reference(c.chain),
         **_named(c.chain),
@@ -188,9 +236,11 @@ def candidate_to_dict(c: Candidate) -> dict[str, Any]:
 
 
 def _named(chain: Chain) -> dict[str, Any]:
-    """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as indices.
+    """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as
+    indices.
 
-    `renamed`: where the chain is named after another form of it, what its parameters are called there.
+    `renamed`: where the chain is named after another form of it, what its parameters are called
+    there.
     """
     form = as_listed(chain)
     _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
@@ -208,7 +258,9 @@ def _named(chain: Chain) -> dict[str, Any]:
 
 
 def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
-    """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what is none."""
+    """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what
+    is none.
+    """
     try:
         (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
         chain = Chain(
@@ -242,9 +294,15 @@ def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
     return model_from_dict(selected)
 
 
-def predicted(chain: Chain, values: dict[str, float], omega: Real, sign: int = 1) -> np.ndarray[Any, np.dtype[np.complex128]]:
-    """Response of a fitted chain, or of the same chain with other ports, at angular frequencies [rad/s]."""
-    return Plant(chain.structure, omega, sign).response(np.array([values[name] for name in chain.parameters]))
+def predicted(
+    chain: Chain, values: dict[str, float], omega: Real, sign: int = 1
+) -> np.ndarray[Any, np.dtype[np.complex128]]:
+    """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
+    [rad/s].
+    """
+    return Plant(chain.structure, omega, sign).response(
+        np.array([values[name] for name in chain.parameters])
+    )
 
 
 def _finite(value: float) -> float | None:

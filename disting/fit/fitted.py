@@ -1,11 +1,14 @@
-"""What a fitted candidate says of the response: its values, how sure they are, and how much of the data they reproduce.
+"""What a fitted candidate says of the response: its values, how sure they are, and how much of the
+data they reproduce.
 
-With g = d ln G / d ln p, shape (n_p,) at each frequency, ln |G| and arg G have by the chain rule the standard errors
+With g = d ln G / d ln p, shape (n_p,) at each frequency, ln |G| and arg G have by the chain rule
+the standard errors
 
     s_1 = sqrt(Re g' C Re g),    s_2 = sqrt(Im g' C Im g)    [1, rad]
 
-with the covariance C of the logarithms of the parameters from which their own standard errors follow (`noise`): the band
-|G| exp(-+1.96 s_1), arg G -+ 1.96 s_2 holds the true response at each frequency with 95 %, if the structure is the true one.
+with the covariance C of the logarithms of the parameters from which their own standard errors
+follow (`noise`): the band |G| exp(-+1.96 s_1), arg G -+ 1.96 s_2 holds the true response at each
+frequency with 95 %, if the structure is the true one.
 """
 
 from dataclasses import dataclass, replace
@@ -23,7 +26,9 @@ ROUNDING = 1e-12  # share of a response below which its changes are rounding
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Confidence:
-    """Standard errors of ln |G| and of arg G [rad] of a model, shape (n_f,) each; infinite where the data do not tell."""
+    """Standard errors of ln |G| and of arg G [rad] of a model, shape (n_f,) each; infinite
+    where the data do not tell.
+    """
 
     amplitude: Real
     phase: Real
@@ -36,7 +41,9 @@ def response_of(candidate: Candidate, task: Task, omega: Real) -> Complex:
 
 
 def confidence(candidate: Candidate, task: Task, omega: Real) -> Confidence:
-    """Standard errors of the fitted response at angular frequencies [rad/s]; zero where all parameters are given."""
+    """Standard errors of the fitted response at angular frequencies [rad/s]; zero where all
+    parameters are given.
+    """
     p, free = _values(candidate), task.box(candidate.chain.parameters).free
     if not free.any():
         return Confidence(np.zeros(len(omega)), np.zeros(len(omega)))
@@ -49,15 +56,20 @@ def confidence(candidate: Candidate, task: Task, omega: Real) -> Confidence:
 
 
 def fit_percent(candidate: Candidate, task: Task, measured: FrequencyResponse) -> float:
-    """100 (1 - |G - G_m| / |G - mean G|) over the lines, G measured and G_m fitted, norms over the complex numbers.
+    """100 (1 - |G - G_m| / |G - mean G|) over the lines, G measured and G_m fitted, norms over the
+    complex numbers.
 
-    The normalised root mean square that MATLAB's `compare` prints: 100 for a perfect fit, 0 for one no better than a constant.
-    It weighs lines by their amplitude, so it tells of the resonances and hardly of what lies 40 dB below them. Not a number
-    where the data are constant.
+    The normalised root mean square that MATLAB's `compare` prints: 100 for a perfect fit, 0 for
+    one no better than a constant. It weighs lines by their amplitude, so it tells of the
+    resonances and hardly of what lies 40 dB below them. Not a number where the data are constant.
     """
     missed = np.linalg.norm(measured.G - response_of(candidate, task, measured.omega))
     moved = np.linalg.norm(measured.G - measured.G.mean())
-    return float(100 * (1 - missed / moved)) if moved > ROUNDING * np.linalg.norm(measured.G) else float("nan")
+    return (
+        float(100 * (1 - missed / moved))
+        if moved > ROUNDING * np.linalg.norm(measured.G)
+        else float("nan")
+    )
 
 
 def _values(candidate: Candidate) -> Real:

@@ -1,4 +1,6 @@
-"""What fitted candidates are worth: criteria, standard errors, cost on data that no fit has seen, chi2 per line."""
+"""What fitted candidates are worth: criteria, standard errors, cost on data that no fit has
+seen, chi2 per line.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -27,10 +29,11 @@ Scatters = tuple[Scatter, Scatter]
 
 @dataclass(frozen=True)
 class Candidate:
-    """A fitted candidate; `reasons` say why it is excluded, `residual` is that on the test data, shape (n_y,).
+    """A fitted candidate; `reasons` say why it is excluded, `residual` is that on the test data,
+    shape (n_y,).
 
-    `missed` = what it is expected to be and `chi2` per line, see `explained`; `noise` = covariance of the residuals on the
-    training data, from which all standard errors follow.
+    `missed` = what it is expected to be and `chi2` per line, see `explained`; `noise` = covariance
+    of the residuals on the training data, from which all standard errors follow.
     """
 
     chain: Chain
@@ -63,39 +66,64 @@ class Candidate:
     @property
     def standard_errors(self) -> dict[str, float]:
         """Standard error of each fitted parameter, in its unit."""
-        return {n: e * self.estimate.parameters[n] for n, e in self.practical.relative_errors.items()}
+        return {
+            n: e * self.estimate.parameters[n] for n, e in self.practical.relative_errors.items()
+        }
 
 
 def judged(
     known: Mapping[Chain, Estimate], task: Task, test_cost: Cost | None, settings: Settings
 ) -> tuple[list[Candidate], Scatter]:
-    """What each estimate is worth, in the order of the cost on test, and the scatter that it was judged by."""
+    """What each estimate is worth, in the order of the cost on test, and the scatter that it
+    was judged by.
+    """
     cost = test_cost or task.cost
     best = sorted(known.values(), key=lambda e: e.j)[:WITNESSES]
     inside = scatter(task.cost.measured, [_response(e, task) for e in best])
-    outside = yardstick(task.cost.measured, cost.measured, [_response(e, replace(task, cost=cost)) for e in best])
+    outside = yardstick(
+        task.cost.measured, cost.measured, [_response(e, replace(task, cost=cost)) for e in best]
+    )
     first = {c: _criteria(found, task, inside) for c, found in known.items()}
     criteria = with_structure({c: found for c, (found, _) in first.items()}, settings)
-    fitted = [_candidate(found, criteria[c], first[c][1], task, test_cost, (inside, outside)) for c, found in known.items()]
+    fitted = [
+        _candidate(found, criteria[c], first[c][1], task, test_cost, (inside, outside))
+        for c, found in known.items()
+    ]
     return sorted(fitted, key=lambda c: c.j_test), outside
 
 
 def _response(found: Estimate, task: Task) -> Complex:
-    return task.plant(found.chain).response(np.array([found.parameters[n] for n in found.chain.parameters]))
+    return task.plant(found.chain).response(
+        np.array([found.parameters[n] for n in found.chain.parameters])
+    )
 
 
 def _criteria(found: Estimate, task: Task, known: Scatter) -> tuple[Practical, Noise]:
-    """The criteria at the optimum, of the parameters that are free, and what the residuals there are like."""
+    """The criteria at the optimum, of the parameters that are free, and what the residuals
+    there are like.
+    """
     chain, names = found.chain, found.chain.parameters
     p = np.array([found.parameters[n] for n in names])
     free = task.box(names).free
     residual, columns = task.cost.of(task.plant(chain), p)
     sigma = task.cost.scatter(known.rho)
     there = noise(residual, sigma, expected(columns[:, free], sigma))
-    return practical(columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], there), there
+    return (
+        practical(
+            columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], there
+        ),
+        there,
+    )
 
 
-def _candidate(found: Estimate, criteria: Practical, there: Noise, task: Task, test: Cost | None, known: Scatters) -> Candidate:
+def _candidate(
+    found: Estimate,
+    criteria: Practical,
+    there: Noise,
+    task: Task,
+    test: Cost | None,
+    known: Scatters,
+) -> Candidate:
     """Test cost of one estimate with its criteria."""
     chain, names = found.chain, found.chain.parameters
     p = np.array([found.parameters[n] for n in names])
@@ -105,10 +133,14 @@ def _candidate(found: Estimate, criteria: Practical, there: Noise, task: Task, t
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
     missed = _expected(found, task, test or task.cost, *known)
     size = chi2(residual, missed)
-    return Candidate(chain, found, criteria, float(residual @ residual), size, at_bound, residual, missed, there)
+    return Candidate(
+        chain, found, criteria, float(residual @ residual), size, at_bound, residual, missed, there
+    )
 
 
-def _expected(found: Estimate, task: Task, judging: Cost, inside: Scatter, outside: Scatter) -> Real:
+def _expected(
+    found: Estimate, task: Task, judging: Cost, inside: Scatter, outside: Scatter
+) -> Real:
     """What the residuals on the judged data are expected to be, shape (n_y,)."""
     names = found.chain.parameters
     p, free = np.array([found.parameters[n] for n in names]), task.box(names).free
@@ -122,7 +154,9 @@ def _residual(chain: Chain, task: Task, cost: Cost, p: Real) -> Real:
 
 
 def _cross_validated(found: Estimate, task: Task, p: Real) -> Real:
-    """Residuals of each line under the fit to the other folds, lines dealt out in turn; shape (n_y,)."""
+    """Residuals of each line under the fit to the other folds, lines dealt out in turn; shape
+    (n_y,).
+    """
     if not task.box(found.chain.parameters).free.any():
         return _residual(found.chain, task, task.cost, p)  # no fit sees any line
     cost, n_f = task.cost, len(task.cost.measured.omega)

@@ -1,9 +1,11 @@
 """Structures that the data do not exclude, each with all that is known of it.
 
-A candidate is not excluded if its cost on test is above the lowest one by less than noise explains: two standard deviations of
-the difference (`repeatability.margin`), under the scatter of the lines and the correlation of neighbouring residuals.
-And what behaves as it does, for exactly these values, is not excluded either, by this or any other data of this force and
-sensor: other structures of as many masses, anywhere in the catalogue, with any ground dampers, and other values of its own.
+A candidate is not excluded if its cost on test is above the lowest one by less than noise
+explains: two standard deviations of the difference (`repeatability.margin`), under the scatter of
+the lines and the correlation of neighbouring residuals. And what behaves as it does, for exactly
+these values, is not excluded either, by this or any other data of this force and sensor: other
+structures of as many masses, anywhere in the catalogue, with any ground dampers, and other values
+of its own.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -27,7 +29,8 @@ from disting.fit.scatter import scatter
 from disting.model.chain import Chain
 from disting.model.family import Family
 
-EVERY_SET = 4  # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
+# masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
+EVERY_SET = 4
 APART = 3.0  # standard errors between training and test from which on a parameter disagrees
 QUANTILE = 1.959964  # of the normal distribution, for intervals of 95 %
 STRONGEST = 2  # frequencies that are named, at which two structures differ most
@@ -36,7 +39,9 @@ WIDE = 1.3  # ratio of two such frequencies, at least
 
 @dataclass(frozen=True)
 class Twin:
-    """A structure with positive parameters that has the same transfer function; `free_choices` = dimension of its family."""
+    """A structure with positive parameters that has the same transfer function; `free_choices`
+    = dimension of its family.
+    """
 
     chain: Chain
     parameters: dict[str, float]
@@ -50,7 +55,9 @@ class Twin:
 
 @dataclass(frozen=True)
 class Disagreement:
-    """A parameter that training and test data give differently: values, and their distance in standard errors."""
+    """A parameter that training and test data give differently: values, and their distance in
+    standard errors.
+    """
 
     name: str
     train: float
@@ -60,9 +67,11 @@ class Disagreement:
 
 @dataclass(frozen=True)
 class Member:
-    """A structure that the data do not exclude; `open` names those of which it is not known whether they do the same.
+    """A structure that the data do not exclude; `open` names those of which it is not known
+    whether they do the same.
 
-    `differs`: frequencies [Hz] at which it differs most from the first member, and by how much (0.01 = 1 % or 0.01 rad).
+    `differs`: frequencies [Hz] at which it differs most from the first member, and by how much
+    (0.01 = 1 % or 0.01 rad).
     """
 
     candidate: Candidate
@@ -80,7 +89,10 @@ class Member:
     def intervals(self) -> dict[str, tuple[float, float]]:
         """95 % of each fitted parameter; a lower end below zero is zero."""
         values, errors = self.candidate.estimate.parameters, self.candidate.standard_errors
-        return {n: (max(values[n] - QUANTILE * e, 0.0), values[n] + QUANTILE * e) for n, e in errors.items()}
+        return {
+            n: (max(values[n] - QUANTILE * e, 0.0), values[n] + QUANTILE * e)
+            for n, e in errors.items()
+        }
 
 
 def members(
@@ -99,21 +111,35 @@ def members(
         progress("equivalents", len(found), len(given))
     return tuple(
         Member(
-            c, *found[c.chain], disagreements(c, task, test) if test else (), _differs(chosen[0], c, test or task.cost, task)
+            c,
+            *found[c.chain],
+            disagreements(c, task, test) if test else (),
+            _differs(chosen[0], c, test or task.cost, task),
         )
         for c in chosen
     )
 
 
-def twins(chain: Chain, values: Mapping[str, float], limits: Limits) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
-    """Structures with the same behaviour within the limits, and the names of those of which that is not known."""
+def twins(
+    chain: Chain, values: Mapping[str, float], limits: Limits
+) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
+    """Structures with the same behaviour within the limits, and the names of those of which
+    that is not known.
+    """
     found, unknown, form = list[Twin](), list[str](), as_listed(chain)
     text = {form.renaming[name]: repr(value) for name, value in values.items()}
     limits = {form.renaming.get(name, name): both for name, both in limits.items()}
     for other in _catalogue(chain):
         for listing in equivalents(form.chain, text, other).listings:
-            positive = [m for m in listing.members if m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN]
-            real = [(m.free_choices, {n: complex(v).real for n, v in m.values.items()}) for m in positive]
+            positive = [
+                m
+                for m in listing.members
+                if m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN
+            ]
+            real = [
+                (m.free_choices, {n: complex(v).real for n, v in m.values.items()})
+                for m in positive
+            ]
             found += [Twin(other, p, free) for free, p in real if _inside(p, limits)]
             if not (listing.complete or positive or other == form.chain):
                 unknown.append(listing.name)
@@ -122,7 +148,9 @@ def twins(chain: Chain, values: Mapping[str, float], limits: Limits) -> tuple[tu
 
 
 def _catalogue(chain: Chain) -> Iterable[Chain]:
-    """Every chain of as many masses, with every set of ground dampers; lag and dead time as given."""
+    """Every chain of as many masses, with every set of ground dampers; lag and dead time as
+    given.
+    """
     n = chain.n_masses
     sizes = range(n + 1) if n <= EVERY_SET else [len(chain.ground_dampers)]
     sets = [chosen for size in sizes for chosen in combinations(range(1, n + 1), size)]
@@ -132,11 +160,16 @@ def _catalogue(chain: Chain) -> Iterable[Chain]:
 
 
 def _inside(values: Mapping[str, float], limits: Limits) -> bool:
-    return all(low * (1 - 1e-9) <= values.get(name, low) <= high * (1 + 1e-9) for name, (low, high) in limits.items())
+    return all(
+        low * (1 - 1e-9) <= values.get(name, low) <= high * (1 + 1e-9)
+        for name, (low, high) in limits.items()
+    )
 
 
 def disagreements(candidate: Candidate, task: Task, test: Cost) -> tuple[Disagreement, ...]:
-    """Parameters that a fit of the same structure to the test data moves by more than `APART` standard errors of both fits."""
+    """Parameters that a fit of the same structure to the test data moves by more than `APART`
+    standard errors of both fits.
+    """
     names, there = candidate.chain.parameters, replace(task, cost=test)
     start = np.array([candidate.estimate.parameters[n] for n in names])
     box, plant = there.box(names), there.plant(candidate.chain)
@@ -147,23 +180,32 @@ def disagreements(candidate: Candidate, task: Task, test: Cost) -> tuple[Disagre
     known = scatter(test.measured, [plant.response(p)])
     free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
     sigma, columns = test.scatter(known.rho), columns[:, box.free]
-    other = practical(columns, free, noise(residual, sigma, expected(columns, sigma))).relative_errors
+    other = practical(
+        columns, free, noise(residual, sigma, expected(columns, sigma))
+    ).relative_errors
     values = dict(zip(names, map(float, p), strict=True))
     found = []
     for name, error in candidate.standard_errors.items():
         both = float(np.hypot(error, other[name] * values[name]))
         distance = abs(values[name] - candidate.estimate.parameters[name]) / both if both else 0.0
         if distance > APART:
-            found.append(Disagreement(name, candidate.estimate.parameters[name], values[name], distance))
+            found.append(
+                Disagreement(name, candidate.estimate.parameters[name], values[name], distance)
+            )
     return tuple(found)
 
 
-def _differs(first: Candidate, other: Candidate, cost: Cost, task: Task) -> tuple[tuple[float, float], ...]:
+def _differs(
+    first: Candidate, other: Candidate, cost: Cost, task: Task
+) -> tuple[tuple[float, float], ...]:
     """Frequencies at which two fitted candidates differ most, largest difference first."""
     if first is other:
         return ()
     there = replace(task, cost=cost)
-    both = [there.plant(c.chain).response(np.array(list(c.estimate.parameters.values()))) for c in (first, other)]
+    both = [
+        there.plant(c.chain).response(np.array(list(c.estimate.parameters.values())))
+        for c in (first, other)
+    ]
     size, hertz = np.abs(np.log(both[1] / both[0])), cost.measured.frequency
     found = list[tuple[float, float]]()
     for i in np.argsort(-size):

@@ -1,7 +1,8 @@
 """Candidates that differ by one step, and the fit of one as a start of the other.
 
-A search from the data alone may end in a valley where one element does the work of another: a damper at the wrong mass, a dead
-time for a lag, a small mass tuned to one line. The fit of a neighbour often lies in the better one.
+A search from the data alone may end in a valley where one element does the work of another: a
+damper at the wrong mass, a dead time for a lag, a small mass tuned to one line. The fit of a
+neighbour often lies in the better one.
 """
 
 from collections.abc import Iterable, Iterator
@@ -14,7 +15,9 @@ ADDED = (0.1, 1.0)  # of its natural size, for an element that the neighbour lac
 
 
 def neighbours(chain: Chain) -> Iterator[Chain]:
-    """Yield the candidates with one element fewer or more, a ground damper at another mass, the lag for the dead time."""
+    """Yield the candidates with one element fewer or more, a ground damper at another mass, the
+    lag for the dead time.
+    """
     yield from shortened(chain)
     dampers = set(chain.ground_dampers)
     free = [i for i in range(1, chain.n_masses + 1) if i not in dampers]
@@ -30,8 +33,12 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, lag=chain.dead_time, dead_time=chain.lag)
 
 
-def carried(chain: Chain, fit: Values, size: Scale, factors: Iterable[float] = ADDED) -> Iterator[Values]:
-    """Starts from a neighbour's fit: what it has too much hands its value over, or is left out; what it lacks is added."""
+def carried(
+    chain: Chain, fit: Values, size: Scale, factors: Iterable[float] = ADDED
+) -> Iterator[Values]:
+    """Starts from a neighbour's fit: what it has too much hands its value over, or is left out;
+    what it lacks is added.
+    """
     missing = [name for name in chain.parameters if name not in fit]
     surplus = [name for name in fit if name not in chain.parameters]
     if surplus:

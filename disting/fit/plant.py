@@ -1,14 +1,16 @@
-"""Frequency response of a chain and its derivatives by all parameters: two tridiagonal solves a frequency, for any size.
+"""Frequency response of a chain and its derivatives by all parameters: two tridiagonal solves a
+frequency, for any size.
 
-With A(s) = M s^2 + D s + K, A x = e_act, A y = e_sens and c = s^n exp(-s Td) / (1 + s T1), n = 0, 1, 2 for a position,
-velocity or acceleration sensor:
+With A(s) = M s^2 + D s + K, A x = e_act, A y = e_sens and c = s^n exp(-s Td) / (1 + s T1), n = 0,
+1, 2 for a position, velocity or acceleration sensor:
 
     G = c e_sens' x,                          dG/dTd = -s G,      dG/dT1 = -s G / (1 + s T1),
     dG/dm_i = -c s^2 x_i y_i,                 dG/db_i = -c s x_i y_i,
     dG/dk_ij = -c (x_i - x_j)(y_i - y_j),     dG/dd_ij = s dG/dk_ij.
 
-A is symmetric (reciprocity), so the adjoint solution y turns every derivative into a product of two numbers; where force and
-sensor sit at the same place, y = x. Everything is vectorised over frequencies and over parameter vectors.
+A is symmetric (reciprocity), so the adjoint solution y turns every derivative into a product of
+two numbers; where force and sensor sit at the same place, y = x. Everything is vectorised over
+frequencies and over parameter vectors.
 """
 
 from dataclasses import dataclass
@@ -28,7 +30,9 @@ ROUNDING = 2.0**-52
 
 @dataclass(frozen=True, eq=False)
 class Plant:
-    """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for a reversed sensor."""
+    """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for
+    a reversed sensor.
+    """
 
     structure: Structure
     omega: Real
@@ -44,7 +48,9 @@ class Plant:
         return self.structure.parameters
 
     def response(self, p: Real) -> Complex:
-        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p), in one system of units."""
+        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p), in one
+        system of units.
+        """
         ports = self.structure.ports
         x = _solved(*self._pivots(p), ports.act_minus, ports.act_plus)
         return self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus)
@@ -65,7 +71,9 @@ class Plant:
             stretched = _steps(scaled) * _steps(y)
             gradient[..., self._slices["k"], :] = stretched[..., self._rows["k"], :]
             if "d" in self._rows:
-                np.multiply(stretched[..., self._rows["d"], :], s, out=gradient[..., self._slices["d"], :])
+                np.multiply(
+                    stretched[..., self._rows["d"], :], s, out=gradient[..., self._slices["d"], :]
+                )
         if self.structure.lag:
             gradient[..., self._lag_at, :] = -s / (1 + s * p[..., self._lag_at, None])
         if self.structure.dead_time:
@@ -82,7 +90,9 @@ class Plant:
         return factor
 
     def _pivots(self, p: Real) -> tuple[Complex, Complex]:
-        """Couplings c_j = k_j + s d_j of the joints 0..N-1 and the pivots of A, eliminated from the last mass to the first."""
+        """Couplings c_j = k_j + s d_j of the joints 0..N-1 and the pivots of A, eliminated from
+        the last mass to the first.
+        """
         s, n = self._s, self.structure.n_masses
         coupling = np.zeros((*p.shape[:-1], n, s.size), dtype=np.complex128)
         for kind in ("k", "d"):
@@ -128,7 +138,10 @@ class Plant:
     def _slices(self) -> dict[str, slice]:
         """Where the parameters of each kind of element stand in a parameter vector."""
         kinds = [e.kind for e in self.structure.elements]
-        return {kind: slice(kinds.index(kind), kinds.index(kind) + kinds.count(kind)) for kind in set(kinds)}
+        return {
+            kind: slice(kinds.index(kind), kinds.index(kind) + kinds.count(kind))
+            for kind in set(kinds)
+        }
 
     @cached_property
     def _rows(self) -> dict[str, Rows]:
@@ -141,11 +154,17 @@ class Plant:
 
 def _rows(at: list[int]) -> Rows:
     """A slice where the places follow each other: numpy then copies nothing."""
-    return slice(at[0], at[-1] + 1) if at == list(range(at[0], at[-1] + 1)) else np.array(at, dtype=np.intp)
+    return (
+        slice(at[0], at[-1] + 1)
+        if at == list(range(at[0], at[-1] + 1))
+        else np.array(at, dtype=np.intp)
+    )
 
 
 def _solved(coupling: Complex, pivots: Complex, minus: int, plus: int) -> Complex:
-    """Displacements of ground and masses, shape (..., 1 + N, n_f), for a unit force on `plus` against `minus`."""
+    """Displacements of ground and masses, shape (..., 1 + N, n_f), for a unit force on `plus`
+    against `minus`.
+    """
     n = pivots.shape[-2]
     x = np.zeros((*pivots.shape[:-2], n + 1, pivots.shape[-1]), dtype=np.complex128)
     x[..., plus, :] += 1.0

@@ -1,7 +1,9 @@
-"""Practical identifiability of fitted parameters (section 2.4): equations (16), (17), (18), and what they leave unsaid.
+"""Practical identifiability of fitted parameters (section 2.4): equations (16), (17), (18), and
+what they leave unsaid.
 
-S is the sensitivity matrix, shape (n_y, n_p), at the optimum, columns multiplied by the parameters (Delta p_j = p_j). A scaling
-of columns changes neither collinearity nor condition indices, which see columns of unit length.
+S is the sensitivity matrix, shape (n_y, n_p), at the optimum, columns multiplied by the parameters
+(Delta p_j = p_j). A scaling of columns changes neither collinearity nor condition indices, which
+see columns of unit length.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,7 +19,8 @@ from disting.fit.plant import Real
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
 ROUNDING = 1e-15  # a singular value below this share of the largest one is zero
-LOST = 1e-6  # share of a gradient along undetermined directions from which on its function is not determined
+# share of a gradient along undetermined directions from which on its function is not determined
+LOST = 1e-6
 
 
 def importance(columns: Real) -> Real:
@@ -26,7 +29,9 @@ def importance(columns: Real) -> Real:
 
 
 def unit_columns(columns: Real) -> Real:
-    """S-tilde: columns of unit length; columns of zeros stay. Raises InputError for what is no finite matrix."""
+    """S-tilde: columns of unit length; columns of zeros stay. Raises InputError for what is no
+    finite matrix.
+    """
     matrix = np.asarray(columns, dtype=float)
     if matrix.ndim != 2 or not matrix.size or not np.all(np.isfinite(matrix)):
         raise InputError("a sensitivity matrix has rows and columns of finite numbers")
@@ -35,7 +40,8 @@ def unit_columns(columns: Real) -> Real:
 
 
 def collinearity_index(columns: Real) -> float:
-    """gamma = 1 / smallest singular value of S-tilde (17); infinite for dependent columns; critical above 5 to 20.
+    """gamma = 1 / smallest singular value of S-tilde (17); infinite for dependent columns;
+    critical above 5 to 20.
 
     >>> collinearity_index(np.array([[1.0, 1.0], [0.0, 1.0]])).__round__(6)
     1.847759
@@ -45,7 +51,9 @@ def collinearity_index(columns: Real) -> float:
 
 
 def condition_indices(columns: Real) -> Real:
-    """mu_max / mu_k of S-tilde (18), rising, shape (n_p,); Belsley 1991; critical above 10 to 30."""
+    """mu_max / mu_k of S-tilde (18), rising, shape (n_p,); Belsley 1991; critical above 10 to
+    30.
+    """
     values = _singular_values(columns)
     with np.errstate(divide="ignore"):
         return np.asarray(np.where(values > ROUNDING * values[0], values[0] / values, inf))
@@ -71,9 +79,10 @@ def collinearity_by_subset(columns: Real) -> Iterator[tuple[tuple[int, ...], flo
 class Practical:
     """The criteria of one fit.
 
-    `importance` (16) and `relative_errors` (standard errors divided by the parameters, 0.01 = 1 %) by parameter;
-    `condition_indices` rising; `worst_direction`: the combination of logarithms of parameters that the data determine least.
-    `unidentifiable` says what is determinable where no data at all determine every parameter, else "".
+    `importance` (16) and `relative_errors` (standard errors divided by the parameters, 0.01 = 1 %)
+    by parameter; `condition_indices` rising; `worst_direction`: the combination of logarithms of
+    parameters that the data determine least. `unidentifiable` says what is determinable where no
+    data at all determine every parameter, else "".
     """
 
     names: tuple[str, ...]
@@ -86,7 +95,9 @@ class Practical:
 
     @property
     def importance_ratio(self) -> float:
-        """Largest importance divided by the smallest; infinite where a parameter has none, 1 without any."""
+        """Largest importance divided by the smallest; infinite where a parameter has none, 1
+        without any.
+        """
         values = list(self.importance.values()) or [1.0]
         return max(values) / min(values) if min(values) > 0 else inf
 
@@ -102,9 +113,11 @@ class Practical:
 
 
 def practical(columns: Real, names: Sequence[str], noise: Noise) -> Practical:
-    """Criteria at an optimum with residuals of covariance `noise`; `columns` = S_j p_j, shape (n_y, n_p), of free parameters.
+    """Criteria at an optimum with residuals of covariance `noise`; `columns` = S_j p_j, shape
+    (n_y, n_p), of free parameters.
 
-    Where all are fixed nothing depends on the data, so that nothing is undetermined: every index is 1.
+    Where all are fixed nothing depends on the data, so that nothing is undetermined: every index
+    is 1.
     """
     if not names:
         return Practical((), {}, 1.0, (), {}, {})
@@ -120,7 +133,9 @@ def practical(columns: Real, names: Sequence[str], noise: Noise) -> Practical:
 
 
 def covariance(columns: Real, noise: Noise) -> Real:
-    """Covariance of ln p, shape (n_p, n_p): H (S' C S) H, H = (S' S)^-1, with C of the residuals; infinite if S is singular."""
+    """Covariance of ln p, shape (n_p, n_p): H (S' C S) H, H = (S' S)^-1, with C of the
+    residuals; infinite if S is singular.
+    """
     n_y, n_p = columns.shape
     length = np.linalg.norm(columns, axis=0)
     left, values, right = np.linalg.svd(unit_columns(columns), full_matrices=False)
@@ -131,10 +146,11 @@ def covariance(columns: Real, noise: Noise) -> Real:
 
 
 def standard_errors(slopes: Real, columns: Real, noise: Noise, rank: int) -> Real:
-    """Standard errors of functions of ln p with gradients `slopes`, shape (n, n_p): sqrt(g' C g), without cancellation.
+    """Standard errors of functions of ln p with gradients `slopes`, shape (n, n_p): sqrt(g' C g),
+    without cancellation.
 
-    `rank` directions of ln p count as determined, those that the data determine best; infinite for a function that changes
-    along another one.
+    `rank` directions of ln p count as determined, those that the data determine best; infinite for
+    a function that changes along another one.
     """
     n_y, n_p = columns.shape
     length = np.linalg.norm(columns, axis=0)
@@ -148,25 +164,32 @@ def standard_errors(slopes: Real, columns: Real, noise: Noise, rank: int) -> Rea
 
 
 def worst_direction(columns: Real, names: Sequence[str]) -> dict[str, float]:
-    """Right singular vector of the smallest singular value of S-tilde, its large entries by parameter, largest positive."""
+    """Right singular vector of the smallest singular value of S-tilde, its large entries by
+    parameter, largest positive.
+    """
     matrix = unit_columns(columns)
-    vector = np.linalg.svd(matrix, full_matrices=len(matrix) < matrix.shape[1])[2][-1]  # full where columns outnumber rows
+    # full where columns outnumber rows
+    vector = np.linalg.svd(matrix, full_matrices=len(matrix) < matrix.shape[1])[2][-1]
     vector = vector / vector[np.argmax(np.abs(vector))]
     return {name: float(v) for name, v in zip(names, vector, strict=True) if abs(v) >= NAMED}
 
 
 @dataclass(frozen=True)
 class Thresholds:
-    """Largest admissible condition index, importance ratio and collinearity index; the first row of Table 1 by default."""
+    """Largest admissible condition index, importance ratio and collinearity index; the first
+    row of Table 1 by default.
+    """
 
     condition_index: float = 30.0
     importance_ratio: float = 1000.0
     collinearity: float = 20.0
 
     def reasons(self, found: Practical) -> tuple[str, ...]:
-        """Why a candidate is excluded; nothing if it is admissible. What is not a number violates every threshold.
+        """Why a candidate is excluded; nothing if it is admissible. What is not a number violates
+        every threshold.
 
-        Structural unidentifiability excludes at any threshold, and is said instead of the infinite indices that follow from it.
+        Structural unidentifiability excludes at any threshold, and is said instead of the infinite
+        indices that follow from it.
         """
         along = ", ".join(found.worst_direction)
         least = max(found.importance.values(), default=0.0) / self.importance_ratio
@@ -177,6 +200,14 @@ class Thresholds:
             ("collinearity index", found.collinearity, self.collinearity, along),
         ]
         unknown = dict.fromkeys(who for _, value, limit, who in rows if value == inf > limit)
-        infinite = [f"these data do not determine {who}" for who in unknown if not (found.unidentifiable and who == along)]
-        finite = [f"{what} {v:.3g} exceeds {limit:g} ({who})" for what, v, limit, who in rows if v != inf and not v <= limit]
+        infinite = [
+            f"these data do not determine {who}"
+            for who in unknown
+            if not (found.unidentifiable and who == along)
+        ]
+        finite = [
+            f"{what} {v:.3g} exceeds {limit:g} ({who})"
+            for what, v, limit, who in rows
+            if v != inf and not v <= limit
+        ]
         return (*filter(None, [found.unidentifiable]), *infinite, *finite)

@@ -1,7 +1,9 @@
-"""What would fit where no candidate does: another sensor quantity, a reversed sensor, other places, one mass more.
+"""What would fit where no candidate does: another sensor quantity, a reversed sensor, other
+places, one mass more.
 
-A few candidates with a damper, a lag and a dead time, of as many masses as the best one, are fitted under each reading. They
-are compared by J on the training data, which in logarithms does not depend on the unit of the quantity.
+A few candidates with a damper, a lag and a dead time, of as many masses as the best one, are
+fitted under each reading. They are compared by J on the training data, which in logarithms does
+not depend on the unit of the quantity.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -14,7 +16,8 @@ from disting.fit.estimate import Estimate, Task, estimates
 from disting.fit.judged import Candidate
 from disting.model.chain import Chain, Sensor
 
-FALLS = 0.5  # of the cost: what helps less than that, or than half as much as the best one, is not named
+# of the cost: what helps less than that, or than half as much as the best one, is not named
+FALLS = 0.5
 NOTHING = 1e-6  # a cost that is as good as zero
 SMALL = 3  # masses: readings are tried with no more
 MOST = 5  # masses: one more than this is not tried
@@ -23,7 +26,9 @@ NAMED = 4  # readings that are named
 
 @dataclass(frozen=True)
 class Reading:
-    """Another view of the data under which the cost on the training data falls from `before` to `found.j`."""
+    """Another view of the data under which the cost on the training data falls from `before` to
+    `found.j`.
+    """
 
     words: str
     found: Estimate
@@ -43,7 +48,9 @@ def readings(
     executor: Executor | None = None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Reading, ...]:
-    """Readings under which the data fit much better than the best of the candidates does, small changes first."""
+    """Readings under which the data fit much better than the best of the candidates does, small
+    changes first.
+    """
     lowest = min(c.j_train for c in candidates)
     small = [c for c in candidates if c.chain.n_masses <= SMALL] or candidates
     base = min(small, key=lambda c: c.j_train).chain
@@ -68,20 +75,32 @@ def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
             cost = replace(task.cost, measured=replace(data, sensor=quantity))
             seen = replace(loose, sensor=quantity)
             yield f"read as {quantity.value}", seen, replace(task, cost=cost)
-            yield f"read as {quantity.value} with the sign reversed", seen, replace(reversed_sensor, cost=cost)
+            yield (
+                f"read as {quantity.value} with the sign reversed",
+                seen,
+                replace(reversed_sensor, cost=cost),
+            )
     for words, other in _places(loose):
         yield words, other, task
         yield f"{words} and the sign reversed", other, reversed_sensor
     if largest.n_masses < MOST:
-        yield "with one mass more", replace(largest, n_masses=largest.n_masses + 1, lag=True, dead_time=True), task
+        yield (
+            "with one mass more",
+            replace(largest, n_masses=largest.n_masses + 1, lag=True, dead_time=True),
+            task,
+        )
 
 
 def _places(chain: Chain) -> Iterator[tuple[str, Chain]]:
-    """Force at one end and the sensor at another mass, or both at one end; ports as they are already are left out."""
+    """Force at one end and the sensor at another mass, or both at one end; ports as they are
+    already are left out.
+    """
     n = max(chain.n_masses, 2)
     for place in range(1, n + 1):
         try:
-            other = replace(chain, n_masses=n, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=place)
+            other = replace(
+                chain, n_masses=n, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=place
+            )
         except ConstraintViolation:
             continue
         if other.indices[1:] != chain.indices[1:]:

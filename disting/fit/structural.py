@@ -1,10 +1,13 @@
-"""Structural identifiability of fitted candidates: what no data can determine, whatever the excitation and the noise.
+"""Structural identifiability of fitted candidates: what no data can determine, whatever the
+excitation and the noise.
 
-Where a candidate has more free parameters than the Jacobian of its transfer function's coefficients by these has rank, its
-sensitivities are dependent for all parameter values: condition and collinearity index are infinite, and what a computer finds
-is rounding. Such a candidate is described by the combinations that data do determine, not by a number. Rank and combinations
-are those of `disting.identifiability`, at random points modulo random primes; how many parameter vectors fit is not asked
-here, which costs more than the fit."""
+Where a candidate has more free parameters than the Jacobian of its transfer function's
+coefficients by these has rank, its sensitivities are dependent for all parameter values: condition
+and collinearity index are infinite, and what a computer finds is rounding. Such a candidate is
+described by the combinations that data do determine, not by a number. Rank and combinations are
+those of `disting.identifiability`, at random points modulo random primes; how many parameter
+vectors fit is not asked here, which costs more than the fit.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -22,7 +25,9 @@ MOST_TERMS = 3  # of a combination that is written out
 
 
 def with_structure(judged: Mapping[Chain, Practical], settings: Settings) -> dict[Chain, Practical]:
-    """The criteria of each chain; where data cannot determine it, `unidentifiable` says so and indices are infinite."""
+    """The criteria of each chain; where data cannot determine it, `unidentifiable` says so and
+    indices are infinite.
+    """
     return {chain: _told(chain, found, settings) for chain, found in judged.items()}
 
 
@@ -56,4 +61,7 @@ def in_words(determined: Sequence[Formula]) -> str:
     short = [formula.text for formula in determined if len(formula.terms) <= MOST_TERMS]
     more = len(determined) - len(short)
     counted = [f"{more} {'longer ' * bool(short)}combination{'s' * (more > 1)}"] * bool(more)
-    return f"not identifiable: no data determine more than {' and '.join([', '.join(short)] * bool(short) + counted)}"
+    return (
+        "not identifiable: no data determine more than"
+        f" {' and '.join([', '.join(short)] * bool(short) + counted)}"
+    )

@@ -1,7 +1,9 @@
-"""Particle swarm optimisation as in section 3.1 of the paper, for comparison: 200 particles a parameter.
+"""Particle swarm optimisation as in section 3.1 of the paper, for comparison: 200 particles a
+parameter.
 
-The swarm moves in logarithms of the parameters, over a box around natural sizes; it stops where the best cost has not improved
-by 1e-6 for 20 generations, or after 200 generations a parameter. Needs pymoo: pip install "disting[swarm]".
+The swarm moves in logarithms of the parameters, over a box around natural sizes; it stops where
+the best cost has not improved by 1e-6 for 20 generations, or after 200 generations a parameter.
+Needs pymoo: pip install "disting[swarm]".
 """
 
 from collections.abc import Mapping
@@ -26,18 +28,24 @@ DECADES = 3.0  # of the box, to either side of natural sizes
 
 
 def search_box(chain: Chain, task: Task) -> tuple[Real, Real]:
-    """Lower and upper logarithms, shape (n_p,): the user's bounds, or decades around natural sizes."""
+    """Lower and upper logarithms, shape (n_p,): the user's bounds, or decades around natural
+    sizes.
+    """
     sizes = natural(chain, scale(task.cost.measured))
     box = task.box(chain.parameters)
     middle = np.log([sizes[name] for name in chain.parameters])
     with np.errstate(divide="ignore"):
         low, high = np.log(box.low), np.log(box.high)
     wide = DECADES * log(10)
-    return np.where(np.isfinite(low), low, middle - wide), np.where(np.isfinite(high), high, middle + wide)
+    return np.where(np.isfinite(low), low, middle - wide), np.where(
+        np.isfinite(high), high, middle + wide
+    )
 
 
 def by_swarm(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
-    """Best parameters that a particle swarm finds; `costs` are those of the last generation, other fits in `known` unused."""
+    """Best parameters that a particle swarm finds; `costs` are those of the last generation,
+    other fits in `known` unused.
+    """
     try:
         from pymoo.algorithms.soo.nonconvex.pso import PSO
         from pymoo.core.problem import Problem
@@ -54,13 +62,20 @@ def by_swarm(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
 
         def _evaluate(self, x: Real, out: dict[str, Any], *_: object, **__: object) -> None:
             out["F"] = np.concatenate(
-                [task.cost.total(plant.response(np.exp(part))) for part in np.array_split(x, len(x) // BATCH)]
+                [
+                    task.cost.total(plant.response(np.exp(part)))
+                    for part in np.array_split(x, len(x) // BATCH)
+                ]
             )
 
-    stalled = RobustTermination(SingleObjectiveSpaceTermination(tol=GAIN, only_feas=False), period=STALLED)
+    stalled = RobustTermination(
+        SingleObjectiveSpaceTermination(tol=GAIN, only_feas=False), period=STALLED
+    )
     algorithm = PSO(pop_size=PARTICLES * n_p)
     problem = Fit(n_var=n_p, n_obj=1, xl=low, xu=high)
-    algorithm.setup(problem, termination=MaximumGenerationTermination(GENERATIONS * n_p), seed=_seed(task))
+    algorithm.setup(
+        problem, termination=MaximumGenerationTermination(GENERATIONS * n_p), seed=_seed(task)
+    )
     while algorithm.has_next():
         algorithm.next()
         stalled.update(algorithm)
@@ -69,7 +84,10 @@ def by_swarm(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     best = np.exp(np.asarray(algorithm.opt[0].X, dtype=float))
     costs = sorted(float(c) for c in algorithm.pop.get("F")[:, 0])
     return Estimate(
-        chain, dict(zip(chain.parameters, map(float, best), strict=True)), float(algorithm.opt[0].F[0]), tuple(costs)
+        chain,
+        dict(zip(chain.parameters, map(float, best), strict=True)),
+        float(algorithm.opt[0].F[0]),
+        tuple(costs),
     )
 
 

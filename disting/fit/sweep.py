@@ -1,4 +1,6 @@
-"""What each criterion alone does at every threshold (Figs 5 to 8), and profiles of single parameters."""
+"""What each criterion alone does at every threshold (Figs 5 to 8), and profiles of single
+parameters.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,7 +21,9 @@ POINTS = 15
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """One criterion alone: at each threshold N_p of the best candidate (0: none fulfils it) and how many fulfil it."""
+    """One criterion alone: at each threshold N_p of the best candidate (0: none fulfils it) and
+    how many fulfil it.
+    """
 
     criterion: str
     thresholds: Real
@@ -42,7 +46,9 @@ def sweep(candidates: Sequence[Candidate], criterion: str) -> Sweep:
 
 @dataclass(frozen=True, eq=False)
 class Profile:
-    """Smallest cost J over all other parameters at each value of one; flat: the data do not determine it."""
+    """Smallest cost J over all other parameters at each value of one; flat: the data do not
+    determine it.
+    """
 
     name: str
     values: Real
@@ -50,9 +56,14 @@ class Profile:
 
 
 def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> Profile:
-    """Profile of a fitted parameter, `span` of its logarithm to either side; 0: three standard errors, at most a factor 10."""
+    """Profile of a fitted parameter, `span` of its logarithm to either side; 0: three standard
+    errors, at most a factor 10.
+    """
     if name not in candidate.practical.names:
-        raise InputError(f"{name} is no fitted parameter of this candidate; they are {', '.join(candidate.practical.names)}")
+        raise InputError(
+            f"{name} is no fitted parameter of this candidate; they are"
+            f" {', '.join(candidate.practical.names)}"
+        )
     names = candidate.chain.parameters
     best = np.array([candidate.estimate.parameters[n] for n in names])
     width = span or min(PROFILE * candidate.practical.relative_errors[name], float(np.log(10)))

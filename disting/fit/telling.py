@@ -1,4 +1,5 @@
-"""What an engineer has to know of a selection, in sentences: the truth first, what is suspicious, the commands that lead on.
+"""What an engineer has to know of a selection, in sentences: the truth first, what is suspicious,
+the commands that lead on.
 
 Structures are named as the commands read them, such as 2:1+b2+delay.
 """
@@ -21,12 +22,19 @@ HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
 
 
 def first_lines(found: Selection) -> tuple[str, ...]:
-    """At most five lines: does anything explain the data, what is selected, what else may it be, what is suspicious."""
-    return (_verdict(found), *(_explained(found) if found.explanation.explains else _unexplained(found)))[:5]
+    """At most five lines: does anything explain the data, what is selected, what else may it
+    be, what is suspicious.
+    """
+    return (
+        _verdict(found),
+        *(_explained(found) if found.explanation.explains else _unexplained(found)),
+    )[:5]
 
 
 def suspicions(found: Selection) -> tuple[str, ...]:
-    """Sentences on what looks wrong, each with what it means; the gravest first, empty where nothing does."""
+    """Sentences on what looks wrong, each with what it means; the gravest first, empty where
+    nothing does.
+    """
     said = [
         *([] if found.explanation.explains else [_verdict(found), *_unexplained(found)]),
         *_better(found),
@@ -40,11 +48,16 @@ def suspicions(found: Selection) -> tuple[str, ...]:
 
 
 def renamed(found: Selection) -> str:
-    """What the parameters of the described candidate are called in the structure that it is named after; "" for the same."""
+    """What the parameters of the described candidate are called in the structure that it is
+    named after; "" for the same.
+    """
     form = as_listed(found.described.chain)
     other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)
     exchanged = "" if other else "force and sensor are exchanged there"
-    said = f"{reference(found.described.chain)} is the structure of the catalogue that behaves the same"
+    said = (
+        f"{reference(found.described.chain)} is the structure of the catalogue that behaves the"
+        " same"
+    )
     return "" if form.chain == found.described.chain else f"{said}: {other or exchanged}"
 
 
@@ -55,25 +68,36 @@ def commands(found: Selection) -> tuple[str, ...]:
     damped = " --damped" if first.chain.damped else ""
     values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in first.estimate.parameters.items())
     steps = [f"disting compare {given} {rest[0]}{damped}"] if rest else []
-    return (*steps, f'disting equivalents {given}{damped} --to "{first.chain.n_masses}+b*" --set {values}')
+    return (
+        *steps,
+        f'disting equivalents {given}{damped} --to "{first.chain.n_masses}+b*" --set {values}',
+    )
 
 
 def _verdict(found: Selection) -> str:
     """The first line."""
     said, best = found.explanation, reference(found.described.chain)
-    scattered = f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
+    scattered = (
+        f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
+    )
     size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone; {scattered}"
     if said.explains:
         return f"{best} explains this data ({size})"
     if said.noisy:
-        return f"none of the candidates explains this data: it is mostly noise ({scattered}); the best one is {best}"
+        return (
+            f"none of the candidates explains this data: it is mostly noise ({scattered}); the best"
+            f" one is {best}"
+        )
     return f"none of the candidates explains this data; the best one is {best} ({size})"
 
 
 def _explained(found: Selection) -> Iterator[str]:
     yield from _better(found)
     if found.selected is None:
-        yield "none is admissible: in each, some parameters cannot be determined from this data; all values are printed"
+        yield (
+            "none is admissible: in each, some parameters cannot be determined from this data; all"
+            " values are printed"
+        )
     others = [m.name for m in found.members[1:]]
     if others:
         yield f"not excluded by this data either: {_listed(others)}"
@@ -81,7 +105,10 @@ def _explained(found: Selection) -> Iterator[str]:
         yield "this data excludes every other admissible candidate"
     for m in [m for m in found.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
-        yield f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force and sensor can tell"
+        yield (
+            f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force"
+            " and sensor can tell"
+        )
     yield from (_disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements)
     yield from (*_changed(found), *_hanging(found), *_weak(found))
 
@@ -93,8 +120,9 @@ def _unexplained(found: Selection) -> Iterator[str]:
         yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
     elif not found.explanation.noisy:
         yield (
-            "no other sensor quantity or sign, no other place of force and sensor and no further mass makes it fit much "
-            "better: is the loop closed, is the machine a chain, are other forces at work?"
+            "no other sensor quantity or sign, no other place of force and sensor and no further"
+            " mass makes it fit much better: is the loop closed, is the machine a chain, are other"
+            " forces at work?"
         )
     yield from _better(found)
 
@@ -106,17 +134,20 @@ def _better(found: Selection) -> Iterator[str]:
     best, more = found.better[0], len(found.better) - 1
     others = f" ({more} more)" if more else ""
     yield (
-        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for {found.selected.j_test:.3g}, "
-        f"but is excluded: {'; '.join(best.reasons)}"
+        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for"
+        f" {found.selected.j_test:.3g}, but is excluded: {'; '.join(best.reasons)}"
     )
 
 
 def _disagreeing(both: tuple[Disagreement, ...]) -> str:
     """Parameters that training and test give differently."""
-    values = ", ".join(f"{d.name} ({d.train:.3g} and {d.test:.3g}, {d.distance:.2g} standard errors apart)" for d in both)
+    values = ", ".join(
+        f"{d.name} ({d.train:.3g} and {d.test:.3g}, {d.distance:.2g} standard errors apart)"
+        for d in both
+    )
     return (
-        f"training and test data disagree on {values}: model error, as friction that changes with the amplitude makes; "
-        "trust neither interval"
+        f"training and test data disagree on {values}: model error, as friction that changes with"
+        " the amplitude makes; trust neither interval"
     )
 
 
@@ -127,8 +158,9 @@ def _changed(found: Selection) -> Iterator[str]:
     own = max(scatter(data).typical for data in (train, test))
     if apart is not None and apart > CHANGED * own:
         yield (
-            f"training and test data differ by {100 * apart:.2g} % a line, either scatters by {100 * own:.2g} %: the machine "
-            "changes between them, as friction does with the amplitude"
+            f"training and test data differ by {100 * apart:.2g} % a line, either scatters by"
+            f" {100 * own:.2g} %: the machine changes between them, as friction does with the"
+            " amplitude"
         )
 
 
@@ -140,8 +172,8 @@ def _hanging(found: Selection) -> Iterator[str]:
     size = correlation(cost.residual(there.response(np.array(values))))
     if size > HANGING and found.explanation.explains:
         yield (
-            f"residuals of neighbouring lines are correlated by {size:.2f} on the training data: the model misses something "
-            "small; the standard errors allow for it"
+            f"residuals of neighbouring lines are correlated by {size:.2f} on the training data:"
+            " the model misses something small; the standard errors allow for it"
         )
 
 
@@ -151,7 +183,10 @@ def _weak(found: Selection) -> Iterator[str]:
         return
     loose = {n: e for n, e in found.selected.practical.relative_errors.items() if not e <= KNOWN}
     if loose:
-        values = ", ".join(f"{n} to ± {100 * e:.0f} %" if isfinite(e) else f"{n} not at all" for n, e in loose.items())
+        values = ", ".join(
+            f"{n} to ± {100 * e:.0f} %" if isfinite(e) else f"{n} not at all"
+            for n, e in loose.items()
+        )
         yield f"known badly: {values}"
 
 

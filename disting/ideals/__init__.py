@@ -1,7 +1,8 @@
-"""Engine B of the exact decision: the fibre of one model over a generic point of another as a polynomial ideal.
+"""Engine B of the exact decision: the fibre of one model over a generic point of another as a
+polynomial ideal.
 
-For any two models that are given as coefficient maps, not only chains; chains with a gap are taken apart first (`by_parts`).
-Independent of `disting.synthesis`.
+For any two models that are given as coefficient maps, not only chains; chains with a gap are taken
+apart first (`by_parts`). Independent of `disting.synthesis`.
 """
 
 from disting.ideals.by_parts import PartsDecision as PartsDecision

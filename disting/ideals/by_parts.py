@@ -1,14 +1,18 @@
 """Whether generic models of one chain are models of another one that has a gap, part by part.
 
-The theorem of `parts` leaves three splits at most. In each of them both parts of the second chain have to be given receptances:
+The theorem of `parts` leaves three splits at most. In each of them both parts of the second chain
+have to be given receptances:
 
-* generic models of the first have an equivalent with finite elements other than zero only if in some split both parts do;
-* if in some split both receptances lie in the closures of what the parts can be, the models of the first lie in the closure
-  of those of the second, because a sum of fractions is a continuous function of its terms.
+* generic models of the first have an equivalent with finite elements other than zero only if in
+  some split both parts do;
+* if in some split both receptances lie in the closures of what the parts can be, the models of the
+  first lie in the closure of those of the second, because a sum of fractions is a continuous
+  function of its terms.
 
-A part is refuted by a Markov parameter, h_i in sum h_i s^-i, that is a product of unknowns there (so not zero) and zero in the
-receptance to be met, or the reverse: an identity of polynomials, without any chance. What is left goes to `decide`, which has
-to do with much smaller maps than those of whole chains.
+A part is refuted by a Markov parameter, h_i in sum h_i s^-i, that is a product of unknowns there
+(so not zero) and zero in the receptance to be met, or the reverse: an identity of polynomials,
+without any chance. What is left goes to `decide`, which has to do with much smaller maps than
+those of whole chains.
 """
 
 from dataclasses import dataclass, replace
@@ -20,20 +24,33 @@ from disting.evidence.ideals import ByParts, PartStep, Shown, Solved, Vanishing
 from disting.ideals.decide import Limits, decide
 from disting.ideals.fibre_ideal import generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
-from disting.ideals.parts import Parts, Split, gap, has_relation, is_plain, parts, power, relative_degree, splits
+from disting.ideals.parts import (
+    Parts,
+    Split,
+    gap,
+    has_relation,
+    is_plain,
+    parts,
+    power,
+    relative_degree,
+    splits,
+)
 from disting.ideals.system import CoefficientMap
 from disting.ideals.verify import confirms
 from disting.model.structure import Structure
 from disting.question import Membership
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
-SPARE_BITS = 3  # for up to eight statements: at most two parts in three splits, and the ranks that they rest on
+# for up to eight statements: at most two parts in three splits, and the ranks that they rest on
+SPARE_BITS = 3
 RANK_POINTS = 3  # one misses a rank with less than 2^-50, so that three are surer than the ideals
 
 
 @dataclass(frozen=True, slots=True)
 class PartsDecision:
-    """As `Decision`; a refutation with `safety` 0 is proven. EXCLUDED speaks of finite elements other than zero."""
+    """As `Decision`; a refutation with `safety` 0 is proven. EXCLUDED speaks of finite elements
+    other than zero.
+    """
 
     membership: Membership
     safety: int = 0
@@ -45,7 +62,9 @@ class PartsDecision:
 
 
 def refuted_by_parts(given: Structure, other: Structure, seed: str) -> ByParts | None:
-    """A proof, without any chance, that generic models of `given` have no equivalent in `other`; None if there is none."""
+    """A proof, without any chance, that generic models of `given` have no equivalent in
+    `other`; None if there is none.
+    """
     if not_covered(given, other, f"{seed}:poles"):
         return None
     steps = [vanishing_step(split, parts(other)) for split in splits(given, gap(other))]
@@ -53,17 +72,25 @@ def refuted_by_parts(given: Structure, other: Structure, seed: str) -> ByParts |
     return ByParts(True, found) if len(found) == len(steps) else None
 
 
-def included_by_parts(given: Structure, other: Structure, seed: str, limits: Limits) -> PartsDecision:
-    """Whether, in some split, both parts have the receptances wanted in their closures; elements may be zero. Else UNKNOWN."""
+def included_by_parts(
+    given: Structure, other: Structure, seed: str, limits: Limits
+) -> PartsDecision:
+    """Whether, in some split, both parts have the receptances wanted in their closures;
+    elements may be zero. Else UNKNOWN.
+    """
     wanted = replace(limits, safety=limits.safety + SPARE_BITS)
     for split in splits(given, gap(other)) if _are_alike(given, other) else ():
         steps = _members(split, parts(other), seed, wanted)
         if steps is not None:
             return PartsDecision(Membership.MEMBER, limits.safety, ByParts(True, steps))
-    return PartsDecision(Membership.UNKNOWN, reason="no split was found in which both parts can be met")
+    return PartsDecision(
+        Membership.UNKNOWN, reason="no split was found in which both parts can be met"
+    )
 
 
-def _members(split: Split, searched: Parts, seed: str, limits: Limits) -> tuple[PartStep, ...] | None:
+def _members(
+    split: Split, searched: Parts, seed: str, limits: Limits
+) -> tuple[PartStep, ...] | None:
     steps = list[PartStep]()
     for name, wanted, there in _by_size(split, searched):
         here, most = _ranks(wanted, there, f"rank:{seed}")
@@ -71,14 +98,20 @@ def _members(split: Split, searched: Parts, seed: str, limits: Limits) -> tuple[
         if here > most or short < 0 or (here == most and short):
             return None
         found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
-        if found.membership is not Membership.MEMBER or found.evidence is None or found.safety < limits.safety:
+        if (
+            found.membership is not Membership.MEMBER
+            or found.evidence is None
+            or found.safety < limits.safety
+        ):
             return None
         steps.append(PartStep(split.name, name, replace(found.evidence, is_normalised=True)))
     return tuple(steps)
 
 
 def decide_by_parts(given: Structure, other: Structure, seed: str, limits: Limits) -> PartsDecision:
-    """Whether generic models of `given` are models of `other`, a chain with a gap; both without dead time."""
+    """Whether generic models of `given` are models of `other`, a chain with a gap; both without
+    dead time.
+    """
     why = not_covered(given, other, f"{seed}:poles")
     if why:
         return PartsDecision(Membership.UNKNOWN, reason=why)
@@ -91,36 +124,58 @@ def decide_by_parts(given: Structure, other: Structure, seed: str, limits: Limit
         refuted += found.evidence.steps
         least = min(least, found.safety or least)
     evidence = ByParts(True, tuple(refuted))
-    return PartsDecision(Membership.EXCLUDED, 0 if evidence.is_proven else least - SPARE_BITS, evidence)
+    return PartsDecision(
+        Membership.EXCLUDED, 0 if evidence.is_proven else least - SPARE_BITS, evidence
+    )
 
 
 def confirms_by_parts(evidence: ByParts, left: Structure, right: Structure) -> bool:
-    """Whether the evidence holds: poles and splits are found again, each step is checked without the search that found it."""
+    """Whether the evidence holds: poles and splits are found again, each step is checked
+    without the search that found it.
+    """
     given, other = (left, right) if evidence.left_given else (right, left)
-    if not _are_alike(given, other) or (not evidence.is_member and not_covered(given, other, "verify:poles")):
+    if not _are_alike(given, other) or (
+        not evidence.is_member and not_covered(given, other, "verify:poles")
+    ):
         return False
-    searched, possible = dict(parts(other).named), {s.name: dict(s.parts.named) for s in splits(given, gap(other))}
+    searched, possible = (
+        dict(parts(other).named),
+        {s.name: dict(s.parts.named) for s in splits(given, gap(other))},
+    )
     if any(s.split not in possible or s.part not in possible[s.split] for s in evidence.steps):
         return False
     told = {s.split for s in evidence.steps}
     if evidence.is_member:
         complete = len(told) == 1 and {s.part for s in evidence.steps} == set(searched)
     else:
-        complete = told == set(possible) and not any(isinstance(s.shown, Solved) for s in evidence.steps)
-    return complete and all(_confirms(s.shown, possible[s.split][s.part], searched[s.part]) for s in evidence.steps)
+        complete = told == set(possible) and not any(
+            isinstance(s.shown, Solved) for s in evidence.steps
+        )
+    return complete and all(
+        _confirms(s.shown, possible[s.split][s.part], searched[s.part]) for s in evidence.steps
+    )
 
 
 def not_covered(given: Structure, other: Structure, label: str) -> str:
     """Why the theorem does not apply; empty if it does."""
     if not _are_alike(given, other):
-        return "chains of one size and sensor are taken apart, without ground dampers and lag, and the searched one has a gap"
+        return (
+            "chains of one size and sensor are taken apart, without ground dampers and lag, and the"
+            " searched one has a gap"
+        )
     if not has_relation(parts(other), power(other)):
         return "force and sensor at one place in both parts leave all sets of poles possible"
-    return "" if poles_are_inseparable(given, label) else "the poles of a part were not proven to be inseparable"
+    return (
+        ""
+        if poles_are_inseparable(given, label)
+        else "the poles of a part were not proven to be inseparable"
+    )
 
 
 def _are_alike(given: Structure, other: Structure) -> bool:
-    """Whether both are plain, of one size, sensor and damping, and the one that is searched has a gap."""
+    """Whether both are plain, of one size, sensor and damping, and the one that is searched has
+    a gap.
+    """
     kinds = [(s.n_masses, s.sensor_order, power(s)) for s in (given, other)]
     return is_plain(given) and is_plain(other) and kinds[0] == kinds[1] and gap(other) > 0
 
@@ -133,7 +188,9 @@ def _ranks(wanted: CoefficientMap, there: CoefficientMap, label: str) -> tuple[i
 
 
 def _split(split: Split, searched: Parts, seed: str, limits: Limits) -> PartsDecision:
-    """Both parts in one split: an exact refutation of either, then ideals, the fewest unknowns first."""
+    """Both parts in one split: an exact refutation of either, then ideals, the fewest unknowns
+    first.
+    """
     exact = vanishing_step(split, searched)
     if exact is not None:
         return PartsDecision(Membership.EXCLUDED, 0, ByParts(True, (exact,)))
@@ -141,7 +198,9 @@ def _split(split: Split, searched: Parts, seed: str, limits: Limits) -> PartsDec
     for name, wanted, there in _by_size(split, searched):
         here, most = _ranks(wanted, there, f"rank:{seed}")
         if here > most:
-            return PartsDecision(Membership.UNKNOWN, reason=f"the ranks of the {name} part are {here} and {most}")
+            return PartsDecision(
+                Membership.UNKNOWN, reason=f"the ranks of the {name} part are {here} and {most}"
+            )
         found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
         if found.evidence is None or found.safety < limits.safety:
             return PartsDecision(Membership.UNKNOWN, reason=f"the {name} part: {found.reason}")
@@ -155,7 +214,10 @@ def _split(split: Split, searched: Parts, seed: str, limits: Limits) -> PartsDec
 
 def _pairs(split: Split, searched: Parts) -> list[tuple[str, CoefficientMap, CoefficientMap]]:
     """Name of a part, the receptance wanted and the part that is there."""
-    return [(name, wanted, there) for (name, wanted), (_, there) in zip(split.parts.named, searched.named, strict=True)]
+    return [
+        (name, wanted, there)
+        for (name, wanted), (_, there) in zip(split.parts.named, searched.named, strict=True)
+    ]
 
 
 def _by_size(split: Split, searched: Parts) -> list[tuple[str, CoefficientMap, CoefficientMap]]:
@@ -164,13 +226,23 @@ def _by_size(split: Split, searched: Parts) -> list[tuple[str, CoefficientMap, C
 
 
 def vanishing_step(split: Split, searched: Parts) -> PartStep | None:
-    """A part that a Markov parameter refutes in this split, without any chance; None if there is none."""
+    """A part that a Markov parameter refutes in this split, without any chance; None if there
+    is none.
+    """
     found = ((name, vanishing(wanted, there)) for name, wanted, there in _pairs(split, searched))
-    return next((PartStep(split.name, name, Vanishing(index)) for name, index in found if index is not None), None)
+    return next(
+        (
+            PartStep(split.name, name, Vanishing(index))
+            for name, index in found
+            if index is not None
+        ),
+        None,
+    )
 
 
 def vanishing(wanted: CoefficientMap, part: CoefficientMap) -> int | None:
-    """Index of a Markov parameter that refutes the part, among its first two; None if there is none.
+    """Index of a Markov parameter that refutes the part, among its first two; None if there is
+    none.
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(2, 0, 0, 1, 0, port, damped=True) for port in (2, 1))
@@ -193,7 +265,10 @@ def _markov(model: CoefficientMap, index: int) -> fmpz_mpoly:
     scaled = [zero]
     for i in range(1, index + 1):
         top = model.numerator[n - i] if 0 <= n - i < len(model.numerator) else zero
-        tail = (model.denominator[n - i + j] * lead ** (i - 1 - j) * scaled[j] for j in range(max(1, i - n), i))
+        tail = (
+            model.denominator[n - i + j] * lead ** (i - 1 - j) * scaled[j]
+            for j in range(max(1, i - n), i)
+        )
         scaled.append(top * lead ** (i - 1) - sum(tail, zero))
     return scaled[index]
 
@@ -211,5 +286,11 @@ def _confirms(shown: Shown, wanted: CoefficientMap, part: CoefficientMap) -> boo
         return False
     if comb(len(part.parameters) + 1 + shown.degree, shown.degree) <= PLAIN_MONOMIALS:
         return confirms(shown, wanted, part)
-    again = decide(wanted, part, equal_rank=equal, seed="verify", limits=Limits(seconds=600, entries=10**9, safety=1))
+    again = decide(
+        wanted,
+        part,
+        equal_rank=equal,
+        seed="verify",
+        limits=Limits(seconds=600, entries=10**9, safety=1),
+    )
     return again.membership is Membership.EXCLUDED

@@ -1,12 +1,15 @@
-"""Gröbner bases modulo a prime by linear algebra: the F4 algorithm, in steps that can be interleaved and given up.
+"""Gröbner bases modulo a prime by linear algebra: the F4 algorithm, in steps that can be
+interleaved and given up.
 
-Pairs of basis elements of the smallest degree are reduced all at once, as rows of one matrix together with the multiples that
-their monomials call for. Those multiples are many, sparse and triangular: they are used as they are, row by row, and FLINT
-brings the few rows that remain into echelon form. New leading monomials that are of lower degree than their pairs
-("mutants") are handled first in the next step, because the smallest degree comes first. Generators wait until their own degree
-is reached, so a system that is contradictory in low degrees never looks at its large equations. Pairs are thinned out by the
-criteria of Gebauer and Möller. (J.-C. Faugère, A new efficient algorithm for computing Gröbner bases (F4), J. Pure Appl.
-Algebra 139, 1999; R. Gebauer, H. M. Möller, On an installation of Buchberger's algorithm, J. Symb. Comp. 6, 1988.)
+Pairs of basis elements of the smallest degree are reduced all at once, as rows of one matrix
+together with the multiples that their monomials call for. Those multiples are many, sparse and
+triangular: they are used as they are, row by row, and FLINT brings the few rows that remain into
+echelon form. New leading monomials that are of lower degree than their pairs ("mutants") are
+handled first in the next step, because the smallest degree comes first. Generators wait until
+their own degree is reached, so a system that is contradictory in low degrees never looks at its
+large equations. Pairs are thinned out by the criteria of Gebauer and Möller. (J.-C. Faugère, A new
+efficient algorithm for computing Gröbner bases (F4), J. Pure Appl. Algebra 139, 1999; R. Gebauer,
+H. M. Möller, On an installation of Buchberger's algorithm, J. Symb. Comp. 6, 1988.)
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -55,16 +58,20 @@ class _Work:
     modulus: int
     waiting: list[Row]
     rows: list[Row] = field(default_factory=list)
-    leads: list[tuple[int, ...]] = field(default_factory=list)  # exponents of their leading monomials
-    active: list[int] = field(default_factory=list)  # elements whose leading monomial no other one divides
+    # exponents of their leading monomials
+    leads: list[tuple[int, ...]] = field(default_factory=list)
+    # elements whose leading monomial no other one divides
+    active: list[int] = field(default_factory=list)
     pairs: list[tuple[int, int, int]] = field(default_factory=list)  # lcm, two elements
     known: dict[int, int] = field(default_factory=dict)  # monomial -> element that reduces it
-    missed: dict[int, int] = field(default_factory=dict)  # monomial -> number of elements that were tried in vain
+    # monomial -> number of elements that were tried in vain
+    missed: dict[int, int] = field(default_factory=dict)
     degree: int = 0
 
 
 def basis_steps(generators: Iterable[Sparse], size: int, modulus: int) -> Iterator[Basis | int]:
-    """Yield, before each step, the number of entries of its matrix, and the minimal basis at the end; raises TooLarge.
+    """Yield, before each step, the number of entries of its matrix, and the minimal basis at the
+    end; raises TooLarge.
 
     >>> *_, basis = basis_steps([{(2,): 1, (0,): -1}, {(1,): 1, (0,): -2}], 1, 101)
     >>> basis.is_one  # x^2 = 1 and x = 2
@@ -73,7 +80,13 @@ def basis_steps(generators: Iterable[Sparse], size: int, modulus: int) -> Iterat
     order, generators = Order(size), [g for g in generators if g]
     _limit(max((sum(e) for g in generators for e in g), default=0))
     rows = [_row({order.encode(e): c for e, c in g.items()}, modulus) for g in generators]
-    work = _Work(order, modulus, sorted((r for r in rows if r.codes), key=lambda r: (order.degree(r.codes[0]), len(r.codes))))
+    work = _Work(
+        order,
+        modulus,
+        sorted(
+            (r for r in rows if r.codes), key=lambda r: (order.degree(r.codes[0]), len(r.codes))
+        ),
+    )
     while work.pairs or work.waiting:
         pivots, others, columns = _matrix(work, *_selected(work))
         yield len(others) * len(columns)
@@ -99,9 +112,13 @@ def _row(polynomial: Mapping[int, int], modulus: int) -> Row:
 
 
 def _selected(work: _Work) -> tuple[list[Row], set[tuple[int, int]]]:
-    """Generators and multiples (factor, element) of the smallest degree, taken out of what waits."""
+    """Generators and multiples (factor, element) of the smallest degree, taken out of what
+    waits.
+    """
     degree = work.order.degree
-    low = min([degree(lcm) for lcm, _, _ in work.pairs] + [degree(r.codes[0]) for r in work.waiting[:1]])
+    low = min(
+        [degree(lcm) for lcm, _, _ in work.pairs] + [degree(r.codes[0]) for r in work.waiting[:1]]
+    )
     work.degree = max(work.degree, low)
     _limit(work.degree)
     chosen = sorted(p for p in work.pairs if degree(p[0]) == low)[:MAX_PAIRS]
@@ -112,8 +129,12 @@ def _selected(work: _Work) -> tuple[list[Row], set[tuple[int, int]]]:
     return fresh, {(lcm - work.rows[i].codes[0], i) for lcm, *two in chosen for i in two}
 
 
-def _matrix(work: _Work, fresh: list[Row], multiples: set[tuple[int, int]]) -> tuple[Pivots, list[Multiple], set[int]]:
-    """One multiple for each leading monomial that is known, the shortest; all other rows; all monomials."""
+def _matrix(
+    work: _Work, fresh: list[Row], multiples: set[tuple[int, int]]
+) -> tuple[Pivots, list[Multiple], set[int]]:
+    """One multiple for each leading monomial that is known, the shortest; all other rows; all
+    monomials.
+    """
     rows = [_multiple(work, f, i) for f, i in multiples]
     rows.sort(key=lambda row: (row[0][0], len(row[0]), row))
     pivots: Pivots = {}
@@ -150,21 +171,32 @@ def _reducer(work: _Work, code: int) -> int | None:
 
 
 def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus: int) -> list[Row]:
-    """Rows with new leading monomials: the other rows, freed of the known leading monomials, in echelon form."""
+    """Rows with new leading monomials: the other rows, freed of the known leading monomials, in
+    echelon form.
+    """
     at = {m: j for j, m in enumerate(columns)}
     placed = {at[m]: ([at[c] for c in codes], numbers) for m, (codes, numbers) in pivots.items()}
     free = [j for j in range(len(columns)) if j not in placed]
-    reduced = [_freed([at[c] for c in codes], numbers, placed, len(columns), modulus) for codes, numbers in others]
+    reduced = [
+        _freed([at[c] for c in codes], numbers, placed, len(columns), modulus)
+        for codes, numbers in others
+    ]
     kept = [row for row in reduced if any(row)]
     if not kept:
         return []
-    matrix, rank = modular_matrix(len(kept), len(free), [row[j] for row in kept for j in free], modulus).rref()
+    matrix, rank = modular_matrix(
+        len(kept), len(free), [row[j] for row in kept for j in free], modulus
+    ).rref()
     entries, monomials, width = matrix.entries(), [columns[j] for j in free], len(free)
     return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
 
 
 def _freed(
-    places: list[int], numbers: tuple[int, ...], placed: dict[int, tuple[list[int], tuple[int, ...]]], width: int, modulus: int
+    places: list[int],
+    numbers: tuple[int, ...],
+    placed: dict[int, tuple[list[int], tuple[int, ...]]],
+    width: int,
+    modulus: int,
 ) -> list[int]:
     """A row minus multiples of the pivot rows, which are sparse: zero in all their columns."""
     row = [0] * width
@@ -186,16 +218,24 @@ def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> Row:
 
 
 def _insert(work: _Work, new: Row) -> None:
-    """Add an element, its pairs that the criteria leave, and drop the old pairs that it makes superfluous."""
+    """Add an element, its pairs that the criteria leave, and drop the old pairs that it makes
+    superfluous.
+    """
     order, lead, h = work.order, new.codes[0], len(work.rows)
     guard, mask = order.guard, order.mask
     exponents, low = order.decode(lead), lead & mask
     lcms = {i: _lcm(order, exponents, work.leads[i]) for i in work.active}
     # only where the new leading monomial divides the least common multiple
-    met = {p for p in work.pairs if (((p[0] & mask) | guard) - low) & guard == guard and _superfluous(work, p, exponents)}
+    met = {
+        p
+        for p in work.pairs
+        if (((p[0] & mask) | guard) - low) & guard == guard and _superfluous(work, p, exponents)
+    }
     work.pairs = [p for p in work.pairs if p not in met] if met else work.pairs
     work.pairs += [(lcm, i, h) for lcm, i in _minimal(work, lcms, lead)]
-    work.active = [i for i in work.active if (((work.rows[i].codes[0] & mask) | guard) - low) & guard != guard] + [h]
+    work.active = [
+        i for i in work.active if (((work.rows[i].codes[0] & mask) | guard) - low) & guard != guard
+    ] + [h]
     work.rows.append(new)
     work.leads.append(exponents)
 
@@ -205,13 +245,17 @@ def _lcm(order: Order, a: tuple[int, ...], b: tuple[int, ...]) -> int:
 
 
 def _superfluous(work: _Work, pair: tuple[int, int, int], exponents: tuple[int, ...]) -> bool:
-    """Whether the least common multiples of the new monomial with both of the pair are other ones than the pair's."""
+    """Whether the least common multiples of the new monomial with both of the pair are other
+    ones than the pair's.
+    """
     lcm, i, j = pair
     return all(_lcm(work.order, exponents, work.leads[k]) != lcm for k in (i, j))
 
 
 def _minimal(work: _Work, lcms: Mapping[int, int], lead: int) -> Iterator[tuple[int, int]]:
-    """One pair for each least common multiple that no other divides, and none where a product of leading monomials is met."""
+    """One pair for each least common multiple that no other divides, and none where a product
+    of leading monomials is met.
+    """
     groups: dict[int, list[int]] = {}
     for i, lcm in lcms.items():
         groups.setdefault(lcm, []).append(i)

@@ -1,14 +1,17 @@
 """The fibre of one model over a generic point of another, as polynomial equations modulo a prime.
 
-For y = Phi1(p0), p0 random, the fibre is Phi2(q) = y. Nothing forbids elements that are zero: an empty fibre is empty with them
-too, and a q with elements that are zero still shows that y lies in the image of Phi2. For equal ranks two things are added.
+For y = Phi1(p0), p0 random, the fibre is Phi2(q) = y. Nothing forbids elements that are zero: an
+empty fibre is empty with them too, and a q with elements that are zero still shows that y lies in
+the image of Phi2. For equal ranks two things are added.
 
-* Tangent equations. At a generic point y of V1 = V2, all of it smooth, im dPhi2(q) lies in the tangent space im dPhi1(p0) for
-  every q of the fibre. So W J2(q) = 0 for W, W J1(p0) = 0, J1 and J2 the Jacobian matrices: as many equations as there are
-  independent relations between the coefficients, times the number of parameters. W is taken in echelon form with pivots at the
+* Tangent equations. At a generic point y of V1 = V2, all of it smooth, im dPhi2(q) lies in the
+  tangent space im dPhi1(p0) for every q of the fibre. So W J2(q) = 0 for W, W J1(p0) = 0, J1 and
+  J2 the Jacobian matrices: as many equations as there are independent relations between the
+  coefficients, times the number of parameters. W is taken in echelon form with pivots at the
   coefficients of highest degree, which keeps the others low.
-* A slice. If J2 has rank r, a generic fibre has the dimension n - r, and n - r parameters outside of a column basis of J2 may
-  be fixed at random values: their projection of the generic fibre is dominant.
+* A slice. If J2 has rank r, a generic fibre has the dimension n - r, and n - r parameters outside
+  of a column basis of J2 may be fixed at random values: their projection of the generic fibre is
+  dominant.
 """
 
 from collections.abc import Sequence
@@ -22,12 +25,15 @@ from disting.ideals.system import CoefficientMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
 REMEMBERED = 512  # ranks: a part of a chain is asked for in many pairs
-BITS = 64  # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
+# of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
+BITS = 64
 
 
 @dataclass(frozen=True, slots=True)
 class FibreIdeal:
-    """Equations in `unknowns` modulo a prime; `point` is p0, `fixed` are the other parameters' values by name."""
+    """Equations in `unknowns` modulo a prime; `point` is p0, `fixed` are the other parameters'
+    values by name.
+    """
 
     modulus: int
     point: tuple[int, ...]
@@ -36,8 +42,11 @@ class FibreIdeal:
     generators: tuple[Polynomial, ...]
 
 
-def fibre_ideal(given: CoefficientMap, other: CoefficientMap, label: str, equal_rank: bool, bits: int = BITS) -> FibreIdeal:
-    """The fibre of `other` over a random point of `given`, modulo a random prime, both determined by the label.
+def fibre_ideal(
+    given: CoefficientMap, other: CoefficientMap, label: str, equal_rank: bool, bits: int = BITS
+) -> FibreIdeal:
+    """The fibre of `other` over a random point of `given`, modulo a random prime, both determined
+    by the label.
 
     Both maps have coordinates that can be compared (see `system.matched`).
     """
@@ -46,17 +55,27 @@ def fibre_ideal(given: CoefficientMap, other: CoefficientMap, label: str, equal_
     fixed = _slice(other, there, modulus) if equal_rank else {}
     targets = [evaluated(c, point, modulus) for c in given.coordinates]
     zero = (0,) * len(other.parameters)
-    equations = [dict(c) | {zero: dict(c).get(zero, 0) - y} for c, y in zip(other.coordinates, targets, strict=True)]
+    equations = [
+        dict(c) | {zero: dict(c).get(zero, 0) - y}
+        for c, y in zip(other.coordinates, targets, strict=True)
+    ]
     if equal_rank:
         equations += _tangents(given, other, point, modulus)
     kept = [i for i, name in enumerate(other.parameters) if name not in fixed]
     values = [fixed.get(name, 0) for name in other.parameters]
     reduced = (restricted(e, kept, values, modulus) for e in equations)
-    return FibreIdeal(modulus, point, tuple(other.parameters[i] for i in kept), fixed, tuple(e for e in reduced if e))
+    return FibreIdeal(
+        modulus,
+        point,
+        tuple(other.parameters[i] for i in kept),
+        fixed,
+        tuple(e for e in reduced if e),
+    )
 
 
 def drawn(given: CoefficientMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
-    """The random prime and point that a label stands for; values are drawn by name, so a scale factor changes no other.
+    """The random prime and point that a label stands for; values are drawn by name, so a scale
+    factor changes no other.
 
     Those who choose labels make them depend on the models (`sampling.about`).
     """
@@ -66,7 +85,9 @@ def drawn(given: CoefficientMap, label: str, bits: int = BITS) -> tuple[int, tup
 
 @lru_cache(maxsize=REMEMBERED)
 def generic_rank(model: CoefficientMap, label: str) -> int:
-    """Rank of the Jacobian matrix at a random point: a lower bound of the generic rank, and equal to it but for bad luck."""
+    """Rank of the Jacobian matrix at a random point: a lower bound of the generic rank, and
+    equal to it but for bad luck.
+    """
     modulus, point = drawn(model, about(label, model.content))
     return int(jacobian(model, point, modulus).rank())
 
@@ -82,8 +103,16 @@ def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> int:
     return total % modulus
 
 
-def agree(given: CoefficientMap, point: Sequence[int], other: CoefficientMap, values: Sequence[int], modulus: int) -> bool:
-    """Whether two maps that can be compared have the same coefficients at these parameters modulo a prime."""
+def agree(
+    given: CoefficientMap,
+    point: Sequence[int],
+    other: CoefficientMap,
+    values: Sequence[int],
+    modulus: int,
+) -> bool:
+    """Whether two maps that can be compared have the same coefficients at these parameters
+    modulo a prime.
+    """
     pairs = zip(given.coordinates, other.coordinates, strict=True)
     return all(evaluated(a, point, modulus) == evaluated(b, values, modulus) for a, b in pairs)
 
@@ -100,7 +129,9 @@ def jacobian(model: CoefficientMap, point: Sequence[int], modulus: int) -> nmod_
 
 
 def _gradient(terms: Terms, point: Sequence[int], modulus: int) -> list[int]:
-    """All first derivatives of a polynomial: of each term the products of what stands before and behind each factor."""
+    """All first derivatives of a polynomial: of each term the products of what stands before
+    and behind each factor.
+    """
     total = [0] * len(point)
     for exponents, number in terms:
         factors = [(j, e, point[j]) for j, e in enumerate(exponents) if e]
@@ -122,15 +153,27 @@ def pivots(echelon: nmod_mat, rank: int) -> list[int]:
 
 def _slice(model: CoefficientMap, there: Sequence[int], modulus: int) -> dict[str, int]:
     free = pivots(*jacobian(model, there, modulus).rref())
-    return {name: x for j, (name, x) in enumerate(zip(model.parameters, there, strict=True)) if j not in free}
+    return {
+        name: x
+        for j, (name, x) in enumerate(zip(model.parameters, there, strict=True))
+        if j not in free
+    }
 
 
-def _tangents(given: CoefficientMap, other: CoefficientMap, point: Sequence[int], modulus: int) -> list[Polynomial]:
+def _tangents(
+    given: CoefficientMap, other: CoefficientMap, point: Sequence[int], modulus: int
+) -> list[Polynomial]:
     order = sorted(range(len(other.coordinates)), key=lambda i: -_degree(other.coordinates[i]))
     normals, rank = _left_null_space(jacobian(given, point, modulus), order, modulus)
-    gradients = [[derivative(c, j) for j in range(len(other.parameters))] for c in other.coordinates]
-    rows = [{i: int(normals[r, k]) for k, i in enumerate(order) if normals[r, k]} for r in range(rank)]
-    return [_combined(row, gradients, j, modulus) for row in rows for j in range(len(other.parameters))]
+    gradients = [
+        [derivative(c, j) for j in range(len(other.parameters))] for c in other.coordinates
+    ]
+    rows = [
+        {i: int(normals[r, k]) for k, i in enumerate(order) if normals[r, k]} for r in range(rank)
+    ]
+    return [
+        _combined(row, gradients, j, modulus) for row in rows for j in range(len(other.parameters))
+    ]
 
 
 def _degree(terms: Terms) -> int:
@@ -139,14 +182,21 @@ def _degree(terms: Terms) -> int:
 
 def _left_null_space(matrix: nmod_mat, order: list[int], modulus: int) -> tuple[nmod_mat, int]:
     """Basis of {w: w matrix = 0} in echelon form, columns in the given order."""
-    ordered = nmod_mat(matrix.ncols(), len(order), [matrix[i, j] for j in range(matrix.ncols()) for i in order], modulus)
+    ordered = nmod_mat(
+        matrix.ncols(),
+        len(order),
+        [matrix[i, j] for j in range(matrix.ncols()) for i in order],
+        modulus,
+    )
     columns, nullity = ordered.nullspace()
     entries = [columns[i, j] for j in range(nullity) for i in range(len(order))]
     echelon: tuple[nmod_mat, int] = nmod_mat(nullity, len(order), entries, modulus).rref()
     return echelon
 
 
-def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int) -> Polynomial:
+def _combined(
+    row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int
+) -> Polynomial:
     total: Polynomial = {}
     for i, weight in row.items():
         for exponents, number in gradients[i][at]:
@@ -154,7 +204,9 @@ def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulu
     return {e: c for e, c in total.items() if c}
 
 
-def restricted(polynomial: Polynomial, kept: list[int], values: list[int], modulus: int) -> Polynomial:
+def restricted(
+    polynomial: Polynomial, kept: list[int], values: list[int], modulus: int
+) -> Polynomial:
     """The fixed parameters replaced by their values."""
     total: Polynomial = {}
     for exponents, number in polynomial.items():

@@ -1,14 +1,17 @@
-"""Two chains with one gap whose parts at both sides are the same or can have any receptance: they are the same.
+"""Two chains with one gap whose parts at both sides are the same or can have any receptance: they
+are the same.
 
-H = R + F, R the receptance of the grounded, F of the free part, of independent parameters; a lag or a sensor's power of s is a
-factor that both chains share. A part is full if its rank equals the number of its coefficients that are not constant (those of
-the monic denominator and of the numerator, see `system`). Then the closure of its image is the space of all functions with
-these constants. If each part of one chain equals that of the other, or both are full with equal constants, the closures of
-{R} and {F} are equal on both sides, and so are those of {R + F}: the sum is a continuous map wherever no pole is infinite, and
-generic sums have equal degrees.
+H = R + F, R the receptance of the grounded, F of the free part, of independent parameters; a lag
+or a sensor's power of s is a factor that both chains share. A part is full if its rank equals the
+number of its coefficients that are not constant (those of the monic denominator and of the
+numerator, see `system`). Then the closure of its image is the space of all functions with these
+constants. If each part of one chain equals that of the other, or both are full with equal
+constants, the closures of {R} and {F} are equal on both sides, and so are those of {R + F}: the
+sum is a continuous map wherever no pole is infinite, and generic sums have equal degrees.
 
-The rank at one point modulo a prime is at most the generic rank, which is at most the number of coefficients that are not
-constant: where they are equal, fullness is proven, nothing is left to chance.
+The rank at one point modulo a prime is at most the generic rank, which is at most the number of
+coefficients that are not constant: where they are equal, fullness is proven, nothing is left to
+chance.
 """
 
 from dataclasses import dataclass
@@ -22,7 +25,8 @@ from disting.model.structure import Element, Structure
 
 
 def same_by_full_parts(a: Structure, b: Structure, label: str = "full parts") -> FullParts | None:
-    """The proof that two structures have equal closures part by part; None if there is none. `label` draws the points.
+    """The proof that two structures have equal closures part by part; None if there is none.
+    `label` draws the points.
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(3, 2, m, 3, m, 3, damped=True, ground_dampers=(2,)) for m in (1, 2))
@@ -37,13 +41,17 @@ def same_by_full_parts(a: Structure, b: Structure, label: str = "full parts") ->
 
 
 def _comparable(a: Structure, b: Structure) -> bool:
-    """Whether both have a gap at the same place, one sensor quantity, and the same factors beside."""
+    """Whether both have a gap at the same place, one sensor quantity, and the same factors
+    beside.
+    """
     kinds = [(s.blocks, s.sensor_order, s.lag, s.dead_time) for s in (a, b)]
     return kinds[0] == kinds[1] and len(a.blocks) == 2
 
 
 def _shared(part: Structure, other: Structure, span: Span, label: str) -> int | None:
-    """SAME for equal parts, the number of coefficients of full ones of one form, None for others."""
+    """SAME for equal parts, the number of coefficients of full ones of one form, None for
+    others.
+    """
     if _described(part, span) == _described(other, span):
         return SAME
     here, there = (_full(s, span, label) for s in (part, other))

@@ -1,7 +1,9 @@
-"""Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for Gröbner bases.
+"""Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for
+Gröbner bases.
 
-The span of the generators of degree up to D is multiplied by the variables, as long as a product of degree up to D is new,
-elements whose degree fell included. If 1 lies in the span, there are no common zeros.
+The span of the generators of degree up to D is multiplied by the variables, as long as a product
+of degree up to D is new, elements whose degree fell included. If 1 lies in the span, there are no
+common zeros.
 """
 
 from collections.abc import Iterable, Mapping
@@ -42,8 +44,12 @@ def _times(exponents: tuple[int, ...], at: int) -> tuple[int, ...]:
     return tuple(e + (i == at) for i, e in enumerate(exponents))
 
 
-def _echelon(rows: list[dict[tuple[int, ...], int]], modulus: int) -> list[dict[tuple[int, ...], int]]:
+def _echelon(
+    rows: list[dict[tuple[int, ...], int]], modulus: int
+) -> list[dict[tuple[int, ...], int]]:
     columns = sorted({e for row in rows for e in row}, key=_rank, reverse=True)
     table = [row.get(e, 0) % modulus for row in rows for e in columns]
     matrix, rank = nmod_mat(len(rows), len(columns), table, modulus).rref()
-    return [{e: int(matrix[i, j]) for j, e in enumerate(columns) if matrix[i, j]} for i in range(rank)]
+    return [
+        {e: int(matrix[i, j]) for j, e in enumerate(columns) if matrix[i, j]} for i in range(rank)
+    ]

@@ -1,4 +1,6 @@
-"""Matrices and polynomials modulo a prime of any length: FLINT's words where it fits into one, else its long integers."""
+"""Matrices and polynomials modulo a prime of any length: FLINT's words where it fits into one,
+else its long integers.
+"""
 
 from collections.abc import Sequence
 from functools import cache

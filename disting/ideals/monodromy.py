@@ -1,10 +1,13 @@
-"""Whether the poles of each part of a generic chain are inseparable: conditions 1 and 2 of the theorem in `parts`, proven.
+"""Whether the poles of each part of a generic chain are inseparable: conditions 1 and 2 of the
+theorem in `parts`, proven.
 
-Galois groups are seen modulo primes: where a monic polynomial with coefficients in Z[p] is squarefree at a point p0 modulo a
-prime, its group over Q(p) holds an element whose cycles are as long as its irreducible factors there (Dedekind; B. L. van der
-Waerden, Algebra I, section 61). One irreducible value shows that the group is transitive, and one with a linear factor and
-another irreducible one that what fixes a root is transitive on the others: doubly transitive. Residues that are not all equal
-at a point are not all equal. So what is found holds without any chance; if nothing is found, nothing is claimed.
+Galois groups are seen modulo primes: where a monic polynomial with coefficients in Z[p] is
+squarefree at a point p0 modulo a prime, its group over Q(p) holds an element whose cycles are as
+long as its irreducible factors there (Dedekind; B. L. van der Waerden, Algebra I, section 61). One
+irreducible value shows that the group is transitive, and one with a linear factor and another
+irreducible one that what fixes a root is transitive on the others: doubly transitive. Residues
+that are not all equal at a point are not all equal. So what is found holds without any chance; if
+nothing is found, nothing is claimed.
 """
 
 from collections.abc import Sequence
@@ -23,7 +26,8 @@ DRAWS = 400  # a degree m needs about 2 m of them
 
 @cache
 def poles_are_inseparable(structure: Structure, label: str) -> bool:
-    """Whether both conditions are proven for both parts of a plain chain, at points that the label stands for.
+    """Whether both conditions are proven for both parts of a plain chain, at points that the label
+    stands for.
 
     >>> from disting.model.chain import Chain
     >>> poles_are_inseparable(Chain(3, 1, 1, 2, 1, 2, damped=True).structure, "doc")
@@ -34,7 +38,9 @@ def poles_are_inseparable(structure: Structure, label: str) -> bool:
 
 
 def _is_inseparable(part: CoefficientMap, step: int, label: str) -> bool:
-    """One part, in x = s^step: its poles that are not zero, with a doubly transitive group and unequal residues."""
+    """One part, in x = s^step: its poles that are not zero, with a doubly transitive group and
+    unequal residues.
+    """
     label = about(label, part.content)
     modulus = prime(label)
     wanted, unequal = set[tuple[int, ...]](), False
@@ -59,18 +65,27 @@ def _cycles(m: int) -> set[tuple[int, ...]]:
 def _factor_degrees(polynomial: nmod_poly) -> tuple[int, ...]:
     """Degrees of the irreducible factors; (0,) if one is multiple."""
     _, factors = polynomial.factor()
-    return tuple(sorted(int(f.degree()) for f, _ in factors)) if all(e == 1 for _, e in factors) else (0,)
+    return (
+        tuple(sorted(int(f.degree()) for f, _ in factors))
+        if all(e == 1 for _, e in factors)
+        else (0,)
+    )
 
 
 def _residues_differ(num: nmod_poly, rest: nmod_poly, zeros: int) -> bool:
-    """N/(x^k E)' is not the same number at all roots of E: N and x^k E' are independent modulo E; no pole cancels."""
+    """N/(x^k E)' is not the same number at all roots of E: N and x^k E' are independent modulo
+    E; no pole cancels.
+    """
     x, m = nmod_poly([0, 1], rest.modulus()), rest.degree()
     if not num[0] and zeros:
         return False
     if m < 2:
         return m == 0 or bool((num % rest)[0])
     remainders = (num % rest, (x**zeros * rest.derivative()) % rest)
-    return bool(nmod_mat(2, m, [int(r[i]) for r in remainders for i in range(m)], rest.modulus()).rank() == 2)
+    return bool(
+        nmod_mat(2, m, [int(r[i]) for r in remainders for i in range(m)], rest.modulus()).rank()
+        == 2
+    )
 
 
 def _at(polynomials: Sequence[fmpz_mpoly], point: Sequence[int], modulus: int) -> nmod_poly:

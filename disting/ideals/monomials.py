@@ -1,9 +1,9 @@
 """Monomials as whole numbers, ordered by degree and then reverse lexicographically (degrevlex).
 
-For exponents e_1, .., e_n the order compares e_1+..+e_n, then e_1+..+e_(n-1), .., then e_1. These partial sums and the
-exponents themselves are written side by side, eight bits each, sums first. So codes are compared as numbers, multiplication of
-monomials is addition, and whether one divides another shows in the top bits of the exponents' fields, which are not used
-otherwise.
+For exponents e_1, .., e_n the order compares e_1+..+e_n, then e_1+..+e_(n-1), .., then e_1. These
+partial sums and the exponents themselves are written side by side, eight bits each, sums first. So
+codes are compared as numbers, multiplication of monomials is addition, and whether one divides
+another shows in the top bits of the exponents' fields, which are not used otherwise.
 """
 
 from dataclasses import dataclass

@@ -1,10 +1,11 @@
 """Solutions modulo the prime from a Gröbner basis with finitely many of them.
 
-The monomials that no leading monomial divides are a basis b of the quotient. With x_i b = M_i b modulo the ideal, the values
-b(q) at a solution q are a common eigenvector of all M_i with the eigenvalues q_i. So a root, modulo the prime, of the
-characteristic polynomial of a random combination of the M_i leads to q, if its eigenspace is a line.
-(W. Auzinger, H. J. Stetter, An elimination algorithm for the computation of all zeros, 1988.) There may be none: solutions can
-lie in extension fields only.
+The monomials that no leading monomial divides are a basis b of the quotient. With x_i b = M_i b
+modulo the ideal, the values b(q) at a solution q are a common eigenvector of all M_i with the
+eigenvalues q_i. So a root, modulo the prime, of the characteristic polynomial of a random
+combination of the M_i leads to q, if its eigenspace is a line. (W. Auzinger, H. J. Stetter, An
+elimination algorithm for the computation of all zeros, 1988.) There may be none: solutions can lie
+in extension fields only.
 """
 
 from collections.abc import Iterator
@@ -18,16 +19,23 @@ MAX_SOLUTIONS = 600
 
 
 def free_variable(basis: Basis) -> int | None:
-    """A variable of which no power is a leading monomial, so that the solutions are not finite in number; None if finite.
+    """A variable of which no power is a leading monomial, so that the solutions are not finite in
+    number; None if finite.
 
     The last one: the ideal is not everything.
     """
-    pure = {e.index(max(e)) for e in (basis.order.decode(r.codes[0]) for r in basis.rows) if sum(map(bool, e)) == 1}
+    pure = {
+        e.index(max(e))
+        for e in (basis.order.decode(r.codes[0]) for r in basis.rows)
+        if sum(map(bool, e)) == 1
+    }
     return max((i for i in range(basis.order.size) if i not in pure), default=None)
 
 
 def solution(basis: Basis, label: str) -> tuple[int, ...] | None:
-    """A solution with coordinates modulo the prime, if the basis has finitely many and one of these is found."""
+    """A solution with coordinates modulo the prime, if the basis has finitely many and one of
+    these is found.
+    """
     standard = [] if free_variable(basis) is not None else _standard(basis)
     if not standard:
         return None
@@ -35,12 +43,18 @@ def solution(basis: Basis, label: str) -> tuple[int, ...] | None:
     weights = residues(f"weights:{label}", len(tables), basis.modulus)
     size = len(standard)
     mixed = [
-        [sum(w * t[r][k] for w, t in zip(weights, tables, strict=True)) % basis.modulus for k in range(size)]
+        [
+            sum(w * t[r][k] for w, t in zip(weights, tables, strict=True)) % basis.modulus
+            for k in range(size)
+        ]
         for r in range(size)
     ]
     for vector in _eigenvectors(mixed, basis.modulus):
         scale = pow(vector[0], -1, basis.modulus)  # standard[0] is the monomial 1
-        return tuple(sum(a * b for a, b in zip(t[0], vector, strict=True)) * scale % basis.modulus for t in tables)
+        return tuple(
+            sum(a * b for a, b in zip(t[0], vector, strict=True)) * scale % basis.modulus
+            for t in tables
+        )
     return None
 
 
@@ -74,7 +88,9 @@ def _table(basis: Basis, standard: list[int], variable: int) -> list[list[int]]:
 
 
 def _normal_form(basis: Basis, code: int, forms: dict[int, dict[int, int]]) -> dict[int, int]:
-    """Combination of standard monomials that equals a monomial; forms already found are kept in `forms`."""
+    """Combination of standard monomials that equals a monomial; forms already found are kept in
+    `forms`.
+    """
     todo = [code]
     while todo:
         m = todo[-1]
@@ -82,7 +98,9 @@ def _normal_form(basis: Basis, code: int, forms: dict[int, dict[int, int]]) -> d
             todo.pop()
             continue
         row = _reducer(basis, m)
-        tail = [(c + m - row.codes[0], -x) for c, x in zip(row.codes[1:], row.numbers[1:], strict=True)]
+        tail = [
+            (c + m - row.codes[0], -x) for c, x in zip(row.codes[1:], row.numbers[1:], strict=True)
+        ]
         missing = [c for c, _ in tail if c not in forms]
         if missing:
             todo += missing
@@ -100,7 +118,9 @@ def _reducer(basis: Basis, code: int) -> Row:
 
 
 def _eigenvectors(matrix: list[list[int]], modulus: int) -> Iterator[list[int]]:
-    """Eigenvectors of the eigenvalues modulo the prime whose eigenspaces are lines, with a first entry that is not zero."""
+    """Eigenvectors of the eigenvalues modulo the prime whose eigenspaces are lines, with a
+    first entry that is not zero.
+    """
     size = len(matrix)
     flat = [x for row in matrix for x in row]
     _, factors = nmod_mat(size, size, flat, modulus).charpoly().factor()

@@ -1,7 +1,9 @@
-"""A task in a process of its own that can be killed: for computations that may take any time or memory.
+"""A task in a process of its own that can be killed: for computations that may take any time or
+memory.
 
-Giving up is an ordinary outcome with its reason; it never becomes an answer. The process is an interpreter with a command line
-of its own, told by its input what to do: a fork would share locks, and multiprocessing's spawn runs the caller's script again.
+Giving up is an ordinary outcome with its reason; it never becomes an answer. The process is an
+interpreter with a command line of its own, told by its input what to do: a fork would share locks,
+and multiprocessing's spawn runs the caller's script again.
 """
 
 import contextlib
@@ -29,7 +31,9 @@ class End(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Ended:
-    """`value` is the task's result where `end` is DONE, and nothing otherwise; `detail` says more, if there is more."""
+    """`value` is the task's result where `end` is DONE, and nothing otherwise; `detail` says
+    more, if there is more.
+    """
 
     end: End
     value: Any = None
@@ -38,22 +42,33 @@ class Ended:
     @property
     def reason(self) -> str:
         """Why there is no value."""
-        return "" if self.end is End.DONE else f"{self.end.value}{self.detail and f' ({self.detail})'}"
+        return (
+            "" if self.end is End.DONE else f"{self.end.value}{self.detail and f' ({self.detail})'}"
+        )
 
 
-def run_limited(task: Callable[..., Any], arguments: tuple[Any, ...], seconds: float, megabytes: int = 4096) -> Ended:
-    """Result of task(*arguments) in a fresh process, killed after so many seconds; both must be picklable.
+def run_limited(
+    task: Callable[..., Any], arguments: tuple[Any, ...], seconds: float, megabytes: int = 4096
+) -> Ended:
+    """Result of task(*arguments) in a fresh process, killed after so many seconds; both must be
+    picklable.
 
-    The task is a function of a module that can be imported, not of the caller's script. `megabytes` bounds the address space,
-    Python and its libraries (about 300) included, where the system can bound it (not on Windows). A library that aborts on a
-    failed allocation makes the process DIE; so does a kill from outside.
+    The task is a function of a module that can be imported, not of the caller's script.
+    `megabytes` bounds the address space, Python and its libraries (about 300) included, where the
+    system can bound it (not on Windows). A library that aborts on a failed allocation makes the
+    process DIE; so does a kill from outside.
     """
     question = b"".join(map(pickle.dumps, ((seconds, megabytes), (task, arguments))))
     command = [sys.executable, "-P", "-c", COMMAND]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     try:
         done = subprocess.run(
-            command, input=question, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=seconds, env=environment
+            command,
+            input=question,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            timeout=seconds,
+            env=environment,
         )
     except subprocess.TimeoutExpired:
         return Ended(End.OUT_OF_TIME, detail=f"{seconds:g} s")
@@ -85,10 +100,16 @@ def _ended(megabytes: int) -> Ended:
 
 
 def _limit(seconds: float, megabytes: int) -> None:
-    """Limits that hold even if the caller is gone; Windows has none, there the caller's clock alone ends the task."""
+    """Limits that hold even if the caller is gone; Windows has none, there the caller's clock
+    alone ends the task.
+    """
     with contextlib.suppress(ImportError):
         import resource
 
         time = int(seconds) + 2
-        for what, most in ((resource.RLIMIT_AS, megabytes << 20), (resource.RLIMIT_CPU, time), (resource.RLIMIT_CORE, 0)):
+        for what, most in (
+            (resource.RLIMIT_AS, megabytes << 20),
+            (resource.RLIMIT_CPU, time),
+            (resource.RLIMIT_CORE, 0),
+        ):
             resource.setrlimit(what, (most, most))

@@ -1,21 +1,27 @@
-"""Two rows of masses of equal rank told apart by sharing out the roots of the numerator (see `factored`).
+"""Two rows of masses of equal rank told apart by sharing out the roots of the numerator (see
+`factored`).
 
-At a point p0 of one row where all roots of N lie in the field, an equivalent of the other row shares them out among its joints
-between the ports, its theta and its phi. If every share is refuted, no point of the other row has this receptance.
+At a point p0 of one row where all roots of N lie in the field, an equivalent of the other row
+shares them out among its joints between the ports, its theta and its phi. If every share is
+refuted, no point of the other row has this receptance.
 
-Shares of one type suffice. Suppose the closures are equal, and let X be a component of {(p, q): Phi1(p) = Phi2(q)} that
-dominates the points p, as in `bounds`, with the roots of N adjoined in the order in which q's factors share them. Two roots are
-of one type if they are of one joint, both of theta(p) or both of phi(p). If the Galois group of theta phi over Q(p) is the full
-S_m x S_n, the tuples of distinct roots with given types form one variety W over Q, and it is irreducible; X dominates it. The
-tuples over Z[p][1/disc] form a finite etale scheme, which is regular, so its components are those of W: any tuple at a p0 with
-distinct roots lies in it, modulo any prime. Roots are integral over Z[p], theta and phi being monic and the joints' leading
-coefficients part of the gain, so lying-over gives a point of X over each tuple at p0, unless A(p0) = 0 modulo the prime: one
-tuple of each type is enough, and `safety_of_empty` is the bound of one point. Points are drawn until one has its roots in the
-field; as many points as could be drawn may be bad, each with that probability.
+Shares of one type suffice. Suppose the closures are equal, and let X be a component of {(p, q):
+Phi1(p) = Phi2(q)} that dominates the points p, as in `bounds`, with the roots of N adjoined in the
+order in which q's factors share them. Two roots are of one type if they are of one joint, both of
+theta(p) or both of phi(p). If the Galois group of theta phi over Q(p) is the full S_m x S_n, the
+tuples of distinct roots with given types form one variety W over Q, and it is irreducible; X
+dominates it. The tuples over Z[p][1/disc] form a finite etale scheme, which is regular, so its
+components are those of W: any tuple at a p0 with distinct roots lies in it, modulo any prime.
+Roots are integral over Z[p], theta and phi being monic and the joints' leading coefficients part
+of the gain, so lying-over gives a point of X over each tuple at p0, unless A(p0) = 0 modulo the
+prime: one tuple of each type is enough, and `safety_of_empty` is the bound of one point. Points
+are drawn until one has its roots in the field; as many points as could be drawn may be bad, each
+with that probability.
 
-The Galois group is seen modulo primes (Dedekind, see `monodromy`), without any chance. A transitive group that holds a cycle
-of m - 1 roots is doubly transitive, so primitive; with a transposition it is S_m (C. Jordan). If one element is a transposition
-of phi and trivial on theta, its conjugates generate 1 x S_n, and the group is S_m x S_n if it projects onto S_m.
+The Galois group is seen modulo primes (Dedekind, see `monodromy`), without any chance. A
+transitive group that holds a cycle of m - 1 roots is doubly transitive, so primitive; with a
+transposition it is S_m (C. Jordan). If one element is a transposition of phi and trivial on theta,
+its conjugates generate 1 x S_n, and the group is S_m x S_n if it projects onto S_m.
 """
 
 from collections.abc import Iterator, Sequence
@@ -36,13 +42,18 @@ from disting.ideals.system import Terms, matched
 BITS = 192  # of the prime: one point gives more than 100 bits
 DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720 for six roots
 PATTERNS = 400  # points at which the Galois group is looked at
-ENTRIES = (40_000, 400_000, 4_000_000)  # of one matrix: little is lost where one direction is much dearer than the other
+# of one matrix: little is lost where one direction is much dearer than the other
+ENTRIES = (40_000, 400_000, 4_000_000)
 
 
-def told_apart(left: FactoredMap, right: FactoredMap, seed: str, entries: Sequence[int] = ENTRIES) -> tuple[Shared, int] | None:
-    """Evidence that two rows of equal rank have different closures, and its bits; None where nothing is found.
+def told_apart(
+    left: FactoredMap, right: FactoredMap, seed: str, entries: Sequence[int] = ENTRIES
+) -> tuple[Shared, int] | None:
+    """Evidence that two rows of equal rank have different closures, and its bits; None where
+    nothing is found.
 
-    Both directions are tried, with matrices of so many `entries` at most; one bit is paid for the choice.
+    Both directions are tried, with matrices of so many `entries` at most; one bit is paid for the
+    choice.
     """
     if _shape(left) != _shape(right):
         return None
@@ -52,7 +63,11 @@ def told_apart(left: FactoredMap, right: FactoredMap, seed: str, entries: Sequen
             found = _refuted(given, other, f"shares:{seed}:{given.name}:{other.name}", most)
             if found is not None:
                 label, shares, degree = found
-                safety = safety_of_empty(*matched(given.whole, other.whole), True, BITS) - ceil(log2(DRAWS)) - 1
+                safety = (
+                    safety_of_empty(*matched(given.whole, other.whole), True, BITS)
+                    - ceil(log2(DRAWS))
+                    - 1
+                )
                 return Shared(left_given, "", label, shares, degree), safety
     return None
 
@@ -62,7 +77,9 @@ def _shape(row: FactoredMap) -> tuple[int, int, int]:
     return len(row.joints) + len(row.left) + len(row.right), len(row.poles), len(row.parameters)
 
 
-def _refuted(given: FactoredMap, other: FactoredMap, label: str, entries: int) -> tuple[str, int, int] | None:
+def _refuted(
+    given: FactoredMap, other: FactoredMap, label: str, entries: int
+) -> tuple[str, int, int] | None:
     """Label, number of shares and largest degree, if all shares are refuted."""
     if not is_symmetric(given, label):
         return None
@@ -80,8 +97,12 @@ def _refuted(given: FactoredMap, other: FactoredMap, label: str, entries: int) -
     return label, count, degree
 
 
-def _degree_of_one(unknowns: int, equations: Sequence[Polynomial], modulus: int, entries: int) -> int:
-    """The degree in which the equations contradict each other; 0 if they do not or it is not found."""
+def _degree_of_one(
+    unknowns: int, equations: Sequence[Polynomial], modulus: int, entries: int
+) -> int:
+    """The degree in which the equations contradict each other; 0 if they do not or it is not
+    found.
+    """
     if any(len(g) == 1 and not any(next(iter(g))) for g in equations):
         return 1  # a constant: the linear equations do
     try:
@@ -95,7 +116,9 @@ def _degree_of_one(unknowns: int, equations: Sequence[Polynomial], modulus: int,
     return 0
 
 
-def _points(given: FactoredMap, label: str, modulus: int) -> Iterator[tuple[Values, list[tuple[int, str]]]]:
+def _points(
+    given: FactoredMap, label: str, modulus: int
+) -> Iterator[tuple[Values, list[tuple[int, str]]]]:
     """Points with all roots of N in the field and distinct, with the roots and their types."""
     for draw in range(DRAWS):
         point = residues(f"{label}:{draw}", len(given.parameters), modulus)
@@ -104,13 +127,19 @@ def _points(given: FactoredMap, label: str, modulus: int) -> Iterator[tuple[Valu
             continue
         at = values(given, point, modulus)
         types = [(z, f"joint {i}") for i, z in enumerate(at.joints)]
-        types += [(z, kind) for kind, roots in zip(("left", "right"), found, strict=True) for z in roots or ()]
+        types += [
+            (z, kind)
+            for kind, roots in zip(("left", "right"), found, strict=True)
+            for z in roots or ()
+        ]
         if len({z for z, _ in types}) == len(types):
             yield at, types
 
 
 def shares_by_type(roots: Sequence[tuple[int, str]], joints: int, left: int) -> Iterator[Share]:
-    """One way of each type to give roots to the joints, in order, to theta (so many) and to phi (the rest)."""
+    """One way of each type to give roots to the joints, in order, to theta (so many) and to phi
+    (the rest).
+    """
     seen = set[tuple[tuple[str, ...], tuple[str, ...]]]()
     for first in permutations(roots, joints):
         rest = [r for r in roots if r not in first]
@@ -123,9 +152,15 @@ def shares_by_type(roots: Sequence[tuple[int, str]], joints: int, left: int) -> 
 
 
 def is_symmetric(row: FactoredMap, label: str) -> bool:
-    """Whether the Galois group of theta phi over Q(p) is proven to be the product of the full symmetric groups."""
+    """Whether the Galois group of theta phi over Q(p) is proven to be the product of the full
+    symmetric groups.
+    """
     modulus = prime(f"{label}:group")
-    wanted = {(k, cycles) for k, factor in enumerate((row.left, row.right)) for cycles in _wanted(len(factor))}
+    wanted = {
+        (k, cycles)
+        for k, factor in enumerate((row.left, row.right))
+        for cycles in _wanted(len(factor))
+    }
     for draw in range(PATTERNS):
         if not wanted:
             break
@@ -140,24 +175,32 @@ def is_symmetric(row: FactoredMap, label: str) -> bool:
 
 
 def _wanted(degree: int) -> set[tuple[int, ...]]:
-    """Cycle types that together make a group of this degree symmetric; () stands for a transposition."""
+    """Cycle types that together make a group of this degree symmetric; () stands for a
+    transposition.
+    """
     needed = (((degree,), 2), ((1, degree - 1), 3), ((), 2))
     return {cycles for cycles, least in needed if degree >= least}
 
 
 def _transposes(cycles: tuple[int, ...], beside: tuple[int, ...]) -> bool:
-    """Whether a power of a permutation with these cycles is a transposition, and trivial on the cycles beside."""
+    """Whether a power of a permutation with these cycles is a transposition, and trivial on the
+    cycles beside.
+    """
     odd = [c for c in cycles if c % 2]
     power = lcm(*odd)
     return sorted(c for c in cycles if not c % 2) == [2] and all(power % c == 0 for c in beside)
 
 
 def _cycles(factor: fmpz_mod_poly) -> tuple[int, ...]:
-    return tuple(sorted(int(f.degree()) for f, _ in factor.factor()[1])) if factor.degree() > 0 else ()
+    return (
+        tuple(sorted(int(f.degree()) for f, _ in factor.factor()[1])) if factor.degree() > 0 else ()
+    )
 
 
 def _roots(factor: fmpz_mod_poly, modulus: int) -> tuple[int, ...] | None:
-    """All roots, if the polynomial splits into distinct linear factors; that x^p = x modulo it is found in no time."""
+    """All roots, if the polynomial splits into distinct linear factors; that x^p = x modulo it
+    is found in no time.
+    """
     degree, x = factor.degree(), long_polynomial([0, 1], modulus)
     if degree < 1:
         return ()

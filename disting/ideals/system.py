@@ -1,20 +1,24 @@
 """Parametric models as maps from parameters to the coefficients of a transfer function.
 
-A model with one input and one output is the map Phi: parameters -> coefficients of numerator and denominator, polynomials with
-integer coefficients. For chains there are two: `coefficient_map` in the parameters themselves, and `normalised` in fewer and
-better ones. There row i of M s^2 + D s + K is divided by m_i; with c_i, d_i for spring and damper between masses i and i+1
+A model with one input and one output is the map Phi: parameters -> coefficients of numerator and
+denominator, polynomials with integer coefficients. For chains there are two: `coefficient_map` in
+the parameters themselves, and `normalised` in fewer and better ones. There row i of M s^2 + D s +
+K is divided by m_i; with c_i, d_i for spring and damper between masses i and i+1
 
-    u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,  f_i = b_i/m_i,  g = 1/m_b
+    u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,  f_i =
+    b_i/m_i,  g = 1/m_b
 
-with one gain g for each row of connected masses, b its right port. A joint enters row i as u_i + e_i s and row i+1 as
-r_i (u_i + e_i s), so every determinant is monic in s and linear in each single unknown, and the receptance of a row is
+with one gain g for each row of connected masses, b its right port. A joint enters row i as u_i +
+e_i s and row i+1 as r_i (u_i + e_i s), so every determinant is monic in s and linear in each
+single unknown, and the receptance of a row is
 
     H = g * prod_(a <= i < b) (u_i + e_i s) * theta_(a-1) * phi_(b+1) / D
 
-(theta, phi, D: leading, trailing and all principal minors). A lag becomes 1/(s + f), f = 1/T1, and its f is taken into the
-gains. For non-zero masses (and T1) the new unknowns are quotients and products of the old ones and the old ones of the new
-ones: a birational map. Both maps have the same closure of their image, which alone matters for generic models; parameters of
-rows without a port, which the transfer function does not contain, are left out.
+(theta, phi, D: leading, trailing and all principal minors). A lag becomes 1/(s + f), f = 1/T1, and
+its f is taken into the gains. For non-zero masses (and T1) the new unknowns are quotients and
+products of the old ones and the old ones of the new ones: a birational map. Both maps have the
+same closure of their image, which alone matters for generic models; parameters of rows without a
+port, which the transfer function does not contain, are left out.
 """
 
 from collections.abc import Iterator, Sequence
@@ -38,10 +42,12 @@ Span = tuple[int, int]  # first and last mass of a row
 
 @dataclass(frozen=True)
 class CoefficientMap:
-    """Transfer function sum b_i s^i / sum a_i s^i: polynomials b_i, a_i in `parameters`, ascending, in lowest terms.
+    """Transfer function sum b_i s^i / sum a_i s^i: polynomials b_i, a_i in `parameters`,
+    ascending, in lowest terms.
 
-    Lowest terms means for generic parameters; the caller answers for it. Raises InputError where a polynomial has other
-    symbols than the parameters, or the denominator has no leading coefficient.
+    Lowest terms means for generic parameters; the caller answers for it. Raises InputError where a
+    polynomial has other symbols than the parameters, or the denominator has no leading
+    coefficient.
     """
 
     parameters: tuple[str, ...]
@@ -49,14 +55,24 @@ class CoefficientMap:
     denominator: tuple[fmpz_mpoly, ...]
 
     def __post_init__(self) -> None:
-        if any(tuple(p.context().names()) != self.parameters for p in (*self.numerator, *self.denominator)):
-            raise InputError("the coefficients of a model are polynomials in exactly its parameters")
+        if any(
+            tuple(p.context().names()) != self.parameters
+            for p in (*self.numerator, *self.denominator)
+        ):
+            raise InputError(
+                "the coefficients of a model are polynomials in exactly its parameters"
+            )
         if not self.denominator or self.denominator[-1].is_zero() or not self.numerator:
-            raise InputError("a transfer function has a numerator and a leading denominator coefficient that is not zero")
+            raise InputError(
+                "a transfer function has a numerator and a leading denominator coefficient that is"
+                " not zero"
+            )
 
     @property
     def is_monic(self) -> bool:
-        """Whether the leading coefficient of the denominator is 1, so that equal functions have equal coefficients."""
+        """Whether the leading coefficient of the denominator is 1, so that equal functions have
+        equal coefficients.
+        """
         return bool(self.denominator[-1].is_one())
 
     @property
@@ -80,14 +96,18 @@ class CoefficientMap:
         return hash(self.content)
 
     def with_scale(self) -> "CoefficientMap":
-        """All coefficients times one more parameter: then equal functions have equal coefficients, monic or not."""
+        """All coefficients times one more parameter: then equal functions have equal
+        coefficients, monic or not.
+        """
         ring = symbols([*self.parameters, SCALE])
 
         def lifted(polynomials: Sequence[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
             """In the larger ring, times the new parameter."""
             return tuple(renamed(p, ring, {}) * ring[SCALE] for p in polynomials)
 
-        return CoefficientMap((*self.parameters, SCALE), lifted(self.numerator), lifted(self.denominator))
+        return CoefficientMap(
+            (*self.parameters, SCALE), lifted(self.numerator), lifted(self.denominator)
+        )
 
 
 def coefficient_map(structure: Structure) -> CoefficientMap:
@@ -121,13 +141,17 @@ def normalised(structure: Structure) -> CoefficientMap:
 
 
 def matched(given: CoefficientMap, other: CoefficientMap) -> tuple[CoefficientMap, CoefficientMap]:
-    """Both maps in a form in which equal transfer functions are equal coefficients, as many in both, zeros included.
+    """Both maps in a form in which equal transfer functions are equal coefficients, as many in
+    both, zeros included.
 
-    Of equally many poles all functions have their coefficients in one space, whatever the degrees of the numerators. Raises
-    InputError for denominators of unequal degrees.
+    Of equally many poles all functions have their coefficients in one space, whatever the degrees
+    of the numerators. Raises InputError for denominators of unequal degrees.
     """
     if given.degrees[1] != other.degrees[1]:
-        raise InputError(f"transfer functions of equally many poles are compared, not {given.degrees} and {other.degrees}")
+        raise InputError(
+            f"transfer functions of equally many poles are compared, not {given.degrees} and"
+            f" {other.degrees}"
+        )
     top = max(given.degrees[0], other.degrees[0]) + 1
     given, other = _padded(given, top), _padded(other, top)
     if given.is_monic and other.is_monic:
@@ -165,7 +189,9 @@ def ports_of(structure: Structure, span: Span) -> tuple[int, int]:
 
 
 def _ports(structure: Structure, span: Span) -> tuple[int, int] | None:
-    """The two ports (a, b), a <= b, of a row of masses: of the plus side, of the minus side, or none."""
+    """The two ports (a, b), a <= b, of a row of masses: of the plus side, of the minus side, or
+    none.
+    """
     p = structure.ports
     for pair in ((p.act_plus, p.meas_plus), (p.act_minus, p.meas_minus)):
         if all(span[0] <= port <= span[1] for port in pair):
@@ -174,7 +200,9 @@ def _ports(structure: Structure, span: Span) -> tuple[int, int] | None:
 
 
 def rows(structure: Structure) -> Iterator[tuple[Span, tuple[str, ...]]]:
-    """The rows of connected masses that have ports, (first, last), each with the names of its unknowns."""
+    """The rows of connected masses that have ports, (first, last), each with the names of its
+    unknowns.
+    """
     for span in structure.blocks:
         if _ports(structure, span):
             yield span, tuple(_names_of_row(structure, span))
@@ -197,13 +225,22 @@ def _names_of_row(structure: Structure, span: Span) -> Iterator[str]:
     yield f"g{first}"
 
 
-def receptance_of_row(structure: Structure, span: Span, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-    """Receptance (numerator, denominator) of one row of connected masses; `ring` has s and the row's unknowns."""
+def receptance_of_row(
+    structure: Structure, span: Span, ring: dict[str, fmpz_mpoly]
+) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """Receptance (numerator, denominator) of one row of connected masses; `ring` has s and the
+    row's unknowns.
+    """
     first, last = span
     s, zero, one = ring["s"], ring["s"] - ring["s"], ring["s"] ** 0
-    joint = {i: ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)} | {last: zero}
+    joint = {
+        i: ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)
+    } | {last: zero}
     ratio = {i: ring.get(f"r{i}", one) for i in range(first - 1, last)}
-    diagonal = [s * s + joint[i - 1] * ratio[i - 1] + joint[i] + ring.get(f"f{i}", zero) * s for i in range(first, last + 1)]
+    diagonal = [
+        s * s + joint[i - 1] * ratio[i - 1] + joint[i] + ring.get(f"f{i}", zero) * s
+        for i in range(first, last + 1)
+    ]
     squares = [joint[i] * joint[i] * ratio[i] for i in range(first, last)]
     a, b = ports_of(structure, span)
     leading = minors(diagonal, squares, one)
@@ -212,7 +249,9 @@ def receptance_of_row(structure: Structure, span: Span, ring: dict[str, fmpz_mpo
     return between * leading[a - first] * trailing[last - b], leading[-1]
 
 
-def minors(diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly) -> list[fmpz_mpoly]:
+def minors(
+    diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly
+) -> list[fmpz_mpoly]:
     """1, d_1, d_1 d_2 - q_1, ..: the leading principal minors of a tridiagonal matrix."""
     found = [one, diagonal[0]]
     for d, q in zip(diagonal[1:], squares, strict=True):

@@ -16,17 +16,22 @@ from disting.ideals.system import CoefficientMap, matched
 def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: CoefficientMap) -> bool:
     """Whether the evidence holds for these models, seen anew.
 
-    A solution is put into both transfer functions. A refutation is found again by plain Macaulay matrices, which takes long and
-    much memory for many unknowns and high degrees (10 unknowns, degree 5: minutes).
+    A solution is put into both transfer functions. A refutation is found again by plain Macaulay
+    matrices, which takes long and much memory for many unknowns and high degrees (10 unknowns,
+    degree 5: minutes).
     """
     given, other = (left, right) if evidence.left_given else (right, left)
     if isinstance(evidence, Solved):
         runs = zip(evidence.labels, evidence.solutions, strict=True)
         return bool(evidence.labels) and all(_agree(given, other, label, q) for label, q in runs)
-    return bool(evidence.labels) and all(_refuted(evidence, given, other, label) for label in evidence.labels)
+    return bool(evidence.labels) and all(
+        _refuted(evidence, given, other, label) for label in evidence.labels
+    )
 
 
-def _agree(given: CoefficientMap, other: CoefficientMap, label: str, solution: Sequence[int]) -> bool:
+def _agree(
+    given: CoefficientMap, other: CoefficientMap, label: str, solution: Sequence[int]
+) -> bool:
     if not len(other.parameters) <= len(solution) <= len(other.parameters) + 1:
         return False
     modulus, point = drawn(given, label)
@@ -40,7 +45,9 @@ def _at(model: CoefficientMap, point: Sequence[int], modulus: int) -> tuple[nmod
         """Its value at the point, modulo the prime."""
         return int(polynomial(*point)) % modulus
 
-    num, den = ([value(p) for p in polynomials] for polynomials in (model.numerator, model.denominator))
+    num, den = (
+        [value(p) for p in polynomials] for polynomials in (model.numerator, model.denominator)
+    )
     return nmod_poly(num, modulus), nmod_poly(den, modulus)
 
 

@@ -1,8 +1,10 @@
-"""Structural identifiability of one chain: which of its parameters an experiment can determine, and how many sets of them fit.
+"""Structural identifiability of one chain: which of its parameters an experiment can determine,
+and how many sets of them fit.
 
-Distinguishability compares two structures; this compares one with itself (E. Walter, L. Pronzato 1997, chapter 2). A fibre of
-the coefficient map at a rational point counts the parameter vectors with one behaviour; the row space of its Jacobian tells
-which functions of the parameters are determined at all.
+Distinguishability compares two structures; this compares one with itself (E. Walter, L. Pronzato
+1997, chapter 2). A fibre of the coefficient map at a rational point counts the parameter vectors
+with one behaviour; the row space of its Jacobian tells which functions of the parameters are
+determined at all.
 """
 
 from disting.identifiability.analysis import IDENTIFIABILITY as IDENTIFIABILITY

@@ -1,4 +1,6 @@
-"""From a chain to its identifiability: rank and row space, then the fibre, then what both say together."""
+"""From a chain to its identifiability: rank and row space, then the fibre, then what both say
+together.
+"""
 
 import json
 from collections.abc import Iterable, Sequence
@@ -26,9 +28,11 @@ from disting.synthesis.result import Status
 
 
 def identifiability(chain: Chain, settings: Settings | None = None) -> Identifiability:
-    """Which parameters of the chain its behaviour determines, and how many parameter vectors have the same behaviour.
+    """Which parameters of the chain its behaviour determines, and how many parameter vectors have
+    the same behaviour.
 
-    It is the same for all chains of one canonical form, up to names. Raises ContradictionError for a defect of the program.
+    It is the same for all chains of one canonical form, up to names. Raises ContradictionError for
+    a defect of the program.
 
     >>> identifiability(Chain(2, meas_plus=2)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'
@@ -37,10 +41,15 @@ def identifiability(chain: Chain, settings: Settings | None = None) -> Identifia
     return as_given(_canonically(form.chain, settings or Settings()), form, chain)
 
 
-def identifiabilities(chains: Iterable[Chain], settings: Settings | None = None) -> list[Identifiability]:
+def identifiabilities(
+    chains: Iterable[Chain], settings: Settings | None = None
+) -> list[Identifiability]:
     """The same for many chains, in order; each canonical form is looked at once."""
     formed = [(chain, canonical(chain)) for chain in chains]
-    known = {form: _canonically(form, settings or Settings()) for form in dict.fromkeys(form.chain for _, form in formed)}
+    known = {
+        form: _canonically(form, settings or Settings())
+        for form in dict.fromkeys(form.chain for _, form in formed)
+    }
     return [as_given(known[form.chain], form, chain) for chain, form in formed]
 
 
@@ -90,7 +99,9 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
 
 
 def _rank(structure: Structure, proof: Sequence[Tangent], rank: int, seen: Basis) -> _Rank:
-    """Proven if full, if so many scalings are proven as are lacking, or if no more coefficients than that are not constant."""
+    """Proven if full, if so many scalings are proven as are lacking, or if no more coefficients
+    than that are not constant.
+    """
     parameters = len(structure.parameters)
     if rank == parameters:
         return _Rank(rank, (Certainty.PROVEN, 0), ())
@@ -100,7 +111,9 @@ def _rank(structure: Structure, proof: Sequence[Tangent], rank: int, seen: Basis
 
 
 def judged(parameters: int, rank: int, rank_grade: Grade, known: Listing) -> tuple[Level, Grade]:
-    """Level from rank and listing; GLOBAL only where it is sure that a single solution is the only one."""
+    """Level from rank and listing; GLOBAL only where it is sure that a single solution is the
+    only one.
+    """
     if rank < parameters:
         return Level.NOT, rank_grade
     if sum(m.said.certainty is Certainty.THEOREM for m in known.members) > 1:
@@ -120,11 +133,14 @@ def _reason(level: Level, known: Listing) -> str:
 
 
 def _refuse_contradictions(chain: Chain, rank: int, known: Listing) -> None:
-    """A family of solutions and a full rank, or a finite fibre and a smaller one, cannot both be."""
+    """A family of solutions and a full rank, or a finite fibre and a smaller one, cannot both
+    be.
+    """
     full = rank == len(chain.parameters)
     if known.status is (Status.INFINITE if full else Status.COMPLETE):
         raise ContradictionError(
-            f"rank {rank} of {len(chain.parameters)} parameters and a fibre that is {known.status}: {chain}"
+            f"rank {rank} of {len(chain.parameters)} parameters and a fibre that is {known.status}:"
+            f" {chain}"
         )
 
 

@@ -1,8 +1,9 @@
 """A readable basis of what can be determined: candidates taken greedily until the rank is reached.
 
-A candidate counts if its gradient lies in the row space at every proof point. Were it not identifiable, a minor of one row more
-than the rank would not vanish identically, and yet vanish at all points: a probability that `safety` bounds. That accepted
-candidates are independent is proven by one point.
+A candidate counts if its gradient lies in the row space at every proof point. Were it not
+identifiable, a minor of one row more than the rank would not vanish identically, and yet vanish at
+all points: a probability that `safety` bounds. That accepted candidates are independent is proven
+by one point.
 """
 
 from collections.abc import Sequence
@@ -20,7 +21,9 @@ from disting.model.structure import Structure
 
 @dataclass(frozen=True, slots=True)
 class Basis:
-    """Identifiable parameters, independent identifiable functions, and the error bound 2**-safety of all of it (0: proven)."""
+    """Identifiable parameters, independent identifiable functions, and the error bound
+    2**-safety of all of it (0: proven).
+    """
 
     singles: tuple[Candidate, ...]
     chosen: tuple[Candidate, ...]
@@ -55,8 +58,12 @@ def _rank(candidates: Sequence[Candidate], at: Tangent) -> int:
 
 
 def _safety(structure: Structure, tested: Sequence[Candidate], points: int) -> int:
-    """Bound for all tests and the rank: one more row in the largest minor, and as many statements as tests."""
+    """Bound for all tests and the rank: one more row in the largest minor, and as many
+    statements as tests.
+    """
     minor, sizes = minor_size(structure, Representation.TF, 0), [c.formula.size for c in tested]
     rows = len(structure.parameters) + 1
     bits = minor.bits + max(s.bits for s in sizes) + ceil(log2(rows))
-    return safety(Size(minor.degree + max(s.degree for s in sizes), bits), points) - ceil(log2(len(tested) + 1))
+    return safety(Size(minor.degree + max(s.degree for s in sizes), bits), points) - ceil(
+        log2(len(tested) + 1)
+    )

@@ -10,11 +10,15 @@ from disting.synthesis.result import Answer
 
 
 def decoded(data: dict[str, Any]) -> dict[str, Any]:
-    """Fields of an Identifiability; lists become tuples. Raises KeyError, TypeError or ValueError for what is none."""
+    """Fields of an Identifiability; lists become tuples. Raises KeyError, TypeError or
+    ValueError for what is none.
+    """
     return data | {name: _READ[name](data[name]) for name in _READ}
 
 
-def _each(read: Callable[[dict[str, Any]], Any]) -> Callable[[Iterable[dict[str, Any]]], tuple[Any, ...]]:
+def _each(
+    read: Callable[[dict[str, Any]], Any],
+) -> Callable[[Iterable[dict[str, Any]]], tuple[Any, ...]]:
     return lambda items: tuple(read(item) for item in items)
 
 
@@ -28,7 +32,13 @@ def _grade(items: Iterable[Any]) -> Grade:
 
 
 def _alternative(d: dict[str, Any]) -> Alternative:
-    return Alternative(Origin(d["origin"]), Answer(d["real"]), Answer(d["positive"]), Certainty(d["certainty"]), d["note"])
+    return Alternative(
+        Origin(d["origin"]),
+        Answer(d["real"]),
+        Answer(d["positive"]),
+        Certainty(d["certainty"]),
+        d["note"],
+    )
 
 
 def _combination(d: dict[str, Any]) -> Combination:

@@ -1,4 +1,5 @@
-"""Laurent polynomials in the parameters with integer coefficients: sums such as m1 + m2, quotients such as k01/m1.
+"""Laurent polynomials in the parameters with integer coefficients: sums such as m1 + m2, quotients
+such as k01/m1.
 
 They are few terms long and are differentiated by hand (d p^a = a p^a/p_i).
 """
@@ -31,7 +32,10 @@ class Formula:
 
     def value(self, at: Mapping[str, Number]) -> Number:
         """Value at a point of a field."""
-        return sum((c * _power(at, e) for c, e in self.terms[1:]), self.terms[0][0] * _power(at, self.terms[0][1]))
+        return sum(
+            (c * _power(at, e) for c, e in self.terms[1:]),
+            self.terms[0][0] * _power(at, self.terms[0][1]),
+        )
 
     def gradient(self, at: Mapping[str, int], modulus: int) -> list[int]:
         """Derivatives by all parameters at a point modulo a prime."""
@@ -63,7 +67,9 @@ class Formula:
 
     def renamed(self, names: Mapping[str, str]) -> "Formula":
         """The same formula in other names."""
-        return Formula(tuple((c, tuple((names[n], e) for n, e in exponents)) for c, exponents in self.terms))
+        return Formula(
+            tuple((c, tuple((names[n], e) for n, e in exponents)) for c, exponents in self.terms)
+        )
 
     @property
     def _sum(self) -> list[Term]:

@@ -10,10 +10,14 @@ from disting.model.chain import Chain
 
 
 def renamed(found: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
-    """`names` leads from the canonical parameters to those of `chain`, whose order is kept everywhere."""
+    """`names` leads from the canonical parameters to those of `chain`, whose order is kept
+    everywhere.
+    """
     place = {name: i for i, name in enumerate(chain.parameters)}
     order = [monomial(**{name: 1}) for name in chain.parameters]
-    singles = sorted((_combination(c, names, place) for c in found.singles), key=lambda c: order.index(c.formula))
+    singles = sorted(
+        (_combination(c, names, place) for c in found.singles), key=lambda c: order.index(c.formula)
+    )
     return replace(
         found,
         parameters=chain.parameters,
@@ -21,19 +25,26 @@ def renamed(found: Identifiability, names: Mapping[str, str], chain: Chain) -> I
         basis=tuple(_combination(c, names, place) for c in found.basis),
         scalings=tuple(_scaling(s, names, place) for s in found.scalings),
         renamings=tuple(_renaming(r, names, place) for r in found.renamings),
-        point=tuple(sorted(((names[n], v) for n, v in found.point), key=lambda pair: place[pair[0]])),
+        point=tuple(
+            sorted(((names[n], v) for n, v in found.point), key=lambda pair: place[pair[0]])
+        ),
     )
 
 
 def _combination(c: Combination, names: Mapping[str, str], place: Mapping[str, int]) -> Combination:
     terms = (
-        (k, tuple(sorted(((names[n], e) for n, e in powers), key=lambda pair: place[pair[0]]))) for k, powers in c.formula.terms
+        (k, tuple(sorted(((names[n], e) for n, e in powers), key=lambda pair: place[pair[0]])))
+        for k, powers in c.formula.terms
     )
-    return replace(c, formula=Formula(tuple(sorted(terms, key=lambda t: [place[n] for n, _ in t[1]]))))
+    return replace(
+        c, formula=Formula(tuple(sorted(terms, key=lambda t: [place[n] for n, _ in t[1]])))
+    )
 
 
 def _scaling(s: Scaling, names: Mapping[str, str], place: Mapping[str, int]) -> Scaling:
-    return Scaling(tuple(sorted(((names[n], w) for n, w in s.weights), key=lambda pair: place[pair[0]])))
+    return Scaling(
+        tuple(sorted(((names[n], w) for n, w in s.weights), key=lambda pair: place[pair[0]]))
+    )
 
 
 def _renaming(r: Renaming, names: Mapping[str, str], place: Mapping[str, int]) -> Renaming:

@@ -13,8 +13,8 @@ MOST_TERMS = 6  # of a coefficient that is written out; longer ones are named
 class Level(StrEnum):
     """Structural identifiability over non-zero complex parameters, for generic values.
 
-    GLOBAL: one parameter vector has this behaviour. LOCAL: several, but finitely many. NOT: infinitely many. UNKNOWN: finitely
-    many; whether more than one is not known.
+    GLOBAL: one parameter vector has this behaviour. LOCAL: several, but finitely many. NOT:
+    infinitely many. UNKNOWN: finitely many; whether more than one is not known.
     """
 
     GLOBAL = "global"
@@ -26,8 +26,8 @@ class Level(StrEnum):
 class Origin(StrEnum):
     """Where a parameter vector with the same behaviour comes from.
 
-    GIVEN: the random point itself. SYMMETRY: a renaming by reciprocity or reflection. DUALITY: the duality theorem (the mirror
-    image at the gap). OTHER: found by inverse synthesis.
+    GIVEN: the random point itself. SYMMETRY: a renaming by reciprocity or reflection. DUALITY: the
+    duality theorem (the mirror image at the gap). OTHER: found by inverse synthesis.
     """
 
     GIVEN = "given"
@@ -38,10 +38,11 @@ class Origin(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """One parameter vector with the behaviour of the random point; `real` and `positive` are said of this point.
+    """One parameter vector with the behaviour of the random point; `real` and `positive` are said
+    of this point.
 
-    `certainty` that it exists: THEOREM for all parameters, PROVEN at this point, NUMERICAL: all equations hold within small
-    balls. `note`: the symmetries behind it.
+    `certainty` that it exists: THEOREM for all parameters, PROVEN at this point, NUMERICAL: all
+    equations hold within small balls. `note`: the symmetries behind it.
     """
 
     origin: Origin
@@ -53,7 +54,9 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True)
 class Renaming:
-    """A symmetry of the structure onto itself: after these exchanges (old, new) the behaviour is the same. A theorem."""
+    """A symmetry of the structure onto itself: after these exchanges (old, new) the behaviour
+    is the same. A theorem.
+    """
 
     moved: tuple[tuple[str, str], ...]
     symmetries: tuple[str, ...]
@@ -67,7 +70,9 @@ class Renaming:
 
 @dataclass(frozen=True, slots=True)
 class Scaling:
-    """p_i -> t^w_i p_i leaves the behaviour as it is, for every t; `weights` lists the w_i that are not zero. Proven."""
+    """p_i -> t^w_i p_i leaves the behaviour as it is, for every t; `weights` lists the w_i that
+    are not zero. Proven.
+    """
 
     weights: tuple[tuple[str, int], ...]
 
@@ -79,15 +84,18 @@ class Scaling:
         groups: dict[int, list[str]] = {}
         for name, weight in self.weights:
             groups.setdefault(weight, []).append(name)
-        return ", ".join(f"{', '.join(names)} {_scaled(weight)}" for weight, names in groups.items())
+        return ", ".join(
+            f"{', '.join(names)} {_scaled(weight)}" for weight, names in groups.items()
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class Combination:
-    """An identifiable function of the parameters; `name` is set for a transfer-function coefficient such as a2.
+    """An identifiable function of the parameters; `name` is set for a transfer-function
+    coefficient such as a2.
 
-    `unique`: whether it has one value for all parameters with the same behaviour (it has finitely many in any case), with the
-    `certainty` of this; UNKNOWN where they could not be listed.
+    `unique`: whether it has one value for all parameters with the same behaviour (it has finitely
+    many in any case), with the `certainty` of this; UNKNOWN where they could not be listed.
     """
 
     formula: Formula
@@ -97,13 +105,19 @@ class Combination:
 
     @property
     def text(self) -> str:
-        """The formula, or which coefficient it is where that is too long to read (a ground damper may be called b1 too)."""
+        """The formula, or which coefficient it is where that is too long to read (a ground
+        damper may be called b1 too).
+        """
         return f"coefficient {self.name}" if self.is_named else self.formula.text
 
     @property
     def latex(self) -> str:
         """The same in LaTeX, without dollar signs."""
-        return rf"\text{{coefficient }} {self.name[0]}_{{{self.name[1:]}}}" if self.is_named else self.formula.latex
+        return (
+            rf"\text{{coefficient }} {self.name[0]}_{{{self.name[1:]}}}"
+            if self.is_named
+            else self.formula.latex
+        )
 
     @property
     def is_named(self) -> bool:

@@ -1,4 +1,6 @@
-"""What is said about one chain: how many parameters can be determined, how many sets of them fit, what can be determined."""
+"""What is said about one chain: how many parameters can be determined, how many sets of them
+fit, what can be determined.
+"""
 
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -8,19 +10,35 @@ from disting.identifiability.codec import decoded
 from disting.identifiability.parts import Alternative, Combination, Level, Renaming, Scaling
 from disting.synthesis.result import Answer
 
-NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+NUMBERS = (
+    "no",
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Identifiability:
     """Identifiability of one chain.
 
-    `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the number of complex parameter
-    vectors with one generic behaviour (`most` None: infinite or not known). `count_grade`: grade of "at most `most`", and of
-    "exactly" where both agree. `alternatives`: those listed at the random point `point` (name, fraction), the point itself
-    first. `singles`: the locally identifiable parameters. `basis`: `rank` independent locally identifiable combinations, the
-    most readable found. That both are identifiable, and that no other parameter is, is wrong with a probability of at most
-    2**-safety (0: proven). `scalings` and `renamings`: symmetries; `self_dual`: see Origin.DUALITY.
+    `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the
+    number of complex parameter vectors with one generic behaviour (`most` None: infinite or not
+    known). `count_grade`: grade of "at most `most`", and of "exactly" where both agree.
+    `alternatives`: those listed at the random point `point` (name, fraction), the point itself
+    first. `singles`: the locally identifiable parameters. `basis`: `rank` independent locally
+    identifiable combinations, the most readable found. That both are identifiable, and that no
+    other parameter is, is wrong with a probability of at most 2**-safety (0: proven). `scalings`
+    and `renamings`: symmetries; `self_dual`: see Origin.DUALITY.
     """
 
     parameters: tuple[str, ...]
@@ -45,7 +63,10 @@ class Identifiability:
         if self.most is not None and self.least > self.most:
             raise ValueError("the least number of solutions is larger than the most")
         if (self.level is Level.NOT) != (self.rank < len(self.parameters)):
-            raise ValueError("a chain is not identifiable exactly if its rank is smaller than the number of its parameters")
+            raise ValueError(
+                "a chain is not identifiable exactly if its rank is smaller than the number of its"
+                " parameters"
+            )
 
     @property
     def sentence(self) -> str:
@@ -110,7 +131,10 @@ def _rest(found: Identifiability) -> str:
     if found.level is Level.GLOBAL:
         return "no other non-zero parameters, real or complex, give the same behaviour"
     if found.level is Level.UNKNOWN:
-        return f"finitely many parameter vectors give the same behaviour, how many is not known ({found.reason})"
+        return (
+            "finitely many parameter vectors give the same behaviour, how many is not known"
+            f" ({found.reason})"
+        )
     return f"{_count(found)} give the same behaviour{_known(found)}{_point(found)}"
 
 
@@ -120,7 +144,11 @@ def _count(found: Identifiability) -> str:
         return f"at least {_number(found.least)} positive parameter vectors"
     if found.most > found.least:
         return f"{_number(found.most)} parameter vectors (not all proven to exist)"
-    kind = "positive" if all(a.certainty is Certainty.THEOREM for a in found.alternatives) else "complex"
+    kind = (
+        "positive"
+        if all(a.certainty is Certainty.THEOREM for a in found.alternatives)
+        else "complex"
+    )
     return f"{_number(found.most)} {kind} parameter vectors"
 
 
@@ -134,4 +162,7 @@ def _point(found: Identifiability) -> str:
     """Real and positive ones, which depend on the point, unless theorems name all."""
     if found.most is None or all(a.certainty is Certainty.THEOREM for a in found.alternatives):
         return ""
-    return f"; with random values {_number(found.real)} of them real, {_number(found.positive)} positive"
+    return (
+        f"; with random values {_number(found.real)} of them real, {_number(found.positive)}"
+        " positive"
+    )

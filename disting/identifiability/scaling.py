@@ -1,8 +1,9 @@
 """Scalings that leave the behaviour as it is: p_i -> t^w_i p_i for all t, with integer weights w.
 
-Numerator and denominator written out are sums of monomials p^a with non-zero coefficients. If all monomials of both have one
-weight w.a, the quotient does not change: an exact proof. The weights are the integer kernel of the differences of exponents. As
-w_i p_i is in the kernel of the Jacobian at every point, a few points prove that there are none, without writing anything out.
+Numerator and denominator written out are sums of monomials p^a with non-zero coefficients. If all
+monomials of both have one weight w.a, the quotient does not change: an exact proof. The weights
+are the integer kernel of the differences of exponents. As w_i p_i is in the kernel of the Jacobian
+at every point, a few points prove that there are none, without writing anything out.
 """
 
 from disting.identifiability.lattice import integer_kernel, short_vectors

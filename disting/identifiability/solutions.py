@@ -1,15 +1,19 @@
-"""All parameter vectors with the behaviour of one random rational point: how many, which are known exactly, which are real.
+"""All parameter vectors with the behaviour of one random rational point: how many, which are known
+exactly, which are real.
 
-Number of solutions. Let n parameters, all of them determinable, and D = 3 N_B + 2. The pairs (p, q) of equal transfer functions
-with all elements of q non-zero have components of degree D^(n+1) at most (Bezout, see `disting.conditions.exact`). Off the
-hypersurface where the projection to p is not proper (Jelonek 1999), of no larger degree, every solution of a generic point
-near p0 is near a solution of p0; where the Jacobian there is injective (a Krawczyk step proves it) only one is. So a generic
-point has no more solutions than were listed. Off the images of the components that do not dominate, of no larger degree
-either, no fewer than those proven to exist. Schwartz and Zippel bound the probability that p0 lies on either hypersurface.
+Number of solutions. Let n parameters, all of them determinable, and D = 3 N_B + 2. The pairs (p,
+q) of equal transfer functions with all elements of q non-zero have components of degree D^(n+1) at
+most (Bezout, see `disting.conditions.exact`). Off the hypersurface where the projection to p is
+not proper (Jelonek 1999), of no larger degree, every solution of a generic point near p0 is near a
+solution of p0; where the Jacobian there is injective (a Krawczyk step proves it) only one is. So a
+generic point has no more solutions than were listed. Off the images of the components that do not
+dominate, of no larger degree either, no fewer than those proven to exist. Schwartz and Zippel
+bound the probability that p0 lies on either hypersurface.
 
-Exactly known are the point itself, its renamings by symmetries of the chain onto itself, and, if the chain is its own dual, the
-dual points. The others exist if as many coefficients as parameters are not constant, since a Krawczyk step then proves all
-equations, or if the synthesis has no tests.
+Exactly known are the point itself, its renamings by symmetries of the chain onto itself, and, if
+the chain is its own dual, the dual points. The others exist if as many coefficients as parameters
+are not constant, since a Krawczyk step then proves all equations, or if the synthesis has no
+tests.
 """
 
 from collections.abc import Mapping
@@ -46,7 +50,9 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Listing:
-    """All members found, the point first; bounds of their number for a generic point; `complete`: none is missing."""
+    """All members found, the point first; bounds of their number for a generic point;
+    `complete`: none is missing.
+    """
 
     point: Mapping[str, fmpq]
     members: tuple[Member, ...]
@@ -58,18 +64,27 @@ class Listing:
 
 
 def listing(chain: Chain, invariants: int, seed: str) -> Listing:
-    """Solutions of a canonical chain at a random point; `invariants` = number of its non-constant coefficients.
+    """Solutions of a canonical chain at a random point; `invariants` = number of its non-constant
+    coefficients.
 
     A dead time is left out: a rational function times exp(-Td s) determines both factors.
     """
     plain = _plain(chain)
     for draw in range(DRAWS):
-        point = rational_point(chain, about(f"identifiability:{seed}:{draw}", chain), point_bits(chain))
-        found = Fibre(Status.NOT_COVERED) if _many(plain) else fibre(plain, target(plain.structure, point))
+        point = rational_point(
+            chain, about(f"identifiability:{seed}:{draw}", chain), point_bits(chain)
+        )
+        found = (
+            Fibre(Status.NOT_COVERED)
+            if _many(plain)
+            else fibre(plain, target(plain.structure, point))
+        )
         if found.status is not Status.DEGENERATE:
             break
     known = _listing(plain, invariants - chain.dead_time, point, found)
-    return replace(known, members=tuple(replace(m, values={**point, **m.values}) for m in known.members))
+    return replace(
+        known, members=tuple(replace(m, values={**point, **m.values}) for m in known.members)
+    )
 
 
 def _plain(chain: Chain) -> Chain:
@@ -88,13 +103,27 @@ def _listing(chain: Chain, invariants: int, point: Mapping[str, fmpq], found: Fi
         count = foster_count(chain) or 0
         return Listing(point, tuple(exact), found.status, count, count, (Certainty.THEOREM, 0), "")
     if found.status is not Status.COMPLETE:
-        certainty = Certainty.PROVEN if found.solutions and is_untested(chain) else Certainty.NUMERICAL
+        certainty = (
+            Certainty.PROVEN if found.solutions and is_untested(chain) else Certainty.NUMERICAL
+        )
         others = [_other(s, certainty) for s in found.solutions]
-        return Listing(point, (*exact, *others), found.status, len(exact), None, (Certainty.THEOREM, 0), found.reason)
-    others = [_other(s, _existence(chain, s, invariants)) for s in _unmatched(found.solutions, exact)]
+        return Listing(
+            point,
+            (*exact, *others),
+            found.status,
+            len(exact),
+            None,
+            (Certainty.THEOREM, 0),
+            found.reason,
+        )
+    others = [
+        _other(s, _existence(chain, s, invariants)) for s in _unmatched(found.solutions, exact)
+    ]
     least = len(exact) + sum(m.said.certainty is not Certainty.NUMERICAL for m in others)
     grade = _grade(chain, found)
-    return Listing(point, (*exact, *others), found.status, least, len(found.solutions), grade, found.reason)
+    return Listing(
+        point, (*exact, *others), found.status, least, len(found.solutions), grade, found.reason
+    )
 
 
 def renamings(chain: Chain) -> tuple[Renaming, ...]:
@@ -117,7 +146,9 @@ def is_self_dual(chain: Chain) -> bool:
 
 
 def images(chain: Chain, point: Mapping[str, fmpq]) -> list[Member]:
-    """The point, and the points that symmetries and duality make of it: exact, real and positive."""
+    """The point, and the points that symmetries and duality make of it: exact, real and
+    positive.
+    """
     symmetric = renamings(chain)
     known = [Member(point, _exact(Origin.GIVEN, ""))]
     known += [Member(_moved(point, r), _exact(Origin.SYMMETRY, r.text)) for r in symmetric]
@@ -138,20 +169,29 @@ def _moved(point: Mapping[str, fmpq], renaming: Renaming) -> dict[str, fmpq]:
 
 
 def _unmatched(solutions: tuple[Solution, ...], exact: list[Member]) -> list[Solution]:
-    """The solutions that are none of those known exactly; raises ContradictionError if one of these is missing."""
+    """The solutions that are none of those known exactly; raises ContradictionError if one of
+    these is missing.
+    """
     rest = list(solutions)
     for member in exact:
-        same = [s for s in rest if all(s.values[name].overlaps(acb(value)) for name, value in member.values.items())]
+        same = [
+            s
+            for s in rest
+            if all(s.values[name].overlaps(acb(value)) for name, value in member.values.items())
+        ]
         if not same:
             raise ContradictionError(
-                f"a complete fibre lacks a parameter vector that belongs to it ({member.said.origin.value})"
+                "a complete fibre lacks a parameter vector that belongs to it"
+                f" ({member.said.origin.value})"
             )
         rest = [s for s in rest if s is not same[0]]
     return rest
 
 
 def _other(solution: Solution, certainty: Certainty) -> Member:
-    return Member(solution.values, Alternative(Origin.OTHER, solution.real, solution.positive, certainty))
+    return Member(
+        solution.values, Alternative(Origin.OTHER, solution.real, solution.positive, certainty)
+    )
 
 
 def _existence(chain: Chain, solution: Solution, invariants: int) -> Certainty:
@@ -162,10 +202,15 @@ def _existence(chain: Chain, solution: Solution, invariants: int) -> Certainty:
 
 
 def _grade(chain: Chain, found: Fibre) -> Grade:
-    """Of the statement that a generic point has no more solutions than were listed, and no fewer than those that exist."""
+    """Of the statement that a generic point has no more solutions than were listed, and no
+    fewer than those that exist.
+    """
     if foster_count(chain) is not None:
         if foster_count(chain) != len(found.solutions):
-            raise ContradictionError(f"Foster's theorem gives {foster_count(chain)} solutions, not {len(found.solutions)}")
+            raise ContradictionError(
+                f"Foster's theorem gives {foster_count(chain)} solutions, not"
+                f" {len(found.solutions)}"
+            )
         return Certainty.THEOREM, 0
     simple = all(s.confirmation is Confirmation.SUBSYSTEM for s in found.solutions)
     bounded = simple and not found.tests.boundary
@@ -173,7 +218,8 @@ def _grade(chain: Chain, found: Fibre) -> Grade:
 
 
 def foster_count(chain: Chain) -> int | None:
-    """Number of solutions of an undamped chain with force and sensor at one place: all ways to share out poles and zeros.
+    """Number of solutions of an undamped chain with force and sensor at one place: all ways to
+    share out poles and zeros.
 
     All of them are real and positive (R. Foster, A reactance theorem, 1924). None for other chains.
 
@@ -181,7 +227,13 @@ def foster_count(chain: Chain) -> int | None:
     (3, None)
     """
     grounded, free = segments(chain)
-    if chain.lag or chain.ground_dampers or chain.damped or free.distance or (grounded is not None and grounded.distance):
+    if (
+        chain.lag
+        or chain.ground_dampers
+        or chain.damped
+        or free.distance
+        or (grounded is not None and grounded.distance)
+    ):
         return None
     ways = comb(free.nodes - 1, free.a - 1)
     if grounded is not None:

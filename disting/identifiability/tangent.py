@@ -1,10 +1,11 @@
 """Directions of the parameter space that no experiment sees, at random points modulo primes.
 
-A function f of the parameters is locally identifiable exactly if its gradient lies in the row space of the Jacobian of the
-transfer-function coefficients at a generic point, that is if grad f . v = 0 for all v of the kernel (E. Walter, L. Pronzato
-1997). With f = sum c_j f_j and unknown constants c_j this is a linear system in c, one row for each kernel vector at each
-point: its solutions are all identifiable combinations of the f_j with constant coefficients. Monomials p^a are those of
-f_j = log p_j.
+A function f of the parameters is locally identifiable exactly if its gradient lies in the row
+space of the Jacobian of the transfer-function coefficients at a generic point, that is if grad f .
+v = 0 for all v of the kernel (E. Walter, L. Pronzato 1997). With f = sum c_j f_j and unknown
+constants c_j this is a linear system in c, one row for each kernel vector at each point: its
+solutions are all identifiable combinations of the f_j with constant coefficients. Monomials p^a
+are those of f_j = log p_j.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -29,7 +30,9 @@ Slopes = list[list[int]]  # one gradient a function
 
 @dataclass(frozen=True, slots=True)
 class Tangent:
-    """A point (residues by parameter name), the rows of the Jacobian there that are not zero, and a basis of its kernel."""
+    """A point (residues by parameter name), the rows of the Jacobian there that are not zero,
+    and a basis of its kernel.
+    """
 
     values: dict[str, int]
     modulus: int
@@ -68,10 +71,14 @@ def proof_tangents(structure: Structure, seed: str, points: int) -> tuple[Tangen
 
 
 def search_tangents(structure: Structure, seed: str, count: int) -> Iterator[Tangent]:
-    """Points that share one prime and are none of those of the proofs: for the search of candidates."""
+    """Points that share one prime and are none of those of the proofs: for the search of
+    candidates.
+    """
     label = about(f"identifiability:{seed}:search", structure)
     modulus = prime(label)
-    points = (tuple(residues(f"{label}:{k}", len(structure.parameters), modulus)) for k in range(count))
+    points = (
+        tuple(residues(f"{label}:{k}", len(structure.parameters), modulus)) for k in range(count)
+    )
     return (tangent(Drawn(structure, p, modulus, quotient(structure, p, modulus))) for p in points)
 
 
@@ -84,22 +91,32 @@ def combinations(seen: Sequence[Tangent], terms: Sequence[Formula]) -> list[list
 
 
 def monomials(seen: Sequence[Tangent]) -> list[list[int]]:
-    """Short integer exponents a such that the product of p_i^a_i is identifiable at the points seen; candidates likewise."""
+    """Short integer exponents a such that the product of p_i^a_i is identifiable at the points
+    seen; candidates likewise.
+    """
     return _solved(seen, _logarithms)
 
 
 def most_invariants(structure: Structure) -> int:
-    """Number of coefficients of a chain's transfer function, the denominator monic, that are not zero for all parameters."""
+    """Number of coefficients of a chain's transfer function, the denominator monic, that are
+    not zero for all parameters.
+    """
     return sum(map(len, powers(structure))) - 1 + structure.dead_time
 
 
 def maybe_scaled(seen: Sequence[Tangent]) -> bool:
-    """Whether some weights w have w_i p_i in the kernel at all points seen; False is a proof that no scaling exists.
+    """Whether some weights w have w_i p_i in the kernel at all points seen; False is a proof that
+    no scaling exists.
 
-    J diag(p) w = 0 at all points, which a full rank of these matrices on top of each other rules out, modulo a prime too.
+    J diag(p) w = 0 at all points, which a full rank of these matrices on top of each other rules
+    out, modulo a prime too.
     """
     modulus, size = seen[0].modulus, len(seen[0].values)
-    rows = [[g * x % modulus for g, x in zip(row, t.values.values(), strict=True)] for t in seen for row in t.rows]
+    rows = [
+        [g * x % modulus for g, x in zip(row, t.values.values(), strict=True)]
+        for t in seen
+        for row in t.rows
+    ]
     return int(nmod_mat(len(rows), size, [x for row in rows for x in row], modulus).rank()) < size
 
 
@@ -113,7 +130,9 @@ def _solved(seen: Sequence[Tangent], gradients: Callable[[Tangent], Slopes]) -> 
     for t in seen:
         slopes = gradients(t)
         rows += [[_dot(g, v) % t.modulus for g in slopes] for v in t.kernel]
-    kernel, nullity = nmod_mat(len(rows), len(rows[0]), [x for row in rows for x in row], seen[0].modulus).nullspace()
+    kernel, nullity = nmod_mat(
+        len(rows), len(rows[0]), [x for row in rows for x in row], seen[0].modulus
+    ).nullspace()
     columns = kernel.transpose().tolist()[: int(nullity)]
     whole = (_integral([int(x) for x in column], seen[0].modulus) for column in columns)
     return short_vectors([v for v in whole if max(map(abs, v)) <= COEFFICIENT_LIMIT])

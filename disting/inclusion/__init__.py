@@ -1,7 +1,8 @@
-"""One-sided inclusion: whether the models of one chain are models, or limits of models, of another one of larger rank.
+"""One-sided inclusion: whether the models of one chain are models, or limits of models, of another
+one of larger rank.
 
-`decide` compares chains of one size and sends those of different sizes to `across_sizes`; `finding` holds what is found and its
-text form, `verify` checks it again.
+`decide` compares chains of one size and sends those of different sizes to `across_sizes`;
+`finding` holds what is found and its text form, `verify` checks it again.
 """
 
 from disting.inclusion.decide import CLOSURE as CLOSURE

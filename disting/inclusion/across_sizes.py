@@ -1,16 +1,20 @@
-"""Inclusion of a chain in one with more masses: whether its models are limits of models of the larger kind.
+"""Inclusion of a chain in one with more masses: whether its models are limits of models of the
+larger kind.
 
-The smaller model has fewer poles, but it may lie in the closure of the larger one, where poles and zeros cancel. What settles a
-pair first is kept:
+The smaller model has fewer poles, but it may lie in the closure of the larger one, where poles and
+zeros cancel. What settles a pair first is kept:
 
 1. Degrees: a limit has no more zeros and poles than the models that it is a limit of. Refuted.
-2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is computed. Proven.
+2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is
+   computed. Proven.
 3. `meeting`: dimensions that add up, for the whole or for a row after such limits. Proven.
-4. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted, with the rank's error bound.
+4. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted,
+   with the rank's error bound.
 5. `pole_sharing`: models of the smaller kind that are no limits. Refuted; this costs more.
 6. `limit_fibre`: the smaller models among what limits of rows lead to. Found with an error bound.
 
-The larger chain, with more poles, never lies in the smaller one: its generic model does not have as few.
+The larger chain, with more poles, never lies in the smaller one: its generic model does not have
+as few.
 """
 
 from collections.abc import Iterator
@@ -22,7 +26,14 @@ from disting.algebra.sampling import about
 from disting.certainty import Certainty
 from disting.conditions.exact import rational_part, theorem
 from disting.conditions.subject import Subject
-from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.across_sizes import (
+    Limit,
+    LimitFibre,
+    Meeting,
+    PartLimit,
+    PoleSharing,
+    TooLarge,
+)
 from disting.evidence.conditions import Counts
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.limit_fibre import contained
@@ -42,7 +53,9 @@ REMEMBERED = 1024  # chains whose twins are kept
 
 
 def by_sizes(left: Subject, right: Subject) -> InclusionFinding | None:
-    """Inclusion of chains of different sizes, of one sensor and dead time; None where `by_computing` is to be asked."""
+    """Inclusion of chains of different sizes, of one sensor and dead time; None where
+    `by_computing` is to be asked.
+    """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
     one, other = small.canonical.chain, large.canonical.chain
@@ -51,12 +64,16 @@ def by_sizes(left: Subject, right: Subject) -> InclusionFinding | None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
         return InclusionFinding(inside, Certainty.PROVEN, evidence=found)
     if not fewer_poles(one, other):
-        return InclusionFinding(Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles")
+        return InclusionFinding(
+            Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles"
+        )
     return refuted(small, large, left_is_larger)
 
 
 def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    """What takes longer, for a chain with fewer masses on the left: its poles against inclusion, a fibre of limits for it."""
+    """What takes longer, for a chain with fewer masses on the left: its poles against
+    inclusion, a fibre of limits for it.
+    """
     label = about(f"{settings.seed}:poles", small, large)
     points = excluding_points(small, large, label) if fewer_poles(small, large) else ()
     if points:
@@ -65,7 +82,9 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
         return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
     found = contained(small, large, settings.seed)
     if found is None:
-        return InclusionFinding(Inclusion.UNKNOWN, reason="no limit is known, and nothing against one")
+        return InclusionFinding(
+            Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
+        )
     solved = found.solved
     evidence = LimitFibre(False, found.steps, solved.left_given, solved.labels, solved.solutions)
     return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, found.safety, evidence)
@@ -85,7 +104,9 @@ def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meetin
 
 
 def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limit]:
-    """Limits with a count of dimensions, and limits of chains that a theorem says to be the same."""
+    """Limits with a count of dimensions, and limits of chains that a theorem says to be the
+    same.
+    """
     for parts in part_limits(small, large, counting=True):
         yield Limit(left_is_larger, parts)
     for one, other in product(twins(small), twins(large)):
@@ -95,7 +116,9 @@ def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limi
 
 @lru_cache(maxsize=REMEMBERED)
 def twins(chain: Chain) -> tuple[Chain, ...]:
-    """The canonical chains that a theorem says to be the same, itself included; itself alone if it is in no family."""
+    """The canonical chains that a theorem says to be the same, itself included; itself alone if
+    it is in no family.
+    """
     if chain.ground_dampers or chain.lag or chain.dead_time:
         return (chain,)
     members = Family(chain.n_masses, chain.damped, chain.sensor)
@@ -118,7 +141,9 @@ def part_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple
 
 
 def refuted(small: Subject, large: Subject, left_is_larger: bool) -> InclusionFinding | None:
-    """What degrees and ranks say against the inclusion of a chain with fewer poles; None if nothing."""
+    """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
+    nothing.
+    """
     one, other = small.canonical.chain, large.canonical.chain
     if exceeds(one, other):
         counts = Counts(*ordered(degrees_of(one), degrees_of(other), not left_is_larger))
@@ -132,7 +157,9 @@ def refuted(small: Subject, large: Subject, left_is_larger: bool) -> InclusionFi
 
 def exceeds(small: Chain, large: Chain) -> bool:
     """More zeros or more poles than any limit of the larger chain has."""
-    return any(here > there for here, there in zip(degrees_of(small), degrees_of(large), strict=True))
+    return any(
+        here > there for here, there in zip(degrees_of(small), degrees_of(large), strict=True)
+    )
 
 
 def fewer_poles(small: Chain, large: Chain) -> bool:
@@ -146,7 +173,9 @@ def degrees_of(chain: Chain) -> tuple[int, int]:
 
 
 def _part(given: str, row: Row, wanted: str, target: Row, counting: bool) -> PartLimit | None:
-    """A way from one row to the other, each of its limits an identity; limits of elements alone first."""
+    """A way from one row to the other, each of its limits an identity; limits of elements alone
+    first.
+    """
     ways = reached(row)
     if target in ways and target in follows(row, ways[target]):
         return PartLimit(given, wanted, ways[target])

@@ -1,10 +1,19 @@
-"""Checks what was found about the inclusion of a chain in one with more masses again, from the evidence alone."""
+"""Checks what was found about the inclusion of a chain in one with more masses again, from the
+evidence alone.
+"""
 
 from dataclasses import astuple
 
 from disting.conditions.exact import rational_part
 from disting.conditions.subject import Subject
-from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.across_sizes import (
+    Limit,
+    LimitFibre,
+    Meeting,
+    PartLimit,
+    PoleSharing,
+    TooLarge,
+)
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Solved
 from disting.evidence.kinds import AcrossSizes
@@ -19,13 +28,17 @@ from disting.model.chain import Chain
 
 
 def confirms_across_sizes(evidence: AcrossSizes | Counts, left: Subject, right: Subject) -> bool:
-    """Whether the evidence is true of the two chains; ranks are taken from their profiles, counts made at fresh points."""
+    """Whether the evidence is true of the two chains; ranks are taken from their profiles,
+    counts made at fresh points.
+    """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
     one, other = small.canonical.chain, large.canonical.chain
     match evidence:
         case Counts():
-            same = (evidence.left, evidence.right) == ordered(degrees_of(one), degrees_of(other), not left_is_larger)
+            same = (evidence.left, evidence.right) == ordered(
+                degrees_of(one), degrees_of(other), not left_is_larger
+            )
             return same and exceeds(one, other) and fewer_poles(one, other)
         case TooLarge():
             same = (evidence.left, evidence.right) == (left.rank, right.rank)
@@ -43,20 +56,32 @@ def confirms_across_sizes(evidence: AcrossSizes | Counts, left: Subject, right: 
             return fewer and excludes(one, other, evidence.label, evidence.points)
         case LimitFibre():
             solved = Solved(evidence.small_given, evidence.labels, evidence.solutions)
-            return evidence.left_is_larger == left_is_larger and contains(one, other, evidence.steps, solved)
+            return evidence.left_is_larger == left_is_larger and contains(
+                one, other, evidence.steps, solved
+            )
 
 
 def _twin(chain: Chain, indices: tuple[int, ...]) -> Chain | None:
     """The twin with these indices; the chain itself for ()."""
-    return next((c for c in twins(chain) if tuple(c.indices) == indices), None) if indices else chain
+    return (
+        next((c for c in twins(chain) if tuple(c.indices) == indices), None) if indices else chain
+    )
 
 
 def _follow(parts: tuple[PartLimit, ...], small: Chain, large: Chain) -> bool:
-    """Whether the parts are all rows of the smaller chain, made from different rows of the larger one."""
+    """Whether the parts are all rows of the smaller chain, made from different rows of the
+    larger one.
+    """
     wanted, given = rows_of(small), rows_of(large)
     names = sorted(p.wanted for p in parts), {p.given for p in parts}
-    complete = names[0] == sorted(wanted) and len(names[1]) == len(parts) and names[1] <= given.keys()
-    return small.lag == large.lag and complete and all(_leads(p, given[p.given], wanted[p.wanted]) for p in parts)
+    complete = (
+        names[0] == sorted(wanted) and len(names[1]) == len(parts) and names[1] <= given.keys()
+    )
+    return (
+        small.lag == large.lag
+        and complete
+        and all(_leads(p, given[p.given], wanted[p.wanted]) for p in parts)
+    )
 
 
 def _leads(part: PartLimit, row: Row, target: Row) -> bool:

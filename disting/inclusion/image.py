@@ -1,15 +1,19 @@
-"""Equivalents with finite elements other than zero: whether generic models of a chain of smaller rank have any in another one.
+"""Equivalents with finite elements other than zero: whether generic models of a chain of smaller
+rank have any in another one.
 
-What one fibre proves. Let a rational point p0 of the given model have an equivalent in the other one, all elements q of it
-finite and not zero (see `disting.synthesis`). The triples (p, q, t) with Phi2(q) = t Phi1(p) and all elements of q non-zero
-(one more unknown and equation say so) are given by c + 1 equations of degree D at most, c the number of coefficients that
-do not vanish identically in both, D as in `disting.conditions.exact`. The degrees of all components of the set add up to
-D^(c + 1) at most (Bezout, J. Heintz, Definability and fast quantifier elimination in algebraically closed fields, Theoret.
-Comput. Sci. 24, 1983), and projections have no larger degrees. So if no component dominates the points p, those with an
-equivalent lie on a hypersurface of degree D^(c + 1), which p0 meets by accident only. Otherwise generic p have equivalents,
-for what is dense and constructible holds a dense open set.
+What one fibre proves. Let a rational point p0 of the given model have an equivalent in the other
+one, all elements q of it finite and not zero (see `disting.synthesis`). The triples (p, q, t) with
+Phi2(q) = t Phi1(p) and all elements of q non-zero (one more unknown and equation say so) are given
+by c + 1 equations of degree D at most, c the number of coefficients that do not vanish identically
+in both, D as in `disting.conditions.exact`. The degrees of all components of the set add up to
+D^(c + 1) at most (Bezout, J. Heintz, Definability and fast quantifier elimination in algebraically
+closed fields, Theoret. Comput. Sci. 24, 1983), and projections have no larger degrees. So if no
+component dominates the points p, those with an equivalent lie on a hypersurface of degree D^(c +
+1), which p0 meets by accident only. Otherwise generic p have equivalents, for what is dense and
+constructible holds a dense open set.
 
-An empty fibre proves the opposite, as in `disting.conditions.exact`, whose argument does not use equal ranks.
+An empty fibre proves the opposite, as in `disting.conditions.exact`, whose argument does not use
+equal ranks.
 """
 
 from dataclasses import replace
@@ -44,7 +48,9 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
 
 
 def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    unknown = InclusionFinding(Inclusion.UNKNOWN, reason="no method finds all equivalents with finite elements")
+    unknown = InclusionFinding(
+        Inclusion.UNKNOWN, reason="no method finds all equivalents with finite elements"
+    )
     if any(c.lag or c.dead_time for c in (small, large)) or small.damped != large.damped:
         return unknown
     found = member(small, large, settings.seed)
@@ -57,7 +63,9 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
     return InclusionFinding(inclusion, Certainty.BOUNDED, safety, _evidence(found))
 
 
-def _by_ideal(small: Chain, large: Chain, settings: Settings, otherwise: InclusionFinding) -> InclusionFinding:
+def _by_ideal(
+    small: Chain, large: Chain, settings: Settings, otherwise: InclusionFinding
+) -> InclusionFinding:
     """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
     maps = (normalised(rational_part(c)) for c in (small, large))
     found = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
@@ -68,7 +76,9 @@ def _by_ideal(small: Chain, large: Chain, settings: Settings, otherwise: Inclusi
 
 
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
-    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B bits a coordinate: one equivalent tells of generic ones."""
+    """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B bits a coordinate: one equivalent
+    tells of generic ones.
+    """
     here, there = (powers(rational_part(c)) for c in (small, large))
     coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)

@@ -1,17 +1,19 @@
 """Limits of a row of masses in which one element vanishes or grows without bound.
 
-An element with parameter w enters A(s) as w v v^T times a power of s, so numerator and denominator of the receptance are
-affine in w: N/D = (N_0 + w N_1)/(D_0 + w D_1). For w without bound the limit is N_1/D_1, for w = 0 it is N_0/D_0:
+An element with parameter w enters A(s) as w v v^T times a power of s, so numerator and denominator
+of the receptance are affine in w: N/D = (N_0 + w N_1)/(D_0 + w D_1). For w without bound the limit
+is N_1/D_1, for w = 0 it is N_0/D_0:
 
 | element | limit | what remains |
 |---|---|---|
-| spring (its damper 0) | ∞ | its two masses, and their dampers to the ground, are one; at the wall the mass rests |
+| spring (its damper 0) | ∞ | its masses, with their ground dampers, are one; or one with the wall |
 | spring with its damper | 0 | the piece with force and sensor |
 | mass | ∞ | it is a wall; the piece with force and sensor hangs on it |
 | damper to the ground | 0 | the row without it |
 
-So every row that results is, for all values of its parameters, a limit of rows of the larger kind; step by step also after
-several limits. What is no row with one wall at most, or has force and sensor in two pieces, is left out.
+So every row that results is, for all values of its parameters, a limit of rows of the larger kind;
+step by step also after several limits. What is no row with one wall at most, or has force and
+sensor in two pieces, is left out.
 """
 
 from collections.abc import Iterator
@@ -27,12 +29,15 @@ from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring
 INFINITE, ZERO = "∞", "0"
 REMEMBERED = 1024  # rows whose limits, and limits whose identities, are kept
 Step = tuple[str, str]
-"""An element of the canonical form at hand, and what it tends to: INFINITE or ZERO (a spring together with its damper)."""
+"""An element of the canonical form at hand, and what it tends to: INFINITE or ZERO (a spring
+together with its damper).
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Specialised:
-    """One limit of a row: the element, what it tends to, the `row` that results, and what becomes of the nodes 0, 1, ...
+    """One limit of a row: the element, what it tends to, the `row` that results, and what becomes
+    of the nodes 0, 1, ...
 
     `nodes[i]` is the number of node i in the new row, 0 the wall, or None if it drops out.
     """
@@ -62,18 +67,24 @@ def specialised(row: Row) -> Iterator[Specialised]:
     for k in range(1, n + 1):
         yield from _made(row, Mass(k), INFINITE, [i - k if i >= k else None for i in range(n + 1)])
         if not row.walled:
-            yield from _made(row, Mass(k), INFINITE, [k - i if 0 < i <= k else None for i in range(n + 1)])
+            yield from _made(
+                row, Mass(k), INFINITE, [k - i if 0 < i <= k else None for i in range(n + 1)]
+            )
     for k in row.ground_dampers:
         yield from _made(row, GroundDamper(k), ZERO, list(range(n + 1)))
 
 
 @lru_cache(maxsize=REMEMBERED)
 def reached(row: Row) -> dict[Row, tuple[Step, ...]]:
-    """All canonical rows that limits of a canonical row lead to, itself included, each with a shortest way there."""
+    """All canonical rows that limits of a canonical row lead to, itself included, each with a
+    shortest way there.
+    """
     found: dict[Row, tuple[Step, ...]] = {row: ()}
     level = [row]
     while level:
-        ends = [(s.row.canonical, (*found[here], s.step)) for here in level for s in specialised(here)]
+        ends = [
+            (s.row.canonical, (*found[here], s.step)) for here in level for s in specialised(here)
+        ]
         level = []
         for below, steps in ends:
             if below not in found:
@@ -93,7 +104,8 @@ def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
 
 @lru_cache(maxsize=REMEMBERED)
 def is_limit(row: Row, s: Specialised) -> bool:
-    """N_1/D_1 or N_0/D_0 against the new row's transfer function: an identity of polynomials in s and all parameters.
+    """N_1/D_1 or N_0/D_0 against the new row's transfer function: an identity of polynomials in s
+    and all parameters.
 
     >>> all(is_limit(row, s) for row in (Row(2, False, 1, 1),) for s in specialised(row))
     True
@@ -103,7 +115,9 @@ def is_limit(row: Row, s: Specialised) -> bool:
         return False
     ring = symbols(["s", *row.structure.parameters])
     zero = ring["s"] - ring["s"]
-    values = ring | dict.fromkeys({Damper(s.element.at).parameter} & ring.keys() if s.element.kind == "k" else (), zero)
+    values = ring | dict.fromkeys(
+        {Damper(s.element.at).parameter} & ring.keys() if s.element.kind == "k" else (), zero
+    )
     num, den = _written(row, values)
     num, den = (_part(p, s.element.parameter, s.limit) for p in (num, den))
     new = {name: sum((values[old] for old in olds), zero) for name, olds in moved.items()}
@@ -120,7 +134,9 @@ def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> It
     left = {nodes[i] for i in row.ground_dampers if limit != ZERO or element != GroundDamper(i)}
     dampers = tuple(sorted(i for i in left if i))
     n_masses = max(i for i in nodes if i is not None)
-    yield Specialised(element, limit, Row(n_masses, walled, act, meas, row.damped, dampers), tuple(nodes))
+    yield Specialised(
+        element, limit, Row(n_masses, walled, act, meas, row.damped, dampers), tuple(nodes)
+    )
 
 
 def _written(row: Row, values: dict[str, Any]) -> tuple[Any, Any]:
@@ -137,9 +153,11 @@ def _part(polynomial: Any, name: str, limit: str) -> Any:
 
 
 def _moved(row: Row, s: Specialised) -> dict[str, list[str]] | None:
-    """Parameters of the new row, and those given that add up to each: what comes together is added, what drops out left out.
+    """Parameters of the new row, and those given that add up to each: what comes together is
+    added, what drops out left out.
 
-    So each is a sum of given parameters of its own and takes all values; None if one would be of no given parameter.
+    So each is a sum of given parameters of its own and takes all values; None if one would be of
+    no given parameter.
     """
     found: dict[str, list[str]] = {name: [] for name in s.row.structure.parameters}
     for e in row.structure.elements:

@@ -1,20 +1,23 @@
-"""Closures that must meet, because their dimensions add up: a count that proves one model to be a limit of another.
+"""Closures that must meet, because their dimensions add up: a count that proves one model to be a
+limit of another.
 
-Write the transfer functions of the larger model as N/D, and let its pairs (N : D) have `coordinates` coefficients that do not
-vanish identically. The closure V of these pairs in the projective space P of dimension `coordinates` - 1 has at least the
-dimension `rank`. A function n/d is written there as (c n : c d) for every polynomial c with fitting powers of s; these pairs
-are a linear subspace of dimension `factors` - 1. Two closed sets meet in a projective space if their dimensions add up to at
-least that of the space (Hartshorne, Algebraic Geometry, I.7.2), so
+Write the transfer functions of the larger model as N/D, and let its pairs (N : D) have
+`coordinates` coefficients that do not vanish identically. The closure V of these pairs in the
+projective space P of dimension `coordinates` - 1 has at least the dimension `rank`. A function n/d
+is written there as (c n : c d) for every polynomial c with fitting powers of s; these pairs are a
+linear subspace of dimension `factors` - 1. Two closed sets meet in a projective space if their
+dimensions add up to at least that of the space (Hartshorne, Algebraic Geometry, I.7.2), so
 
     rank + factors >= coordinates
 
-proves that some (c n : c d) lies in V: models of the larger kind exist whose transfer functions tend to n/d, wherever c d is
-not zero. That holds for every n/d of these degrees.
+proves that some (c n : c d) lies in V: models of the larger kind exist whose transfer functions
+tend to n/d, wherever c d is not zero. That holds for every n/d of these degrees.
 
-`same_mass`: a free row with dampers between its masses alone has s^2 G = 1/m + O(s^2), m being its total mass, for its
-momentum is the impulse. So the two lowest coefficients of D are those of N times m. Multiplying all elements by a number
-multiplies m by it; so the pairs of V with a given m have dimension rank - 1 at least. They lie, with all (c n : c d), in the
-subspace of the two equations a_0 = m b_0 and a_1 = m b_1. So one dimension less is needed.
+`same_mass`: a free row with dampers between its masses alone has s^2 G = 1/m + O(s^2), m being its
+total mass, for its momentum is the impulse. So the two lowest coefficients of D are those of N
+times m. Multiplying all elements by a number multiplies m by it; so the pairs of V with a given m
+have dimension rank - 1 at least. They lie, with all (c n : c d), in the subspace of the two
+equations a_0 = m b_0 and a_1 = m b_1. So one dimension less is needed.
 """
 
 from dataclasses import dataclass
@@ -44,7 +47,9 @@ class Room:
 
 
 def room(small: Structure, large: Structure, seed: str = "meeting") -> Room:
-    """The numbers for two structures with the same sensor, without dead time; the rank is seen at points of the seed."""
+    """The numbers for two structures with the same sensor, without dead time; the rank is seen
+    at points of the seed.
+    """
     wanted, given = powers(small), powers(large)
     factors = sum(_fits(c, wanted, given) for c in range(max(given[1]) + 1))
     return Room(least_rank(large, seed), sum(map(len, given)), factors, _same_mass(small, large))
@@ -57,12 +62,16 @@ def _fits(c: int, wanted: Powers, given: Powers) -> bool:
 
 @lru_cache(maxsize=REMEMBERED)
 def least_rank(structure: Structure, seed: str = "meeting") -> int:
-    """A lower bound of the rank of the coefficients: what has full rank modulo a prime has it over the rationals."""
+    """A lower bound of the rank of the coefficients: what has full rank modulo a prime has it
+    over the rationals.
+    """
     return max(_rank_at(structure, f"{seed}:{k}") for k in range(POINTS))
 
 
 def most_rank(structure: Structure) -> int:
-    """An upper bound of the rank: the number of parameters, or of coefficients up to a common factor."""
+    """An upper bound of the rank: the number of parameters, or of coefficients up to a common
+    factor.
+    """
     return min(len(structure.parameters), sum(map(len, powers(structure))) - 1)
 
 
@@ -71,14 +80,23 @@ def _rank_at(structure: Structure, label: str) -> int:
 
 
 def _same_mass(small: Structure, large: Structure) -> bool:
-    """Whether both tell the mass of a free row in the same two pairs of coefficients, odd powers of s among them."""
+    """Whether both tell the mass of a free row in the same two pairs of coefficients, odd
+    powers of s among them.
+    """
     mine, theirs = powers(small), powers(large)
     alike = all(min(m) == min(t) and min(t) + 1 in t for m, t in zip(mine, theirs, strict=True))
     return alike and all(_keeps_momentum(x) for x in (small, large))
 
 
 def _keeps_momentum(structure: Structure) -> bool:
-    """Whether the force acts on a row that neither springs nor dampers tie to the ground; no lag."""
-    first, last = next(span for span in structure.blocks if span[0] <= structure.ports.act_plus <= span[1])
-    tied = any((e.kind == "b" and first <= e.at <= last) or (e.kind == "k" and e.at == first - 1) for e in structure.elements)
+    """Whether the force acts on a row that neither springs nor dampers tie to the ground; no
+    lag.
+    """
+    first, last = next(
+        span for span in structure.blocks if span[0] <= structure.ports.act_plus <= span[1]
+    )
+    tied = any(
+        (e.kind == "b" and first <= e.at <= last) or (e.kind == "k" and e.at == first - 1)
+        for e in structure.elements
+    )
     return not tied and not structure.lag

@@ -1,6 +1,8 @@
-"""The two rows of masses that a chain consists of: the free one, and the grounded one if there is a gap.
+"""The two rows of masses that a chain consists of: the free one, and the grounded one if there is
+a gap.
 
-Force and sensor cross the gap in the same sense, so the receptance of a chain is the sum of the receptances of its rows.
+Force and sensor cross the gap in the same sense, so the receptance of a chain is the sum of the
+receptances of its rows.
 """
 
 from collections.abc import Iterator
@@ -14,7 +16,8 @@ FREE, GROUNDED = "free", "grounded"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """Masses 1..`n_masses` with springs (if `damped`, dampers too) between neighbours and, if `walled`, from mass 1 to a wall.
+    """Masses 1..`n_masses` with springs (if `damped`, dampers too) between neighbours and, if
+    `walled`, from mass 1 to a wall.
 
     The force acts on mass `act`, the sensor shows the position of mass `meas`.
     """
@@ -34,7 +37,9 @@ class Row:
     @property
     def structure(self) -> Structure:
         """Elements and ports, with a sensor of position."""
-        elements: list[Mass | Spring | Damper | GroundDamper] = [Mass(i) for i in range(1, self.n_masses + 1)]
+        elements: list[Mass | Spring | Damper | GroundDamper] = [
+            Mass(i) for i in range(1, self.n_masses + 1)
+        ]
         elements += [Spring(i) for i in self.joints]
         elements += [Damper(i) for i in self.joints if self.damped]
         elements += [GroundDamper(i) for i in self.ground_dampers]
@@ -42,7 +47,9 @@ class Row:
 
     @property
     def canonical(self) -> "Row":
-        """The equivalent row with the smallest numbers: force and sensor exchanged, or mirrored if there is no wall."""
+        """The equivalent row with the smallest numbers: force and sensor exchanged, or mirrored
+        if there is no wall.
+        """
         return min(self._forms(), key=lambda r: (r.act, r.meas, r.ground_dampers))
 
     def _forms(self) -> Iterator["Row"]:
@@ -64,7 +71,18 @@ def rows_of(chain: Chain) -> dict[str, Row]:
     """
     gap, dampers = chain.gap, chain.ground_dampers
     behind = tuple(i - gap for i in dampers if i > gap)
-    free = Row(chain.n_masses - gap, False, chain.act_plus - gap, chain.meas_plus - gap, chain.damped, behind)
+    free = Row(
+        chain.n_masses - gap,
+        False,
+        chain.act_plus - gap,
+        chain.meas_plus - gap,
+        chain.damped,
+        behind,
+    )
     before = tuple(i for i in dampers if i <= gap)
-    grounded = [Row(gap, True, chain.act_minus, chain.meas_minus, chain.damped, before)] if gap else []
-    return {name: row.canonical for name, row in zip((FREE, GROUNDED), (free, *grounded), strict=False)}
+    grounded = (
+        [Row(gap, True, chain.act_minus, chain.meas_minus, chain.damped, before)] if gap else []
+    )
+    return {
+        name: row.canonical for name, row in zip((FREE, GROUNDED), (free, *grounded), strict=False)
+    }

@@ -1,4 +1,6 @@
-"""Models of a chain modulo a prime at which all poles lie in the prime field, as functions of t = s, or of s^2 undamped."""
+"""Models of a chain modulo a prime at which all poles lie in the prime field, as functions of t
+= s, or of s^2 undamped.
+"""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -17,7 +19,9 @@ Polynomial = Any
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """A model n/(t^z d') modulo a prime: n, the linear factors of d', and the parameters in their order."""
+    """A model n/(t^z d') modulo a prime: n, the linear factors of d', and the parameters in
+    their order.
+    """
 
     n: Polynomial
     factors: tuple[Polynomial, ...]
@@ -29,11 +33,15 @@ def split_model(chain: Chain, label: str) -> Split | None:
     """The first point of a sequence at which all poles lie in the prime field and are distinct."""
     modulus, count = prime(label), len(accelerated(chain).parameters)
     points = (tuple(residues(f"{label}:{k}:{chain}", count, modulus)) for k in range(ATTEMPTS))
-    return next((found for point in points if (found := model_at(chain, point, modulus)) is not None), None)
+    return next(
+        (found for point in points if (found := model_at(chain, point, modulus)) is not None), None
+    )
 
 
 def model_at(chain: Chain, point: tuple[int, ...], modulus: int) -> Split | None:
-    """The model at a point; None where poles coincide, lie elsewhere, or are fewer than they should be."""
+    """The model at a point; None where poles coincide, lie elsewhere, or are fewer than they
+    should be.
+    """
     q = quotient(accelerated(chain).structure, list(point), modulus)
     n, d = (_in_steps(p, step_of(chain), modulus) for p in (q.num, q.den))
     factors = tuple(f for f, _ in d.factor()[1])

@@ -1,4 +1,6 @@
-"""Profiles as JSON text and back: what a cache keeps. Never pickled, so that a foreign file can do no harm."""
+"""Profiles as JSON text and back: what a cache keeps. Never pickled, so that a foreign file can
+do no harm.
+"""
 
 import json
 from dataclasses import asdict, fields
@@ -11,8 +13,14 @@ from disting.invariants.sample import Representation
 
 def profile_to_json(profile: Profile) -> str:
     """Compact JSON text of a profile."""
-    data = {f.name: getattr(profile, f.name) for f in fields(profile)} | {"proven_zeros": sorted(profile.proven_zeros)}
-    data["matroid"] = asdict(profile.matroid) if isinstance(profile.matroid, Unsearched) else _plain(profile.matroid)
+    data = {f.name: getattr(profile, f.name) for f in fields(profile)} | {
+        "proven_zeros": sorted(profile.proven_zeros)
+    }
+    data["matroid"] = (
+        asdict(profile.matroid)
+        if isinstance(profile.matroid, Unsearched)
+        else _plain(profile.matroid)
+    )
     return json.dumps(data, separators=(",", ":"))
 
 
@@ -34,7 +42,9 @@ def profile_from_json(text: str) -> Profile:
 
 
 def _plain(m: Matroid) -> dict[str, Any]:
-    components = [{"rows": c.rows, "rank": c.rank, "dual": c.dual, "flats": c.flats} for c in m.components]
+    components = [
+        {"rows": c.rows, "rank": c.rank, "dual": c.dual, "flats": c.flats} for c in m.components
+    ]
     return {"size": m.size, "rank": m.rank, "components": components}
 
 

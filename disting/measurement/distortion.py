@@ -1,9 +1,11 @@
-"""What a multisine's lines without excitation show: distortion by odd and even nonlinearities, and noise.
+"""What a multisine's lines without excitation show: distortion by odd and even nonlinearities, and
+noise.
 
-A periodic input that excites some lines only leaves the others to what is not linear. Where all excited lines are odd multiples
-of the fundamental, products of an even number of them fall on even multiples, of an odd number on odd ones (Pintelon and
-Schoukens, System Identification, 2nd ed. 2012, chapter 4). With U, Y the means over P periods, G interpolated between the
-excited lines and |U| that of the excited lines around,
+A periodic input that excites some lines only leaves the others to what is not linear. Where all
+excited lines are odd multiples of the fundamental, products of an even number of them fall on even
+multiples, of an odd number on odd ones (Pintelon and Schoukens, System Identification, 2nd ed.
+2012, chapter 4). With U, Y the means over P periods, G interpolated between the excited lines and
+|U| that of the excited lines around,
 
     level = |Y - G U| / |U|,      noise = std_p(Y_p - G U_p) / (sqrt(P) |U|)
 
@@ -23,9 +25,11 @@ FEWEST = 4  # lines of a kind that are summed up
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Distortion:
-    """Lines without excitation, shape (n,): omega [rad/s], level and noise [unit of the response], whether they are even.
+    """Lines without excitation, shape (n,): omega [rad/s], level and noise [unit of the response],
+    whether they are even.
 
-    `told_apart`: all excited lines are odd, so that odd and even lines show distortion of odd and of even order.
+    `told_apart`: all excited lines are odd, so that odd and even lines show distortion of odd and
+    of even order.
     """
 
     omega: Real
@@ -36,31 +40,50 @@ class Distortion:
 
     @property
     def kinds(self) -> tuple[tuple[str, Real, NDArray[np.bool_]], ...]:
-        """What the lines show: in words, levels of all lines, shape (n,), and the lines that show it, shape (n,)."""
+        """What the lines show: in words, levels of all lines, shape (n,), and the lines that
+        show it, shape (n,).
+        """
         whole = np.ones(len(self.omega), dtype=bool)
-        apart = (("odd distortion", self.level, ~self.even), ("even distortion", self.level, self.even))
+        apart = (
+            ("odd distortion", self.level, ~self.even),
+            ("even distortion", self.level, self.even),
+        )
         noise = () if self.noise is None else (("noise", self.noise, whole),)
         return (*(apart if self.told_apart else [("distortion", self.level, whole)]), *noise)
 
     def times(self, factor: Real | float) -> "Distortion":
         """The same in another unit."""
-        return replace(self, level=self.level * factor, noise=applied(lambda noise: noise * factor, self.noise))
+        return replace(
+            self, level=self.level * factor, noise=applied(lambda noise: noise * factor, self.noise)
+        )
 
 
-def distortion(inputs: Complex, outputs: Complex, excited: NDArray[np.intp], spacing: float) -> tuple[Distortion | None, str]:
-    """Distortion between the excited lines of spectra of shape (P, n), lines `spacing` [rad/s] apart, and a note.
+def distortion(
+    inputs: Complex, outputs: Complex, excited: NDArray[np.intp], spacing: float
+) -> tuple[Distortion | None, str]:
+    """Distortion between the excited lines of spectra of shape (P, n), lines `spacing` [rad/s]
+    apart, and a note.
 
     None and "" where too few lines lie between the excited ones.
     """
-    between = np.setdiff1d(np.arange(excited[0], excited[-1]), excited) if len(excited) > 1 else excited[:0]
+    between = (
+        np.setdiff1d(np.arange(excited[0], excited[-1]), excited)
+        if len(excited) > 1
+        else excited[:0]
+    )
     if len(between) < FEWEST:
         return None, ""
-    mean, size = outputs[:, excited].mean(axis=0) / inputs[:, excited].mean(axis=0), np.abs(inputs[:, excited].mean(axis=0))
+    mean, size = (
+        outputs[:, excited].mean(axis=0) / inputs[:, excited].mean(axis=0),
+        np.abs(inputs[:, excited].mean(axis=0)),
+    )
     response = np.interp(between, excited, mean.real) + 1j * np.interp(between, excited, mean.imag)
     rest = (outputs[:, between] - response * inputs[:, between]) / np.interp(between, excited, size)
     noise = np.std(rest, axis=0, ddof=1) / np.sqrt(len(rest)) if len(rest) > 1 else None
     omega = np.multiply(between, spacing, dtype=np.float64)
-    found = Distortion(omega, np.abs(rest.mean(axis=0)), noise, between % 2 == 0, bool(np.all(excited % 2)))
+    found = Distortion(
+        omega, np.abs(rest.mean(axis=0)), noise, between % 2 == 0, bool(np.all(excited % 2))
+    )
     return found, _said(found, np.abs(response))
 
 

@@ -1,7 +1,9 @@
-"""The unit of a grid of frequencies: what a file or a caller says, held against the numbers themselves.
+"""The unit of a grid of frequencies: what a file or a caller says, held against the numbers
+themselves.
 
-Who measures a response chooses round frequencies in the unit in which he thinks: 0.1, 0.2, .. 1000 Hz. In a file of the other
-unit these are 0.628, 1.257, ... So a grid that is round after division by 2 pi, and is not round itself, is in rad/s.
+Who measures a response chooses round frequencies in the unit in which he thinks: 0.1, 0.2, .. 1000
+Hz. In a file of the other unit these are 0.628, 1.257, ... So a grid that is round after division
+by 2 pi, and is not round itself, is in rad/s.
 """
 
 import numpy as np
@@ -13,14 +15,24 @@ UNIT = {"Hz": 2 * np.pi, "kHz": 2e3 * np.pi, "rad/s": 1.0, "rpm": 2 * np.pi / 60
 DIGITS = 5  # of a round number
 SLOWEST = 1e-100  # frequency, and the inverse of the fastest one; damaged numbers lie beyond
 EXACT = 1e-7  # relative error of a number in a file
-SPELLINGS = {"hertz": "Hz", "hz": "Hz", "khz": "kHz", "rad/sec": "rad/s", "rad/second": "rad/s", "1/s": "rad/s"}
+SPELLINGS = {
+    "hertz": "Hz",
+    "hz": "Hz",
+    "khz": "kHz",
+    "rad/sec": "rad/s",
+    "rad/second": "rad/s",
+    "1/s": "rad/s",
+}
 
 
-def in_omega(values: Real, said: str | None, asked: str | None, who: str, *, default: str = "Hz") -> tuple[Real, str | None]:
+def in_omega(
+    values: Real, said: str | None, asked: str | None, who: str, *, default: str = "Hz"
+) -> tuple[Real, str | None]:
     """Frequencies [rad/s], and a note where the unit was assumed or the numbers speak against it.
 
-    `asked` = the unit that the caller gives, which always holds; `said` = the unit that the file names, None where it names
-    none and `default` is taken; `who` = whose unit it is, for the note. Raises InputError for a unit that is none.
+    `asked` = the unit that the caller gives, which always holds; `said` = the unit that the file
+    names, None where it names none and `default` is taken; `who` = whose unit it is, for the note.
+    Raises InputError for a unit that is none.
     """
     if asked is not None:
         return values * UNIT[known(asked)], None
@@ -28,11 +40,18 @@ def in_omega(values: Real, said: str | None, asked: str | None, who: str, *, def
     round_, round_in_hertz = is_round(values), is_round(values / (2 * np.pi))
     if unit == "Hz" and round_in_hertz and not round_:
         return values, (
-            f"{who}: frequencies taken as rad/s{' although Hz is said' if said else ''}, in which they are the round numbers"
+            f"{who}: frequencies taken as rad/s{' although Hz is said' if said else ''}, in which"
+            " they are the round numbers"
             f' {_first(values / (2 * np.pi))} Hz; if not, give frequency_unit="Hz"'
         )
     if said and unit == "rad/s" and round_ and not round_in_hertz:
-        return values, f'{who}: frequencies taken as rad/s, but {_first(values)} are round; if Hz, give frequency_unit="Hz"'
+        return (
+            values,
+            (
+                f"{who}: frequencies taken as rad/s, but {_first(values)} are round; if Hz, give"
+                ' frequency_unit="Hz"'
+            ),
+        )
     return values * UNIT[unit], None if said else f"frequencies of {who} taken as {unit}"
 
 

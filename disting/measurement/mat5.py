@@ -1,10 +1,12 @@
 """Arrays of numbers in a MATLAB file of version 5 to 7, read by NumPy alone.
 
-SciPy's reader crashes the interpreter on some damaged files, and its listing stops at objects that it does not know (of the
-Control System Toolbox, for example); only arrays of numbers are needed here. Layout (MathWorks, "MAT-File Format"): a header of
-128 bytes, then elements. An element is its type and size (32 bits each) and content, filled to eight bytes; a small one has
-size and type in 16 bits each and at most four bytes of content. A compressed element holds one matrix. A matrix holds elements:
-flags and class, dimensions, name, real part, imaginary part, in the order of Fortran.
+SciPy's reader crashes the interpreter on some damaged files, and its listing stops at objects that
+it does not know (of the Control System Toolbox, for example); only arrays of numbers are needed
+here. Layout (MathWorks, "MAT-File Format"): a header of 128 bytes, then elements. An element is
+its type and size (32 bits each) and content, filled to eight bytes; a small one has size and type
+in 16 bits each and at most four bytes of content. A compressed element holds one matrix. A matrix
+holds elements: flags and class, dimensions, name, real part, imaginary part, in the order of
+Fortran.
 """
 
 import struct
@@ -26,13 +28,16 @@ OPAQUE = 17  # class of an object, whose parts are another kind's: no dimensions
 TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
 NUMBERS = range(6, 16)  # classes: double, single, integers of 8 to 64 bits
 IS_COMPLEX = 0x800
-DAMAGE = (struct.error, zlib.error, ValueError, KeyError, IndexError, OverflowError, MemoryError)  # what damaged bytes raise
+# what damaged bytes raise
+DAMAGE = (struct.error, zlib.error, ValueError, KeyError, IndexError, OverflowError, MemoryError)
 HEAD = 512  # bytes that surely hold flags, dimensions and name
 
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A matrix of a file, not yet read: name, class, bytes, whether they are compressed, and the order of bytes."""
+    """A matrix of a file, not yet read: name, class, bytes, whether they are compressed, and
+    the order of bytes.
+    """
 
     name: str
     kind: int
@@ -73,8 +78,16 @@ def variables(content: bytes) -> Iterator[Variable]:
         body = content[at + 8 : at + 8 + size]
         at += 8 + size
         try:
-            head = _matrix(zlib.decompressobj().decompress(body, HEAD)) if kind == COMPRESSED else body[:HEAD]
-            name, of = (_name(head, order), flags(head, order) & 0xFF) if kind in (MATRIX, COMPRESSED) else ("", 0)
+            head = (
+                _matrix(zlib.decompressobj().decompress(body, HEAD))
+                if kind == COMPRESSED
+                else body[:HEAD]
+            )
+            name, of = (
+                (_name(head, order), flags(head, order) & 0xFF)
+                if kind in (MATRIX, COMPRESSED)
+                else ("", 0)
+            )
         except DAMAGE:
             continue
         if name:
@@ -92,7 +105,9 @@ def _matrix(element: bytes) -> bytes:
 
 
 def elements(matrix: bytes, order: str) -> Iterator[tuple[int, bytes]]:
-    """Yield type and content of the elements of a matrix; raises ValueError where one is cut off."""
+    """Yield type and content of the elements of a matrix; raises ValueError where one is cut
+    off.
+    """
     at = 0
     while at < len(matrix):
         kind, size = struct.unpack_from(order + "II", matrix, at)
@@ -117,7 +132,9 @@ def array(matrix: bytes, order: str) -> NDArray[Any]:
         raise ValueError("no array of numbers")
     parts = _parts(matrix, order, 5 if of & IS_COMPLEX else 4)
     shape = tuple(int(n) for n in parts[1])
-    if len(parts) < 4 + bool(of & IS_COMPLEX) or any(part.size != prod(shape) for part in parts[3:]):
+    if len(parts) < 4 + bool(of & IS_COMPLEX) or any(
+        part.size != prod(shape) for part in parts[3:]
+    ):
         raise ValueError("the numbers do not fill the dimensions")
     whole = parts[3] + 1j * parts[4] if of & IS_COMPLEX else parts[3]
     return np.asarray(whole).reshape(shape, order="F")
@@ -125,4 +142,7 @@ def array(matrix: bytes, order: str) -> NDArray[Any]:
 
 def _parts(matrix: bytes, order: str, count: int) -> list[NDArray[Any]]:
     """The first elements of a matrix, at most `count`, as arrays."""
-    return [np.frombuffer(content, dtype=order + TYPES[kind]) for kind, content in islice(elements(matrix, order), count)]
+    return [
+        np.frombuffer(content, dtype=order + TYPES[kind])
+        for kind, content in islice(elements(matrix, order), count)
+    ]

@@ -19,7 +19,8 @@ HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
 def variables(path: Path) -> Arrays:
-    """The variables of a file by name, read when called; raises InputError for what is no MATLAB file, now or then.
+    """The variables of a file by name, read when called; raises InputError for what is no MATLAB
+    file, now or then.
 
     Numbers in structs are called `struct.field`.
     """
@@ -30,7 +31,11 @@ def variables(path: Path) -> Arrays:
     content = path.read_bytes()
     if mat5.is_version_5(content):
         found = list(mat5.variables(content))
-        fields = {name: partial(np.asarray, array) for one in found for name, array in mat5_objects.numbers_in(one).items()}
+        fields = {
+            name: partial(np.asarray, array)
+            for one in found
+            for name, array in mat5_objects.numbers_in(one).items()
+        }
         return fields | {variable.name: partial(_whole, variable, path) for variable in found}
     if b"\0" not in content[:4]:  # version 4 begins with a small number
         raise InputError(f"{path.name} is no MATLAB file")
@@ -53,7 +58,10 @@ def _whole(variable: mat5.Variable, path: Path) -> NDArray[Any]:
 def _listed(content: bytes, path: Path) -> set[str]:
     import scipy.io
 
-    found = _foreign(partial(scipy.io.whosmat, io.BytesIO(content)), f"{path.name} is no MATLAB file that can be read")
+    found = _foreign(
+        partial(scipy.io.whosmat, io.BytesIO(content)),
+        f"{path.name} is no MATLAB file that can be read",
+    )
     return {str(entry[0]) for entry in found}
 
 
@@ -71,28 +79,41 @@ def _hdf5(path: Path) -> Arrays:
     try:
         import h5py
     except ImportError:
-        raise InputError(f'{path.name} is a MATLAB 7.3 file: pip install "disting[hdf5]", or save it with -v7') from None
-    names = _foreign(partial(_datasets, h5py, path), f"{path.name} is no HDF5 file that can be read")
+        raise InputError(
+            f'{path.name} is a MATLAB 7.3 file: pip install "disting[hdf5]", or save it with -v7'
+        ) from None
+    names = _foreign(
+        partial(_datasets, h5py, path), f"{path.name} is no HDF5 file that can be read"
+    )
     return {name: partial(_dataset, h5py, path, name) for name in names}
 
 
 def _datasets(h5py: Any, path: Path) -> list[str]:
     """Arrays that are in the file itself; links that lead out of it are not even looked at."""
     with h5py.File(path, "r") as file:
-        inside = [name for name in file if not name.startswith("#") and isinstance(file.get(name, getlink=True), h5py.HardLink)]
+        inside = [
+            name
+            for name in file
+            if not name.startswith("#") and isinstance(file.get(name, getlink=True), h5py.HardLink)
+        ]
         return [name for name in inside if isinstance(file[name], h5py.Dataset)]
 
 
 def _dataset(h5py: Any, path: Path, name: str) -> NDArray[Any]:
-    return np.asarray(_foreign(partial(_plain, h5py, path, name), f"{path.name}: variable {name} cannot be read"))
+    return np.asarray(
+        _foreign(partial(_plain, h5py, path, name), f"{path.name}: variable {name} cannot be read")
+    )
 
 
 def _plain(h5py: Any, path: Path, name: str) -> NDArray[Any]:
-    """Values in MATLAB's order of axes; complex numbers are stored as pairs called real and imag."""
+    """Values in MATLAB's order of axes; complex numbers are stored as pairs called real and
+    imag.
+    """
     with h5py.File(path, "r") as file:
         if file[name].external or file[name].is_virtual:
             raise InputError(
-                f"{path.name}: the values of {name} are kept in another file, which is not read; store them inside"
+                f"{path.name}: the values of {name} are kept in another file, which is not read;"
+                " store them inside"
             )
         values = np.asarray(file[name][()])
         if "MATLAB_empty" in file[name].attrs:
@@ -103,10 +124,13 @@ def _plain(h5py: Any, path: Path, name: str) -> NDArray[Any]:
 
 
 def _foreign(call: Callable[[], Any], refusal: str) -> Any:
-    """The value of a call into another library, any error of which means that the file is damaged."""
+    """The value of a call into another library, any error of which means that the file is
+    damaged.
+    """
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error", UserWarning)  # such as an unknown order of bytes: the numbers would be wrong
+            # such as an unknown order of bytes: the numbers would be wrong
+            warnings.simplefilter("error", UserWarning)
             return call()
     except InputError:
         raise

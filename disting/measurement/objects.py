@@ -1,4 +1,6 @@
-"""Frequency responses from objects in memory: NumPy arrays, pandas data frames, frequency response data of python-control."""
+"""Frequency responses from objects in memory: NumPy arrays, pandas data frames, frequency
+response data of python-control.
+"""
 
 from typing import Any
 
@@ -26,45 +28,73 @@ def from_arrays(
     sensor: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
-    """Response from arrays of shape (n_f,): `frequency` in "Hz", "kHz" or "rad/s", complex `response`."""
+    """Response from arrays of shape (n_f,): `frequency` in "Hz", "kHz" or "rad/s", complex
+    `response`.
+    """
     omega = _numbers(frequency, "frequency") * UNIT[known(frequency_unit)]
     values = _numbers(response, "response") * as_sign(sign)
-    return FrequencyResponse(omega, values, deviation, coherence, as_sensor(sensor), origin="arrays")
+    return FrequencyResponse(
+        omega, values, deviation, coherence, as_sensor(sensor), origin="arrays"
+    )
 
 
 def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
-    """Response from a pandas data frame whose columns are headed like those of a text file (`read`); same options.
+    """Response from a pandas data frame whose columns are headed like those of a text file
+    (`read`); same options.
 
     An index with a name is a column too.
     """
     return frequency_response(_table(frame), **options)
 
 
-def series_from_frame(frame: Any, input: str | int, output: str | int, **options: Any) -> TimeSeries:
+def series_from_frame(
+    frame: Any, input: str | int, output: str | int, **options: Any
+) -> TimeSeries:
     """Samples from two columns of a pandas data frame; options of `read_time_series`."""
     return time_series(_table(frame), input, output, **options)
 
 
 def from_control(
-    system: Any, *, output: int = 0, input: int = 0, sensor: Sensor | str = Sensor.ACCELERATION, sign: int = 1
+    system: Any,
+    *,
+    output: int = 0,
+    input: int = 0,
+    sensor: Sensor | str = Sensor.ACCELERATION,
+    sign: int = 1,
 ) -> FrequencyResponse:
     """Response from a python-control FRD object: channel from `input` to `output` (from 0)."""
     data = getattr(system, "frdata", None)
-    data = getattr(system, "fresp", None) if data is None else data  # its name before python-control 0.10.2
+    # its name before python-control 0.10.2
+    data = getattr(system, "fresp", None) if data is None else data
     if data is None or not hasattr(system, "omega"):
-        raise InputError(f"{type(system).__name__} is no frequency response data of python-control (control.frd)")
+        raise InputError(
+            f"{type(system).__name__} is no frequency response data of python-control (control.frd)"
+        )
     omega = _numbers(system.omega, "omega")
-    values = row(_numbers(data, "response"), len(omega), _channel(np.shape(data), output, input), "the FRD object")
+    values = row(
+        _numbers(data, "response"),
+        len(omega),
+        _channel(np.shape(data), output, input),
+        "the FRD object",
+    )
     names = (_label(system, "input_labels", input), _label(system, "output_labels", output))
     return FrequencyResponse(
-        omega, values * as_sign(sign), sensor=as_sensor(sensor), input=names[0], output=names[1], origin="python-control FRD"
+        omega,
+        values * as_sign(sign),
+        sensor=as_sensor(sensor),
+        input=names[0],
+        output=names[1],
+        origin="python-control FRD",
     )
 
 
 def _channel(shape: tuple[int, ...], output: int, input: int) -> tuple[int, ...]:
     """Index without the axes of length 1, which `row` leaves out."""
     if len(shape) != 3 or not (0 <= output < shape[0] and 0 <= input < shape[1]):
-        raise InputError(f"the FRD object has {' x '.join(map(str, shape[:2]))} outputs and inputs; {output}, {input} is none")
+        raise InputError(
+            f"the FRD object has {' x '.join(map(str, shape[:2]))} outputs and inputs; {output},"
+            f" {input} is none"
+        )
     return tuple(i for i, length in zip((output, input), shape[:2], strict=True) if length > 1)
 
 
@@ -80,10 +110,14 @@ def _table(frame: Any) -> Table:
     try:
         values = whole.to_numpy(dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InputError(f"the data frame holds something else than real numbers: {error}") from None
+        raise InputError(
+            f"the data frame holds something else than real numbers: {error}"
+        ) from None
     if not len(values):
         raise InputError("the data frame has no rows")
-    return Table(tuple(map(str, whole.columns)), values, tuple(range(1, len(values) + 1)), (), "data frame")
+    return Table(
+        tuple(map(str, whole.columns)), values, tuple(range(1, len(values) + 1)), (), "data frame"
+    )
 
 
 def _numbers(values: Any, name: str) -> NDArray[Any]:

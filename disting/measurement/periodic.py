@@ -1,11 +1,13 @@
-"""Frequency response from a periodic excitation (Pintelon and Schoukens, System Identification, 2nd ed. 2012, chapter 2).
+"""Frequency response from a periodic excitation (Pintelon and Schoukens, System Identification,
+2nd ed. 2012, chapter 2).
 
-The record is cut into P whole periods of N samples, which have no leakage. With U_p, Y_p the discrete Fourier transforms of
-period p, at every excited line
+The record is cut into P whole periods of N samples, which have no leakage. With U_p, Y_p the
+discrete Fourier transforms of period p, at every excited line
 
-    G         = mean_p(Y_p) / mean_p(U_p)                                  (noise that does not repeat averages out)
-    deviation = sqrt( sum_p |Y_p/U_p - mean(Y_p/U_p)|^2 / (P - 1) / P )    (standard deviation of the mean of P periods)
-    coherence = |sum_p Y_p conj(U_p)|^2 / (sum_p |U_p|^2 sum_p |Y_p|^2).
+    G         = mean_p(Y_p) / mean_p(U_p)                                  (noise that does not
+    repeat averages out) deviation = sqrt( sum_p |Y_p/U_p - mean(Y_p/U_p)|^2 / (P - 1) / P )
+    (standard deviation of the mean of P periods) coherence = |sum_p Y_p conj(U_p)|^2 / (sum_p
+    |U_p|^2 sum_p |Y_p|^2).
 """
 
 from dataclasses import dataclass, replace
@@ -18,16 +20,20 @@ from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.distortion import Distortion, distortion
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
-LIKENESS = 0.9  # correlation of the input with itself, one period later, from which on it counts as periodic
+# correlation of the input with itself, one period later, from which on it counts as periodic
+LIKENESS = 0.9
 FALLEN = 0.5  # a correlation has to fall below this before it can rise again to a period
-EXCESS = 0.5  # a shorter period may raise the share of noise, 1 - correlation, by this much of itself
+# a shorter period may raise the share of noise, 1 - correlation, by this much of itself
+EXCESS = 0.5
 ROUNDING = 1e-9  # of a correlation computed by fast Fourier transforms
 OFF_GRID = 1e-3  # of the line spacing, by which a given frequency may miss its line
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Estimated:
-    """Lines of an estimate: omega [rad/s], G, deviation and coherence, shape (n_f,), and what was found on the way."""
+    """Lines of an estimate: omega [rad/s], G, deviation and coherence, shape (n_f,), and what
+    was found on the way.
+    """
 
     omega: Real
     G: Complex
@@ -47,15 +53,25 @@ def estimate(
     band: tuple[float, float] | None,
     excitation: Real,
 ) -> Estimated:
-    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz]; `excitation` = u or a reference.
+    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz];
+    `excitation` = u or a reference.
 
-    Means over periods forget the noise that a controller feeds back, so G holds in closed loop as well.
+    Means over periods forget the noise that a controller feeds back, so G holds in closed loop as
+    well.
     """
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
-    notes = [f"period of {length} samples ({length / rate:g} s) detected in the input"] * (period is None)
-    inputs, outputs, exciting = (_spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation))
+    notes = [f"period of {length} samples ({length / rate:g} s) detected in the input"] * (
+        period is None
+    )
+    inputs, outputs, exciting = (
+        _spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
+    )
     spacing = rate / length
-    chosen = excited(np.abs(exciting.mean(axis=0))) if lines is None else _given(lines, spacing, inputs.shape[1])
+    chosen = (
+        excited(np.abs(exciting.mean(axis=0)))
+        if lines is None
+        else _given(lines, spacing, inputs.shape[1])
+    )
     notes += [f"{len(chosen)} excited lines detected in the input"] * (lines is None)
     between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
     notes += [said] * bool(said)
@@ -63,19 +79,23 @@ def estimate(
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]
     notes += ["one period alone: no standard deviation and no coherence"] * (len(inputs) == 1)
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
-    return replace(_estimated(inputs[:, chosen], outputs[:, chosen], omega, tuple(notes)), distortion=between)
+    return replace(
+        _estimated(inputs[:, chosen], outputs[:, chosen], omega, tuple(notes)), distortion=between
+    )
 
 
 def detected_period(u: Real) -> int:
-    """Shortest period [samples] after which the signal repeats: peak of its autocorrelation. Raises InputError for none."""
+    """Shortest period [samples] after which the signal repeats: peak of its autocorrelation.
+    Raises InputError for none.
+    """
     likeness = _autocorrelation(u - u.mean())
     below = np.flatnonzero(likeness < FALLEN)
     first = int(below[0]) if below.size else len(likeness)
     best = first + int(np.argmax(likeness[first:])) if first < len(likeness) else 0
     if not best or likeness[best] < LIKENESS:
         raise InputError(
-            "the input does not repeat itself, so no period was found; give period= [samples], or, where the excitation is not"
-            " periodic, segment= [samples] for Welch's method"
+            "the input does not repeat itself, so no period was found; give period= [samples], or,"
+            " where the excitation is not periodic, segment= [samples] for Welch's method"
         )
     enough = likeness[best] - EXCESS * (1 - likeness[best]) - ROUNDING
     shorter = (round(best / parts) for parts in range(best // max(first, 1), 1, -1))
@@ -83,10 +103,12 @@ def detected_period(u: Real) -> int:
 
 
 def excited(amplitude: Real) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Indices of the excited lines of an amplitude spectrum, shape (n,): those above its widest gap.
+    """Indices of the excited lines of an amplitude spectrum, shape (n,): those above its widest
+    gap.
 
-    The amplitudes within 40 dB of the largest one are sorted; the largest ratio of two neighbours separates the lines of the
-    excitation from noise and distortion. The constant part (0 Hz) and the last line, half the sampling rate, never count.
+    The amplitudes within 40 dB of the largest one are sorted; the largest ratio of two neighbours
+    separates the lines of the excitation from noise and distortion. The constant part (0 Hz) and
+    the last line, half the sampling rate, never count.
     """
     inner = amplitude[1:-1]
     ordered = np.sort(inner)[::-1]
@@ -96,7 +118,9 @@ def excited(amplitude: Real) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
 
 
 def _autocorrelation(u: Real) -> Real:
-    """Correlation coefficient of u[:-lag] and u[lag:] for lag = 0 .. n/2, by fast Fourier transform."""
+    """Correlation coefficient of u[:-lag] and u[lag:] for lag = 0 .. n/2, by fast Fourier
+    transform.
+    """
     n = len(u)
     lags = np.arange(n // 2 + 1)
     products = np.fft.irfft(np.abs(np.fft.rfft(u, 2 * n)) ** 2, 2 * n)[lags]
@@ -110,8 +134,8 @@ def _spectra(x: Real, period: int, transient: int) -> Complex:
     count = len(x) // period - transient
     if count < 1:
         raise InputError(
-            f"{len(x)} samples hold {len(x) // period} whole periods of {period} samples, {transient} are dropped as transient:"
-            " none is left"
+            f"{len(x)} samples hold {len(x) // period} whole periods of {period} samples,"
+            f" {transient} are dropped as transient: none is left"
         )
     start = transient * period
     return np.asarray(np.fft.rfft(x[start : start + count * period].reshape(count, period), axis=1))
@@ -120,22 +144,30 @@ def _spectra(x: Real, period: int, transient: int) -> Complex:
 def _given(lines: Any, spacing: float, count: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     wanted = real(lines, "lines") / spacing
     numbers = np.rint(wanted)
-    if not np.all(np.abs(wanted - numbers) <= OFF_GRID) or not np.all((numbers >= 1) & (numbers < count)):
-        raise InputError(f"excited lines are multiples of {spacing:g} Hz (one per period) up to {(count - 1) * spacing:g} Hz")
+    if not np.all(np.abs(wanted - numbers) <= OFF_GRID) or not np.all(
+        (numbers >= 1) & (numbers < count)
+    ):
+        raise InputError(
+            f"excited lines are multiples of {spacing:g} Hz (one per period) up to"
+            f" {(count - 1) * spacing:g} Hz"
+        )
     return np.unique(numbers.astype(np.intp))
 
 
 def _estimated(inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str, ...]) -> Estimated:
     periods = len(inputs)
     if np.any(inputs.mean(axis=0) == 0):
-        raise InputError("the input is exactly zero at a chosen line; choose lines that are excited")
+        raise InputError(
+            "the input is exactly zero at a chosen line; choose lines that are excited"
+        )
     mean = outputs.mean(axis=0) / inputs.mean(axis=0)
     if periods == 1:
         return Estimated(omega, mean, None, None, notes)
     deviation = np.std(outputs / inputs, axis=0, ddof=1) / np.sqrt(periods)
     power = np.sum(np.abs(inputs) ** 2, axis=0) * np.sum(np.abs(outputs) ** 2, axis=0)
     crossed = np.abs(np.sum(outputs * inputs.conj(), axis=0)) ** 2
-    coherence = np.clip(crossed / np.where(power > 0, power, 1.0), 0.0, 1.0)  # 1 + rounding where nothing is noisy
+    # 1 + rounding where nothing is noisy
+    coherence = np.clip(crossed / np.where(power > 0, power, 1.0), 0.0, 1.0)
     return Estimated(omega, mean, deviation, coherence, notes)
 
 

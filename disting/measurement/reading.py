@@ -1,4 +1,6 @@
-"""One door for all files: the format is that of the content, where the content shows it, else of the ending."""
+"""One door for all files: the format is that of the content, where the content shows it, else
+of the ending.
+"""
 
 import inspect
 from collections.abc import Callable
@@ -27,25 +29,30 @@ from disting.measurement.variables import (
     series_from_variables,
 )
 
-SERIES = ("reference", "segment", "period", "sampling_rate", "time")  # options that only a time series has
+# options that only a time series has
+SERIES = ("reference", "segment", "period", "sampling_rate", "time")
 NAMED = {"frequency", "response"}  # options that only a frequency response of a MATLAB file has
 CLOCKS = {*RATE_NAMES, *STEP_NAMES, *TIME_NAMES}
 UNIVERSAL = (".uff", ".unv", ".unf", ".bunv")
 
 
 def read(path: str | Path, **options: Any) -> FrequencyResponse:
-    """Frequency response from a file; `suspicions` and `notes` of the result say what should be looked at.
+    """Frequency response from a file; `suspicions` and `notes` of the result say what should be
+    looked at.
 
-    - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit` (`tabular.frequency_response`);
-    - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`, `sensor`, `sign`
-      (`variables.from_variables`); `response` may name an object frd or idfrd (`stored.from_stored`), in a struct as `frf.Pv`,
-      with the number of output and input as `frf.Pv[2,1]`;
+    - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit`
+      (`tabular.frequency_response`);
+    - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`,
+      `sensor`, `sign` (`variables.from_variables`); `response` may name an object frd or idfrd
+      (`stored.from_stored`), in a struct as `frf.Pv`, with the number of output and input as
+      `frf.Pv[2,1]`;
     - universal file `.uff`, `.unv`: `record`, `sensor`, `sign` (`uff.read_uff`).
 
-    With `input` and `output` the file is read as a time series (`read_time_series`), likewise a file of a clock without
-    frequencies, whose input and output are then told by their names. Its options and those of `TimeSeries.response` (`period`,
-    `transient`, `lines`, `band`, `segment`, `least_coherence`) are then accepted; `sensor` is the quantity of the recorded
-    output, `to` the quantity wanted. Raises InputError for a file or an option that cannot be understood.
+    With `input` and `output` the file is read as a time series (`read_time_series`), likewise a
+    file of a clock without frequencies, whose input and output are then told by their names. Its
+    options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
+    `least_coherence`) are then accepted; `sensor` is the quantity of the recorded output, `to` the
+    quantity wanted. Raises InputError for a file or an option that cannot be understood.
     """
     file = _existing(path)
     if options.keys() & {"input", "output", *SERIES} or _is_record(file, options):
@@ -59,11 +66,15 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     return frequency_response(table(decoded(file.read_bytes(), file.name), file.name), **options)
 
 
-def read_time_series(path: str | Path, input: str | int, output: str | int, **options: Any) -> TimeSeries:
-    """Samples of `input` and `output` (headers of a text file, names of MATLAB variables) from a file.
+def read_time_series(
+    path: str | Path, input: str | int, output: str | int, **options: Any
+) -> TimeSeries:
+    """Samples of `input` and `output` (headers of a text file, names of MATLAB variables) from a
+    file.
 
-    Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable [s]); `sensor` = quantity of the
-    output, default position; `sign`; `reference` = the signal that a controller was asked for, of a record in closed loop.
+    Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable
+    [s]); `sensor` = quantity of the output, default position; `sign`; `reference` = the signal
+    that a controller was asked for, of a record in closed loop.
     """
     file = _existing(path)
     if _is_matlab(file):
@@ -72,16 +83,24 @@ def read_time_series(path: str | Path, input: str | int, output: str | int, **op
     if file.suffix.lower() in UNIVERSAL:
         raise InputError(f"{file.name}: time series are read from text and MATLAB files")
     _check(time_series, options, file)
-    return time_series(table(decoded(file.read_bytes(), file.name), file.name), input, output, **options)
+    return time_series(
+        table(decoded(file.read_bytes(), file.name), file.name), input, output, **options
+    )
 
 
 def _from_matlab(file: Path, options: dict[str, Any]) -> FrequencyResponse:
-    """A response object where one is asked for, or where no variables make up a response; else variables."""
+    """A response object where one is asked for, or where no variables make up a response; else
+    variables.
+    """
     asked, index = indexed(options.get("response"))
     arrays, stored = variables(file), responses(file)
-    if asked in stored or (stored and (asked not in arrays if asked else not holds_response(arrays))):
+    if asked in stored or (
+        stored and (asked not in arrays if asked else not holds_response(arrays))
+    ):
         name = chosen_response(stored, asked, file.name)
-        rest = {key: value for key, value in options.items() if key != "response"} | ({"index": index} if index else {})
+        rest = {key: value for key, value in options.items() if key != "response"} | (
+            {"index": index} if index else {}
+        )
         _check(from_stored, rest, file)
         return from_stored(stored[name], name, file.name, **rest)
     _check(from_variables, options, file)
@@ -92,20 +111,33 @@ def _is_record(file: Path, options: dict[str, Any]) -> bool:
     """Whether a file holds a clock or a sampling rate, and nothing that is a frequency response."""
     if _is_matlab(file):
         arrays = variables(file)
-        return bool(arrays.keys() & CLOCKS) and not (options.keys() & NAMED or holds_frequencies(arrays) or responses(file))
+        return bool(arrays.keys() & CLOCKS) and not (
+            options.keys() & NAMED or holds_frequencies(arrays) or responses(file)
+        )
     if file.suffix.lower() in UNIVERSAL or "columns" in options:
         return False
     headers = table(decoded(file.read_bytes(), file.name), file.name).headers
-    return any(map(is_time, headers)) and not any(meaning(header) in FREQUENCIES for header in headers)
+    return any(map(is_time, headers)) and not any(
+        meaning(header) in FREQUENCIES for header in headers
+    )
 
 
 def _signals(file: Path, given: dict[str, Any]) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Input and output, guessed by their names where neither is given, and the note that says so."""
+    """Input and output, guessed by their names where neither is given, and the note that says
+    so.
+    """
     if {"input", "output"} <= given.keys():
         return given, ()
-    names = list(variables(file)) if _is_matlab(file) else table(decoded(file.read_bytes(), file.name), file.name).headers
+    names = (
+        list(variables(file))
+        if _is_matlab(file)
+        else table(decoded(file.read_bytes(), file.name), file.name).headers
+    )
     if given.keys() & {"input", "output"}:
-        raise InputError(f"{file.name}: a time series has an input and an output, give both; there are {listed(sorted(names))}")
+        raise InputError(
+            f"{file.name}: a time series has an input and an output, give both; there are"
+            f" {listed(sorted(names))}"
+        )
     input, output, note = guessed((name for name in names if name), file.name)
     return given | {"input": input, "output": output}, (note,)
 
@@ -113,7 +145,9 @@ def _signals(file: Path, given: dict[str, Any]) -> tuple[dict[str, Any], tuple[s
 def _through_time(file: Path, options: dict[str, Any]) -> FrequencyResponse:
     ours = {"to", *_keywords(TimeSeries.response)} - {"sensor"}
     estimate = {name: value for name, value in options.items() if name in ours}
-    rest, notes = _signals(file, {name: value for name, value in options.items() if name not in ours})
+    rest, notes = _signals(
+        file, {name: value for name, value in options.items() if name not in ours}
+    )
     wanted = estimate.pop("to", None)
     return read_time_series(file, **rest).response(wanted, **estimate).noted(*notes)
 
@@ -130,7 +164,11 @@ def _existing(path: str | Path) -> Path:
 def _is_matlab(file: Path) -> bool:
     with file.open("rb") as stream:
         head = stream.read(520)
-    return file.suffix.lower() == ".mat" or head.startswith(b"MATLAB ") or b"\x89HDF\r\n" in (head[:6], head[512:518])
+    return (
+        file.suffix.lower() == ".mat"
+        or head.startswith(b"MATLAB ")
+        or b"\x89HDF\r\n" in (head[:6], head[512:518])
+    )
 
 
 def _keywords(reader: Callable[..., Any]) -> set[str]:
@@ -138,7 +176,12 @@ def _keywords(reader: Callable[..., Any]) -> set[str]:
 
 
 def _check(reader: Callable[..., Any], options: dict[str, Any], file: Path) -> None:
-    known = {p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY}
+    known = {
+        p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY
+    }
     unknown = sorted(set(options) - known)
     if unknown:
-        raise InputError(f"{file.name}: unknown option {listed(unknown)}; known for this format: {', '.join(sorted(known))}")
+        raise InputError(
+            f"{file.name}: unknown option {listed(unknown)}; known for this format:"
+            f" {', '.join(sorted(known))}"
+        )

@@ -1,4 +1,6 @@
-"""Repeated measurements of one response: their mean, its standard deviation from their scatter, and whether signs agree."""
+"""Repeated measurements of one response: their mean, its standard deviation from their scatter,
+and whether signs agree.
+"""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,22 +11,31 @@ from disting.errors import InputError
 from disting.measurement.response import FrequencyResponse
 
 NEAR = 0.02  # relative distance of two frequencies at which a phase is compared
-AGAINST = -0.5  # mean cosine of the phase between responses of opposite sign: most lines are turned by more than 120 degrees
+# mean cosine of the phase between responses of opposite sign: most lines are turned by more than
+# 120 degrees
+AGAINST = -0.5
 SAME = 1e-6  # relative distance of two frequencies that count as one
 
 
 def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
-    """Mean of n responses at the same frequencies, with deviation = sqrt(sum |G_i - G|^2 / (n - 1) / n), that of the mean.
+    """Mean of n responses at the same frequencies, with deviation = sqrt(sum |G_i - G|^2 / (n - 1)
+    / n), that of the mean.
 
     Raises InputError where frequencies or sensor quantities differ.
     """
     first, n = repeats[0], len(repeats)
     for other in repeats[1:]:
         if other.sensor is not first.sensor:
-            raise InputError(f"repeats show {first.sensor.value} and {other.sensor.value}; give responses of one quantity")
-        if len(other) != len(first) or np.any(np.abs(other.omega - first.omega) > SAME * first.omega):
             raise InputError(
-                f"{other.origin or 'a repeat'} has other frequencies than {first.origin or 'the first'}; repeats share them"
+                f"repeats show {first.sensor.value} and {other.sensor.value}; give responses of one"
+                " quantity"
+            )
+        if len(other) != len(first) or np.any(
+            np.abs(other.omega - first.omega) > SAME * first.omega
+        ):
+            raise InputError(
+                f"{other.origin or 'a repeat'} has other frequencies than"
+                f" {first.origin or 'the first'}; repeats share them"
             )
     if n == 1:
         return first
@@ -39,7 +50,9 @@ def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
 
 
 def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:
-    """Whether two responses of one machine have opposite signs: at most frequencies that they share, the phase is reversed."""
+    """Whether two responses of one machine have opposite signs: at most frequencies that they
+    share, the phase is reversed.
+    """
     at = np.abs(one.omega[None, :] - other.omega[:, None]).argmin(axis=1)
     near = np.abs(one.omega[at] - other.omega) <= NEAR * other.omega
     turned = np.angle(other.G[near]) - np.angle(one.G[at[near]])

@@ -1,4 +1,6 @@
-"""A measured frequency response: G(j omega) with its standard deviation, coherence, sensor quantity and origin."""
+"""A measured frequency response: G(j omega) with its standard deviation, coherence, sensor
+quantity and origin.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -8,11 +10,22 @@ import numpy as np
 
 from disting.errors import InputError, shown
 from disting.measurement import checks
-from disting.measurement.arrays import Complex, Real, applied, complex_, frozen, optional, real, same
+from disting.measurement.arrays import (
+    Complex,
+    Real,
+    applied,
+    complex_,
+    frozen,
+    optional,
+    real,
+    same,
+)
 from disting.measurement.distortion import Distortion
 from disting.model.chain import Sensor
 
-ASSUMED_ACCELERATION = 'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
+ASSUMED_ACCELERATION = (
+    'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
+)
 SORTED = "the frequencies were not in rising order and have been sorted"
 
 
@@ -31,14 +44,16 @@ UNNAMED = Signal()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrequencyResponse:
-    """Measured response at n_f frequencies; immutable, equal if its numbers, sensor and signals are equal.
+    """Measured response at n_f frequencies; immutable, equal if its numbers, sensor and signals
+    are equal.
 
-    `omega` [rad/s], shape (n_f,), positive, all different; `G`, shape (n_f,), sensor quantity per input [output unit / input
-    unit]; `deviation` = standard deviation of the complex G, sqrt(var Re G + var Im G), shape (n_f,), in the unit of G, or
-    None; `coherence` = ordinary coherence gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows;
-    `origin` = file and columns; `notes` = what was assumed or changed while reading;
-    `distortion` = what the lines without excitation of a periodic record show, or None.
-    Frequencies out of order are sorted, with a note. Raises InputError for what is no frequency response (module `checks`).
+    `omega` [rad/s], shape (n_f,), positive, all different; `G`, shape (n_f,), sensor quantity per
+    input [output unit / input unit]; `deviation` = standard deviation of the complex G, sqrt(var
+    Re G + var Im G), shape (n_f,), in the unit of G, or None; `coherence` = ordinary coherence
+    gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows; `origin` = file
+    and columns; `notes` = what was assumed or changed while reading; `distortion` = what the lines
+    without excitation of a periodic record show, or None. Frequencies out of order are sorted,
+    with a note. Raises InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -84,7 +99,8 @@ class FrequencyResponse:
         object.__setattr__(self, "notes", (*self.notes, *[SORTED] * moved))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return FrequencyResponse, tuple(getattr(self, field.name) for field in fields(self))  # arrays stay read-only in a copy
+        # arrays stay read-only in a copy
+        return FrequencyResponse, tuple(getattr(self, field.name) for field in fields(self))
 
     def __len__(self) -> int:
         return len(self.omega)
@@ -92,7 +108,11 @@ class FrequencyResponse:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, FrequencyResponse):
             return NotImplemented
-        words = self.sensor == other.sensor and self.input == other.input and self.output == other.output
+        words = (
+            self.sensor == other.sensor
+            and self.input == other.input
+            and self.output == other.output
+        )
         pairs = ((self.omega, other.omega), (self.G, other.G), (self.deviation, other.deviation))
         return words and all(same(a, b) for a, b in (*pairs, (self.coherence, other.coherence)))
 
@@ -106,27 +126,43 @@ class FrequencyResponse:
 
     @property
     def suspicions(self) -> tuple[str, ...]:
-        """Sentences on what looks wrong in the numbers, each with its remedy; empty where nothing does."""
+        """Sentences on what looks wrong in the numbers, each with its remedy; empty where
+        nothing does.
+        """
         found = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
         return () if found is None else (found,)
 
     def subset(self, lines: Any) -> "FrequencyResponse":
-        """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer than 8 remain."""
+        """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer
+        than 8 remain.
+        """
         chosen = np.asarray(lines)
         if chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
             raise InputError("lines are chosen by truth values or by whole numbers")
         try:
-            deviation, coherence = (applied(lambda a: a[chosen], a) for a in (self.deviation, self.coherence))
-            return replace(self, omega=self.omega[chosen], G=self.G[chosen], deviation=deviation, coherence=coherence)
+            deviation, coherence = (
+                applied(lambda a: a[chosen], a) for a in (self.deviation, self.coherence)
+            )
+            return replace(
+                self,
+                omega=self.omega[chosen],
+                G=self.G[chosen],
+                deviation=deviation,
+                coherence=coherence,
+            )
         except IndexError as error:
             raise InputError(f"no such lines: {error}") from None
 
     def masked(self, low: float = 0.0, high: float = np.inf) -> "FrequencyResponse":
-        """The lines from `low` to `high` [Hz], both included; raises InputError where fewer than 8 remain."""
+        """The lines from `low` to `high` [Hz], both included; raises InputError where fewer
+        than 8 remain.
+        """
         return self.subset((self.frequency >= low) & (self.frequency <= high))
 
     def thinned(self, count: int) -> "FrequencyResponse":
-        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale; all if there are fewer."""
+        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale;
+        all if there are fewer.
+        """
         if count < checks.FEWEST:
             raise InputError(f"at least {checks.FEWEST} lines are kept, not {count}")
         if count >= len(self):
@@ -134,11 +170,14 @@ class FrequencyResponse:
         wanted = np.linspace(np.log(self.omega[0]), np.log(self.omega[-1]), count)
         nearest = np.abs(np.log(self.omega)[None, :] - wanted[:, None]).argmin(axis=1)
         steps = np.arange(count)
-        apart = np.maximum.accumulate(nearest - steps) + steps  # each line once, where the measured ones lie too wide
+        # each line once, where the measured ones lie too wide
+        apart = np.maximum.accumulate(nearest - steps) + steps
         return self.subset(np.minimum(apart, len(self) - count + steps))
 
     def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":
-        """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n = difference of the orders."""
+        """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
+        difference of the orders.
+        """
         wanted = as_sensor(sensor)
         steps = wanted.order - self.sensor.order
         if not steps:
@@ -148,7 +187,11 @@ class FrequencyResponse:
             G=self.G * (1j * self.omega) ** steps,
             deviation=applied(lambda d: d * self.omega**steps, self.deviation),
             sensor=wanted,
-            distortion=None if self.distortion is None else self.distortion.times(self.distortion.omega**steps),
+            distortion=(
+                None
+                if self.distortion is None
+                else self.distortion.times(self.distortion.omega**steps)
+            ),
             output=self.output._replace(unit=_differentiated(self.output.unit, steps)),
         )
 
@@ -166,7 +209,9 @@ def as_sensor(value: Sensor | str) -> Sensor:
     try:
         return Sensor(value)
     except ValueError:
-        raise InputError(f"sensor is position, velocity or acceleration, not {shown(value)}") from None
+        raise InputError(
+            f"sensor is position, velocity or acceleration, not {shown(value)}"
+        ) from None
 
 
 def as_sign(value: int) -> int:

@@ -1,4 +1,6 @@
-"""Frequency responses that a MATLAB file keeps as objects: `frd` (Control System Toolbox), `idfrd` (System Identification)."""
+"""Frequency responses that a MATLAB file keeps as objects: `frd` (Control System Toolbox),
+`idfrd` (System Identification).
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +13,13 @@ from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.grid import in_omega
 from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
-from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.response import (
+    ASSUMED_ACCELERATION,
+    FrequencyResponse,
+    Signal,
+    as_sensor,
+    as_sign,
+)
 from disting.model.chain import Sensor
 
 HOLDERS = (STRUCT, OBJECT, mat5.OPAQUE)  # classes of variables in which responses may be
@@ -20,7 +28,8 @@ DEFAULT_UNIT = "rad/TimeUnit"  # of MATLAB, where an object names none
 
 @dataclass(frozen=True, eq=False)
 class Stored:
-    """A response object: frequencies, shape (n_f,), in `unit`; response, shape (n_y, n_u, n_f); dead times [s], (n_y, n_u).
+    """A response object: frequencies, shape (n_f,), in `unit`; response, shape (n_y, n_u, n_f);
+    dead times [s], (n_y, n_u).
 
     `variance`, shape (n_y, n_u, n_f), is var Re G + var Im G, or None.
     """
@@ -34,19 +43,28 @@ class Stored:
     outputs: tuple[Signal, ...]
 
     def at(self, index: Sequence[int]) -> tuple[int, int]:
-        """Output and input, from 0, of both numbers or of those axes that have more than one; raises InputError for others."""
+        """Output and input, from 0, of both numbers or of those axes that have more than one;
+        raises InputError for others.
+        """
         shape = self.response.shape[:2]
         given = iter(index)
-        chosen = tuple(index) if len(index) == 2 else tuple(next(given, -1) if n > 1 else 0 for n in shape)
+        chosen = (
+            tuple(index)
+            if len(index) == 2
+            else tuple(next(given, -1) if n > 1 else 0 for n in shape)
+        )
         if any(not 0 <= i < n for i, n in zip(chosen, shape, strict=True)) or len(index) > 2:
             raise InputError(
-                f"the object holds {shape[0]} x {shape[1]} responses (outputs x inputs); choose one, from 1, as NAME[2,1]"
+                f"the object holds {shape[0]} x {shape[1]} responses (outputs x inputs); choose"
+                " one, from 1, as NAME[2,1]"
             )
         return chosen[0], chosen[1]
 
 
 def stored_responses(content: bytes) -> dict[str, Stored]:
-    """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct holds them."""
+    """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct
+    holds them.
+    """
     found = dict[str, Stored]()
     try:
         subsystem = objects(content)
@@ -74,7 +92,11 @@ def from_stored(
     """Response from a stored one; options as in `variables.from_variables`."""
     output, input = found.at((index,) if isinstance(index, int) else tuple(index or ()))
     omega, noted = in_omega(found.frequency, found.unit, frequency_unit, name)
-    response = found.response[output, input] * np.exp(-1j * omega * found.dead_time[output, input]) * as_sign(sign)
+    response = (
+        found.response[output, input]
+        * np.exp(-1j * omega * found.dead_time[output, input])
+        * as_sign(sign)
+    )
     deviation = None if found.variance is None else np.sqrt(found.variance[output, input])
     chosen = FrequencyResponse(
         omega,
@@ -94,22 +116,34 @@ def chosen_response(found: Mapping[str, Stored], asked: str | None, origin: str)
         return str(asked)
     if asked is None and len(found) == 1:
         return next(iter(found))
-    wrong = f"has no frequency response {shown(asked)}" if asked else "holds several frequency responses"
+    wrong = (
+        f"has no frequency response {shown(asked)}"
+        if asked
+        else "holds several frequency responses"
+    )
     raise InputError(f"{origin} {wrong}; choose one by response=: {listed(sorted(found))}")
 
 
 def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, Stored]:
-    """Responses in a variable and in the fields of structs; objects in objects are not looked for."""
+    """Responses in a variable and in the fields of structs; objects in objects are not looked
+    for.
+    """
     held = _properties(value, subsystem) if isinstance(value, Reference) else value
     found = _response(held) if isinstance(held, dict) else None
     if found is not None:
         return {name: found}
     parts = value.items() if isinstance(value, dict) else ()
-    return {key: one for field, part in parts for key, one in _within(f"{name}.{field}", part, subsystem).items()}
+    return {
+        key: one
+        for field, part in parts
+        for key, one in _within(f"{name}.{field}", part, subsystem).items()
+    }
 
 
 def _properties(of: Reference, subsystem: Objects | None) -> dict[str, Any]:
-    """Properties of an object and of its data, without the underscores that the toolboxes end them with."""
+    """Properties of an object and of its data, without the underscores that the toolboxes end
+    them with.
+    """
     if subsystem is None:
         return {}
     outer = {name.rstrip("_"): value for name, value in subsystem.properties(of).items()}
@@ -120,12 +154,20 @@ def _properties(of: Reference, subsystem: Objects | None) -> dict[str, Any]:
 def _response(held: Mapping[str, Any]) -> Stored | None:
     """The response that an object, or a struct of its form, holds; None where it holds none."""
     frequency, response = held.get("Frequency"), held.get("Response", held.get("ResponseData"))
-    if not isinstance(frequency, np.ndarray) or not isinstance(response, np.ndarray) or not frequency.size:
+    if (
+        not isinstance(frequency, np.ndarray)
+        or not isinstance(response, np.ndarray)
+        or not frequency.size
+    ):
         return None
     shape = response.shape if response.ndim == 3 else (1, 1, response.size)
     if shape[-1] != frequency.size:
         return None
-    units = [held[name] for name in ("FrequencyUnit", "FreqUnits", "Units") if isinstance(held.get(name), str) and held[name]]
+    units = [
+        held[name]
+        for name in ("FrequencyUnit", "FreqUnits", "Units")
+        if isinstance(held.get(name), str) and held[name]
+    ]
     return Stored(
         frequency.real.astype(np.float64).ravel(),
         _in_seconds(units[0] if units else DEFAULT_UNIT, held.get("TimeUnit")),
@@ -148,20 +190,28 @@ def _number(value: Any) -> float:
 
 
 def _dead_time(delay: Any, step: float, shape: tuple[int, ...]) -> Real:
-    """Dead times of inputs, outputs and both, shape (n_y, n_u), in seconds; stored in sampling periods in a discrete object."""
+    """Dead times of inputs, outputs and both, shape (n_y, n_u), in seconds; stored in sampling
+    periods in a discrete object.
+    """
     total = np.zeros(shape)
     for name, axes in (("Input", (1, shape[1])), ("Output", (shape[0], 1)), ("IO", shape)):
         found = delay.get(name) if isinstance(delay, dict) else None
         if isinstance(found, np.ndarray) and found.size:
-            total = total + (np.broadcast_to(found.real, axes) if found.size == 1 else found.real.reshape(axes))
+            total = total + (
+                np.broadcast_to(found.real, axes) if found.size == 1 else found.real.reshape(axes)
+            )
     return np.asarray(total * (step if step > 0 else 1.0), dtype=np.float64)
 
 
 def _variance(covariance: Any, shape: tuple[int, ...]) -> Real | None:
-    """var Re G + var Im G from a covariance of shape (n_y, n_u, n_f, 2, 2); None where there is none."""
+    """var Re G + var Im G from a covariance of shape (n_y, n_u, n_f, 2, 2); None where there is
+    none.
+    """
     if not isinstance(covariance, np.ndarray) or covariance.shape != (*shape, 2, 2):
         return None
-    return np.asarray(np.maximum(covariance[..., 0, 0] + covariance[..., 1, 1], 0.0), dtype=np.float64)
+    return np.asarray(
+        np.maximum(covariance[..., 0, 0] + covariance[..., 1, 1], 0.0), dtype=np.float64
+    )
 
 
 def _signals(held: Mapping[str, Any], side: str, count: int) -> tuple[Signal, ...]:

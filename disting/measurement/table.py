@@ -10,7 +10,9 @@ from disting.measurement.arrays import Real
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """Columns of numbers, shape (rows, columns), their headers ("" without one), the line number of each row, the comments."""
+    """Columns of numbers, shape (rows, columns), their headers ("" without one), the line
+    number of each row, the comments.
+    """
 
     headers: tuple[str, ...]
     values: Real
@@ -19,21 +21,37 @@ class Table:
     origin: str
 
     def column(self, at: int) -> Real:
-        """Numbers of column `at` (from 0); raises InputError naming the line of one that is not finite."""
+        """Numbers of column `at` (from 0); raises InputError naming the line of one that is not
+        finite.
+        """
         values = self.values[:, at]
         if not np.all(np.isfinite(values)):
             line = self.lines[int(np.argmin(np.isfinite(values)))]
-            raise InputError(f"{self.origin}, line {line}, {self.named(at)}: the value is not finite; remove the line")
+            raise InputError(
+                f"{self.origin}, line {line}, {self.named(at)}: the value is not finite; remove the"
+                " line"
+            )
         return np.asarray(values)
 
     def at(self, column: str | int) -> int:
-        """Number, from 0, of a column named by its header or by its number from 1; raises InputError listing the headers."""
-        if isinstance(column, int) and not isinstance(column, bool) and 1 <= column <= len(self.headers):
+        """Number, from 0, of a column named by its header or by its number from 1; raises
+        InputError listing the headers.
+        """
+        if (
+            isinstance(column, int)
+            and not isinstance(column, bool)
+            and 1 <= column <= len(self.headers)
+        ):
             return column - 1
-        found = [i for i, h in enumerate(self.headers) if isinstance(column, str) and h and h == column.strip()]
+        found = [
+            i
+            for i, h in enumerate(self.headers)
+            if isinstance(column, str) and h and h == column.strip()
+        ]
         if len(found) != 1:
             raise InputError(
-                f"{self.origin}: {len(found) or 'no'} columns are called {shown(column)}; headers: {self.listed()}"
+                f"{self.origin}: {len(found) or 'no'} columns are called {shown(column)}; headers:"
+                f" {self.listed()}"
             )
         return found[0]
 

@@ -24,14 +24,23 @@ def time_series(
     sensor: Sensor | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
-    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate` [Hz] or column `time` [s].
+    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate`
+    [Hz] or column `time` [s].
 
-    `reference` = the column of what a controller was asked for, where the record is of a closed loop.
+    `reference` = the column of what a controller was asked for, where the record is of a closed
+    loop.
     """
     if sampling_rate is None:
-        at = table.at(time) if time is not None else next((i for i, h in enumerate(table.headers) if is_time(h)), None)
+        at = (
+            table.at(time)
+            if time is not None
+            else next((i for i, h in enumerate(table.headers) if is_time(h)), None)
+        )
         if at is None:
-            raise InputError(f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers: {table.listed()}")
+            raise InputError(
+                f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers:"
+                f" {table.listed()}"
+            )
         sampling_rate = rate_of(table.column(at), table.origin)
     u, y = table.at(input), table.at(output)
     labels = named(table.headers[u]), named(table.headers[y])
@@ -46,7 +55,10 @@ def rate_of(time: Real, origin: str) -> float:
     """Sampling rate [Hz] of equidistant times [s]; raises InputError for others."""
     steps = np.diff(time)
     if not len(steps) or np.any(steps <= 0) or np.ptp(steps) > 1e-3 * np.mean(steps):
-        raise InputError(f"{origin}: the times are not equidistant and rising; resample, or give sampling_rate= [Hz]")
+        raise InputError(
+            f"{origin}: the times are not equidistant and rising; resample, or give sampling_rate="
+            " [Hz]"
+        )
     return float(len(steps) / (time[-1] - time[0]))
 
 

@@ -1,7 +1,8 @@
-"""Numbers in columns from text: any delimiter, decimal point or comma, comments, one header or none.
+"""Numbers in columns from text: any delimiter, decimal point or comma, comments, one header or
+none.
 
-The delimiter and the decimal sign are those of the first pair below that reads the most lines as numbers; so "1,5;2,5" has
-decimal commas, "1,5" alone two columns, "1,5 2,5" decimal commas again.
+The delimiter and the decimal sign are those of the first pair below that reads the most lines as
+numbers; so "1,5;2,5" has decimal commas, "1,5" alone two columns, "1,5 2,5" decimal commas again.
 """
 
 import re
@@ -16,26 +17,38 @@ from disting.measurement.table import Table
 DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (" ", "."), (" ", ","))
 SAMPLE = 60  # lines from the end by which the dialect is chosen: a header is at the beginning
 # No two parts can match the same digits, so that a cell of many digits is read in linear time.
-NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE | re.ASCII)
+NUMBER = re.compile(
+    r"[+-]?(\d+(\.\d*)?|\.\d+)([eEdD][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE | re.ASCII
+)
 SWAPPED = str.maketrans(",.", ".,")
 BRACKET = re.compile(r"\s*\([^()]*\)\s*$")
 
 
 def decoded(content: bytes, origin: str) -> str:
-    """Text of a file: UTF-8, UTF-16 with its mark, else Latin 1; raises InputError for what is no text."""
-    for encoding in ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
+    """Text of a file: UTF-8, UTF-16 with its mark, else Latin 1; raises InputError for what is
+    no text.
+    """
+    for encoding in (
+        ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1")
+    ):
         try:
             text = content.decode(encoding)
         except UnicodeDecodeError:
             continue
         if "\0" not in text:
             return text
-    raise InputError(f"{origin} is no text file; MATLAB files end in .mat, universal files in .uff or .unv")
+    raise InputError(
+        f"{origin} is no text file; MATLAB files end in .mat, universal files in .uff or .unv"
+    )
 
 
 def table(text: str, origin: str) -> Table:
     """The table in a text; raises InputError with line and column of the first mistake."""
-    numbered = [(n, line.strip("\r\n ")) for n, line in enumerate(re.split(r"\r\n|\n|\r", text), 1) if line.strip()]
+    numbered = [
+        (n, line.strip("\r\n "))
+        for n, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
+        if line.strip()
+    ]
     comments = [line.lstrip("#% ") for _, line in numbered if line[0] in "#%"]
     rows = [(n, line) for n, line in numbered if line[0] not in "#%"]
     delimiter, decimal = _dialect([line for _, line in rows], origin)
@@ -44,30 +57,42 @@ def table(text: str, origin: str) -> Table:
     start = _first_row(split, decimal, width, origin)
     headers = _headers([fields for _, fields in split[:start]], comments, delimiter, width)
     data = split[start:]
-    values = np.array([_numbers(n, fields, headers, decimal, origin) for n, fields in data], dtype=np.float64)
+    values = np.array(
+        [_numbers(n, fields, headers, decimal, origin) for n, fields in data], dtype=np.float64
+    )
     outside = [" ".join(fields) for _, fields in split[:start]]
     return Table(headers, values, tuple(n for n, _ in data), (*comments, *outside), origin)
 
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
     def readable(dialect: tuple[str, str]) -> float:
-        """How many of the last lines are numbers only, more than one, when read so; between blanks a tab counts against it.
+        """How many of the last lines are numbers only, more than one, when read so; between blanks
+        a tab counts against it.
 
-        A line of a file with tabs that lacks a cell must not make it one with blanks, where two tabs are as good as one.
+        A line of a file with tabs that lacks a cell must not make it one with blanks, where two
+        tabs are as good as one.
         """
         delimiter, decimal = dialect
         sample = [(line, _fields(line, delimiter)) for line in lines[-SAMPLE:]]
-        good = [line for line, parts in sample if len(parts) > 1 and _count(parts, decimal) == len(parts)]
+        good = [
+            line
+            for line, parts in sample
+            if len(parts) > 1 and _count(parts, decimal) == len(parts)
+        ]
         return sum(0.5 if delimiter == " " and "\t" in line else 1.0 for line in good)
 
     best = max(DIALECTS, key=readable, default=DIALECTS[0])
     if not lines or not readable(best):
-        raise InputError(f"{origin} holds no columns of numbers separated by comma, semicolon, tab or blanks")
+        raise InputError(
+            f"{origin} holds no columns of numbers separated by comma, semicolon, tab or blanks"
+        )
     return best
 
 
 def _fields(line: str, delimiter: str) -> list[str]:
-    """Fields without blanks and quotation marks; one delimiter at the end of a line closes it and opens no field."""
+    """Fields without blanks and quotation marks; one delimiter at the end of a line closes it
+    and opens no field.
+    """
     parts = line.split() if delimiter == " " else line.split(delimiter)
     fields = [part.strip().strip('"') for part in parts]
     return fields[:-1] if len(fields) > 1 and not fields[-1] else fields
@@ -79,7 +104,9 @@ def _count(fields: list[str], decimal: str) -> int:
 
 
 def _with_point(field: str, decimal: str) -> str:
-    """A field of the file's decimal sign as one with a point; the other sign makes it no number, for it may mean thousands."""
+    """A field of the file's decimal sign as one with a point; the other sign makes it no
+    number, for it may mean thousands.
+    """
     return field.translate(SWAPPED) if decimal == "," else field
 
 
@@ -89,23 +116,33 @@ def _width(rows: list[list[str]]) -> int:
 
 
 def _first_row(split: list[tuple[int, list[str]]], decimal: str, width: int, origin: str) -> int:
-    """Number of lines before the data; one that is partly numbers is damaged data, if it is of full width or below a header."""
+    """Number of lines before the data; one that is partly numbers is damaged data, if it is of
+    full width or below a header.
+    """
     below_header = False
     for at, (n, fields) in enumerate(split):
         numbers = _count(fields, decimal)
         if len(fields) == width and numbers == width:
             return at
         if len(fields) != width and numbers and (below_header or numbers == len(fields) > 1):
-            raise InputError(f"{origin}, line {n}: {len(fields)} columns where the others have {width}")
+            raise InputError(
+                f"{origin}, line {n}: {len(fields)} columns where the others have {width}"
+            )
         below_header |= len(fields) == width and not numbers
         if len(fields) == width and numbers:
             wrong = next(i for i, f in enumerate(fields, 1) if not _count([f], decimal))
-            raise InputError(f"{origin}, line {n}, column {wrong}: {shown(fields[wrong - 1])} is no number")
+            raise InputError(
+                f"{origin}, line {n}, column {wrong}: {shown(fields[wrong - 1])} is no number"
+            )
     raise InputError(f"{origin} holds no line of {width} numbers")
 
 
-def _headers(before: list[list[str]], comments: list[str], delimiter: str, width: int) -> tuple[str, ...]:
-    """Header lines (names, units) joined column by column; else the last comment that is a header; else nothing."""
+def _headers(
+    before: list[list[str]], comments: list[str], delimiter: str, width: int
+) -> tuple[str, ...]:
+    """Header lines (names, units) joined column by column; else the last comment that is a
+    header; else nothing.
+    """
     stacked = [fields for fields in before if len(fields) == width]
     if stacked:
         return tuple(" ".join(filter(None, words)) for words in zip(*stacked, strict=True))
@@ -119,18 +156,28 @@ def _headers(before: list[list[str]], comments: list[str], delimiter: str, width
 
 
 def _is_header(fields: list[str], delimited: bool) -> bool:
-    """Whether the parts of a comment name columns: no numbers, and the delimiter of the data or the word frequency."""
-    return not _count(fields, ".") and (delimited or any(meaning(field) in FREQUENCIES for field in fields))
+    """Whether the parts of a comment name columns: no numbers, and the delimiter of the data or
+    the word frequency.
+    """
+    return not _count(fields, ".") and (
+        delimited or any(meaning(field) in FREQUENCIES for field in fields)
+    )
 
 
-def _numbers(n: int, fields: list[str], headers: tuple[str, ...], decimal: str, origin: str) -> list[float]:
+def _numbers(
+    n: int, fields: list[str], headers: tuple[str, ...], decimal: str, origin: str
+) -> list[float]:
     if len(fields) != len(headers):
-        raise InputError(f"{origin}, line {n}: {len(fields)} columns where the others have {len(headers)}")
+        raise InputError(
+            f"{origin}, line {n}: {len(fields)} columns where the others have {len(headers)}"
+        )
     numbers = []
     for column, field in enumerate(fields, 1):
         text = _with_point(field, decimal)
         if not NUMBER.fullmatch(text):
             named = f" ({headers[column - 1]})" if headers[column - 1] else ""
-            raise InputError(f"{origin}, line {n}, column {column}{named}: {shown(field)} is no number")
+            raise InputError(
+                f"{origin}, line {n}, column {column}{named}: {shown(field)} is no number"
+            )
         numbers.append(float(re.sub("[dD]", "e", text)))
     return numbers

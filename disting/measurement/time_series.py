@@ -15,10 +15,12 @@ from disting.model.chain import Sensor
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeSeries:
-    """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by content.
+    """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by
+    content.
 
-    `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked for, or None. Raises
-    InputError for samples that are not finite, constant signals and unequal lengths.
+    `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
+    for, or None. Raises InputError for samples that are not finite, constant signals and unequal
+    lengths.
     """
 
     u: Real
@@ -35,16 +37,23 @@ class TimeSeries:
         for name in ("u", "y", *["reference"] * (self.reference is not None)):
             object.__setattr__(self, name, frozen(_samples(getattr(self, name), name)))
         if len(self.u) != len(self.y):
-            raise InputError(f"the input has {len(self.u)} samples, the output {len(self.y)}; give signals of one record")
+            raise InputError(
+                f"the input has {len(self.u)} samples, the output {len(self.y)}; give signals of"
+                " one record"
+            )
         if self.reference is not None and len(self.reference) != len(self.u):
-            raise InputError(f"the reference has {len(self.reference)} samples, the input {len(self.u)}; give one record")
+            raise InputError(
+                f"the reference has {len(self.reference)} samples, the input {len(self.u)}; give"
+                " one record"
+            )
         object.__setattr__(self, "sampling_rate", _rate(self.sampling_rate))
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return TimeSeries, tuple(getattr(self, field.name) for field in fields(self))  # arrays stay read-only in a copy
+        # arrays stay read-only in a copy
+        return TimeSeries, tuple(getattr(self, field.name) for field in fields(self))
 
     def __len__(self) -> int:
         return len(self.u)
@@ -75,29 +84,57 @@ class TimeSeries:
         segment: int | None = None,
         least_coherence: float | None = None,
     ) -> FrequencyResponse:
-        """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default: that of the record).
+        """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default:
+        that of the record).
 
-        Periodic excitation (module `periodic`): `period` [samples], detected where not given; `transient` = periods dropped at
-        the beginning; `lines` = excited frequencies [Hz], detected where not given. Any other excitation: `segment` [samples]
-        of Welch's method (module `welch`), which is used exactly where `segment` is given; lines of a coherence below
-        `least_coherence` are left out then (default: what chance gives). A reference makes both methods hold in closed loop.
-        `band` = (low, high) [Hz]. Raises InputError where no period is found, periods are missing, too few lines are left, or
-        `period` and `segment` are both given.
+        Periodic excitation (module `periodic`): `period` [samples], detected where not given;
+        `transient` = periods dropped at the beginning; `lines` = excited frequencies [Hz],
+        detected where not given. Any other excitation: `segment` [samples] of Welch's method
+        (module `welch`), which is used exactly where `segment` is given; lines of a coherence
+        below `least_coherence` are left out then (default: what chance gives). A reference makes
+        both methods hold in closed loop. `band` = (low, high) [Hz]. Raises InputError where no
+        period is found, periods are missing, too few lines are left, or `period` and `segment` are
+        both given.
         """
         if segment is not None and (period is not None or lines is not None):
-            raise InputError("period and lines belong to a periodic excitation, segment to any other: give one of them")
+            raise InputError(
+                "period and lines belong to a periodic excitation, segment to any other: give one"
+                " of them"
+            )
         if segment is None and least_coherence is not None:
-            raise InputError("least_coherence belongs to Welch's method: give segment= [samples] too")
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite then is refused below
+            raise InputError(
+                "least_coherence belongs to Welch's method: give segment= [samples] too"
+            )
+        # what is not finite then is refused below
+        with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
                 excitation = self.u if self.reference is None else self.reference
-                found = periodic.estimate(self.u, self.y, self.sampling_rate, period, transient, lines, band, excitation)
+                found = periodic.estimate(
+                    self.u, self.y, self.sampling_rate, period, transient, lines, band, excitation
+                )
             else:
-                found = welch.estimate(self.u, self.y, self.sampling_rate, segment, band, self.reference, least_coherence)
+                found = welch.estimate(
+                    self.u,
+                    self.y,
+                    self.sampling_rate,
+                    segment,
+                    band,
+                    self.reference,
+                    least_coherence,
+                )
         if len(found.omega) < checks.FEWEST:
-            said = "; ".join((*found.notes, *([f"band {band[0]:g}..{band[1]:g} Hz"] if band else [])))
-            raise InputError(f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed: {said}")
-        doubt = follows_output(self.u, self.y) if segment is not None and self.reference is None else None
+            said = "; ".join(
+                (*found.notes, *([f"band {band[0]:g}..{band[1]:g} Hz"] if band else []))
+            )
+            raise InputError(
+                f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed:"
+                f" {said}"
+            )
+        doubt = (
+            follows_output(self.u, self.y)
+            if segment is not None and self.reference is None
+            else None
+        )
         response = FrequencyResponse(
             found.omega,
             found.G,
@@ -114,16 +151,23 @@ class TimeSeries:
 
 
 def said(sensor: Sensor | str | None) -> tuple[Sensor, tuple[str, ...]]:
-    """Sensor quantity of a recorded output, position where nobody said it, and the note that says so then."""
+    """Sensor quantity of a recorded output, position where nobody said it, and the note that
+    says so then.
+    """
     if sensor is not None:
         return as_sensor(sensor), ()
-    return Sensor.POSITION, ('output taken as a position; if not, give sensor="velocity" or sensor="acceleration"',)
+    return Sensor.POSITION, (
+        'output taken as a position; if not, give sensor="velocity" or sensor="acceleration"',
+    )
 
 
 def _samples(values: Any, name: str) -> Real:
     array = real(values, name)
     if not np.all(np.isfinite(array)):
-        raise InputError(f"sample {int(np.argmin(np.isfinite(array))) + 1} of {name} is not finite; cut the record before it")
+        raise InputError(
+            f"sample {int(np.argmin(np.isfinite(array))) + 1} of {name} is not finite; cut the"
+            " record before it"
+        )
     if not len(array) or np.ptp(array) == 0:
         raise InputError(f"{name} does not move in {len(array)} samples; is another signal meant?")
     return array.copy()

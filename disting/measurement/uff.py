@@ -1,6 +1,8 @@
-"""Universal file format (UFF, UNV), data set 58, by pyuff: function type 4 is a frequency response, 6 a coherence.
+"""Universal file format (UFF, UNV), data set 58, by pyuff: function type 4 is a frequency
+response, 6 a coherence.
 
-The quantity of the sensor is the data type of the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
+The quantity of the sensor is the data type of the ordinate's numerator: 8 displacement, 11
+velocity, 12 acceleration.
 """
 
 import contextlib
@@ -13,13 +15,20 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, listed
-from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.response import (
+    ASSUMED_ACCELERATION,
+    FrequencyResponse,
+    Signal,
+    as_sensor,
+    as_sign,
+)
 from disting.model.chain import Sensor
 
 RESPONSE, COHERENCE = 4, 6
 QUANTITIES = {8: Sensor.POSITION, 11: Sensor.VELOCITY, 12: Sensor.ACCELERATION}
 DIRECTIONS = {0: "", 1: "+x", 2: "+y", 3: "+z", 4: "+rx", 5: "+ry", 6: "+rz"}
-# Columns of numbers in a line that belong together, and the longest line, by type of the ordinate and of the abscissa
+# Columns of numbers in a line that belong together, and the longest line, by type of the ordinate
+# and of the abscissa
 COLUMNS = {
     (2, 0): (13, 78), (2, 1): (13, 78), (5, 0): (13, 78), (5, 1): (13, 78),
     (4, 0): (33, 66), (4, 1): (20, 80), (6, 0): (53, 53), (6, 1): (20, 80),
@@ -29,17 +38,23 @@ PLACE = ("rsp_node", "rsp_dir", "ref_node", "ref_dir")
 Record = Mapping[str, Any]
 
 
-def read_uff(path: Path, *, record: int | None = None, sensor: Sensor | str | None = None, sign: int = 1) -> FrequencyResponse:
-    """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken from the file where it is there.
+def read_uff(
+    path: Path, *, record: int | None = None, sensor: Sensor | str | None = None, sign: int = 1
+) -> FrequencyResponse:
+    """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken
+    from the file where it is there.
 
-    `sensor` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError, listing the responses.
+    `sensor` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError,
+    listing the responses.
     """
     records = _records(path)
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
     number = 1 if record is None else record
     if not 1 <= number <= len(responses):
         there = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
-        raise InputError(f"{path.name} has no frequency response number {number}; there are: {there}")
+        raise InputError(
+            f"{path.name} has no frequency response number {number}; there are: {there}"
+        )
     chosen = responses[number - 1]
     quantity, note = _quantity(chosen, sensor)
     try:
@@ -71,11 +86,15 @@ def _records(path: Path) -> Sequence[Record]:
             numbers = [i for i, kind in enumerate(file.get_set_types()) if kind == 58]
             return [file.read_sets(i) for i in numbers]
     except Exception as error:  # damaged files raise whatever the library meets first
-        raise InputError(f"{path.name} is no universal file that can be read: {type(error).__name__}: {error}") from None
+        raise InputError(
+            f"{path.name} is no universal file that can be read: {type(error).__name__}: {error}"
+        ) from None
 
 
 def _check_columns(text: str) -> None:
-    """Raise ValueError for a line of numbers that is not of whole columns: those behind its damage would be shifted."""
+    """Raise ValueError for a line of numbers that is not of whole columns: those behind its
+    damage would be shifted.
+    """
     for block in re.split(r"(?m)^ {4}-1[ \r]*\n?", text):
         lines = block.splitlines()
         if not lines or lines[0].strip() != "58":
@@ -96,8 +115,12 @@ def _quantity(record: Record, asked: Sensor | str | None) -> tuple[Sensor, str |
 
 
 def _coherence(records: Sequence[Record], response: Record) -> Any:
-    """That of the same output and frequencies, if there is exactly one (a coherence may name no input)."""
-    found = [r["data"] for r in records if r.get("func_type") == COHERENCE and _belongs(r, response)]
+    """That of the same output and frequencies, if there is exactly one (a coherence may name no
+    input).
+    """
+    found = [
+        r["data"] for r in records if r.get("func_type") == COHERENCE and _belongs(r, response)
+    ]
     return np.real(found[0]) if len(found) == 1 else None
 
 
@@ -110,7 +133,8 @@ def _belongs(coherence: Record, response: Record) -> bool:
 def _node(record: Record, side: str) -> str:
     direction = record.get(f"{side}_dir", 0)
     sign = DIRECTIONS.get(abs(direction), str(direction))
-    return f"node {record.get(f'{side}_node', '?')}{' ' * bool(sign)}{sign.replace('+', '-') if direction < 0 else sign}"
+    signed = sign.replace("+", "-") if direction < 0 else sign
+    return " ".join(filter(None, (f"node {record.get(f'{side}_node', '?')}", signed)))
 
 
 def _place(record: Record) -> str:

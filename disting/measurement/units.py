@@ -1,7 +1,8 @@
-"""Units of measured signals: what a header says, taken to SI, so that results are in kg m2 or kg, Nm/rad or N/m.
+"""Units of measured signals: what a header says, taken to SI, so that results are in kg m2 or kg,
+Nm/rad or N/m.
 
-A motion is rad or m (or a multiple), with /s or /s^2; what drives it is a torque, a force, or a current or voltage, which a
-torque constant turns into one.
+A motion is rad or m (or a multiple), with /s or /s^2; what drives it is a torque, a force, or a
+current or voltage, which a torque constant turns into one.
 """
 
 import re
@@ -22,7 +23,12 @@ DRIVES = {
     "A": ("A", 1.0), "mA": ("A", 1e-3), "V": ("V", 1.0), "mV": ("V", 1e-3),
 }  # fmt: skip
 PER_TIME = {"": 0, "/s": 1, "/s^2": 2}
-SPECIAL = {"rpm": ("rad", 1, pi / 30), "1/min": ("rad", 1, pi / 30), "min^-1": ("rad", 1, pi / 30), "g": ("m", 2, 9.80665)}
+SPECIAL = {
+    "rpm": ("rad", 1, pi / 30),
+    "1/min": ("rad", 1, pi / 30),
+    "min^-1": ("rad", 1, pi / 30),
+    "g": ("m", 2, 9.80665),
+}
 SUFFIX = ("", "/s", "/s^2")
 BY_ORDER = {s.order: s for s in Sensor}
 MOTION_TEXT = r"(?:m?rad|deg|°|rev|turn|[cmuµμ]?m)(?:/s(?:(?:\^|\*\*)?2|²)?)?"
@@ -42,8 +48,10 @@ class Motion(NamedTuple):
 def motion(text: str) -> Motion | None:
     """The unit of a motion, None for what is none.
 
-    >>> motion("mm/s²"), motion("rpm"), motion("Nm")
-    (Motion(base='m', order=2, factor=0.001), Motion(base='rad', order=1, factor=0.10471975511965977), None)
+    >>> motion("mm/s²"), motion("Nm")
+    (Motion(base='m', order=2, factor=0.001), None)
+    >>> motion("rpm")
+    Motion(base='rad', order=1, factor=0.10471975511965977)
     """
     plain = re.sub(r"\s", "", text).replace("²", "^2").replace("**2", "^2").replace("/s2", "/s^2")
     if plain in SPECIAL:
@@ -51,7 +59,9 @@ def motion(text: str) -> Motion | None:
     base, slash, rest = plain.partition("/")
     if slash + rest not in PER_TIME or base not in LENGTHS | ANGLES:
         return None
-    return Motion("m" if base in LENGTHS else "rad", PER_TIME[slash + rest], (LENGTHS | ANGLES)[base])
+    return Motion(
+        "m" if base in LENGTHS else "rad", PER_TIME[slash + rest], (LENGTHS | ANGLES)[base]
+    )
 
 
 def drive(text: str) -> tuple[str, float] | None:
@@ -64,10 +74,11 @@ def drive(text: str) -> tuple[str, float] | None:
 
 
 def ratio(texts: Iterable[str]) -> tuple[str, str] | None:
-    """Units of output and input from headers and comments, where they agree; None where they say none.
+    """Units of output and input from headers and comments, where they agree; None where they say
+    none.
 
-    >>> ratio(["# acceleration/current, rad/s^2 per A"]), ratio(["(m/s)/N"]), ratio(["f [Hz]", "Re"])
-    (('rad/s^2', 'A'), ('m/s', 'N'), None)
+    >>> ratio(["# acceleration/current, rad/s^2 per A"]), ratio(["f [Hz]", "Re"])
+    (('rad/s^2', 'A'), None)
     """
     found = {(one[1], one[2]) for text in texts for one in RATIO.finditer(text)}
     return found.pop() if len(found) == 1 else None
@@ -76,38 +87,61 @@ def ratio(texts: Iterable[str]) -> tuple[str, str] | None:
 def named(header: str) -> Signal:
     """Name and unit of a signal headed like `iq [A]`; no unit where the brackets hold another word.
 
-    >>> named("angle (deg)"), named("iq [A]"), named("out (filtered)")
-    (Signal(label='angle', unit='deg'), Signal(label='iq', unit='A'), Signal(label='out (filtered)', unit=''))
+    >>> named("angle (deg)"), named("out (filtered)")
+    (Signal(label='angle', unit='deg'), Signal(label='out (filtered)', unit=''))
     """
     parts = BRACKETED.match(header)
-    return Signal(parts[1], parts[2]) if parts and (motion(parts[2]) or drive(parts[2])) else Signal(header)
+    return (
+        Signal(parts[1], parts[2])
+        if parts and (motion(parts[2]) or drive(parts[2]))
+        else Signal(header)
+    )
 
 
-def in_si(response: FrequencyResponse, *, output: str | None = None, input: str | None = None) -> FrequencyResponse:
-    """The response in SI units where the units of its signals are known; `output`, `input` = units in their place.
+def in_si(
+    response: FrequencyResponse, *, output: str | None = None, input: str | None = None
+) -> FrequencyResponse:
+    """The response in SI units where the units of its signals are known; `output`, `input` = units
+    in their place.
 
-    The order of a unit (rad/s is a velocity) is that of the sensor where nobody said the sensor's quantity. Raises InputError
-    for a unit that is given and not known, and for one that contradicts the quantity.
+    The order of a unit (rad/s is a velocity) is that of the sensor where nobody said the sensor's
+    quantity. Raises InputError for a unit that is given and not known, and for one that
+    contradicts the quantity.
     """
     there, here = motion(output or response.output.unit), drive(input or response.input.unit)
     for given, unit, example in ((output, there, "rad, mm/s, rpm"), (input, here, "A, Nm, N")):
         if given and unit is None:
-            raise InputError(f"{shown(given)} is no unit that is known here; known are such as {example}")
+            raise InputError(
+                f"{shown(given)} is no unit that is known here; known are such as {example}"
+            )
     if there is not None:
-        response = _moved(response, there, said=output or response.output.unit, asked=output is not None)
+        response = _moved(
+            response, there, said=output or response.output.unit, asked=output is not None
+        )
     if here is None:
         return response
     return _scaled(replace(response, input=response.input._replace(unit=here[0])), 1 / here[1])
 
 
 def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResponse:
-    """The response per torque or force where the input is a current: divided by `constant` [Nm/A, or N/A for a motion in m]."""
+    """The response per torque or force where the input is a current: divided by `constant`
+    [Nm/A, or N/A for a motion in m].
+    """
     if not 0 < constant < float("inf"):
         raise InputError(f"a torque constant is positive [Nm/A or N/A], not {constant:g}")
     if response.input.unit in ("N", "Nm"):
-        raise InputError(f"the input is in {response.input.unit} already; leave --torque-constant away")
+        raise InputError(
+            f"the input is in {response.input.unit} already; leave --torque-constant away"
+        )
     found = motion(response.output.unit)
-    note = None if found else "the output is taken to be in rad, the results are rotational; if not, give --unit output=m"
+    note = (
+        None
+        if found
+        else (
+            "the output is taken to be in rad, the results are rotational; if not, give --unit"
+            " output=m"
+        )
+    )
     base = found.base if found else "rad"
     units = (
         response.output._replace(unit=base + SUFFIX[response.sensor.order]),
@@ -119,7 +153,9 @@ def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResp
 def scaled(response: FrequencyResponse, factor: float) -> FrequencyResponse:
     """The response times a positive factor; raises InputError for another one."""
     if not 0 < factor < float("inf"):
-        raise InputError(f"a scale is a positive number, not {factor:g}; a reversed sensor is --sign=-")
+        raise InputError(
+            f"a scale is a positive number, not {factor:g}; a reversed sensor is --sign=-"
+        )
     return _scaled(response, factor)
 
 
@@ -127,14 +163,19 @@ def _moved(response: FrequencyResponse, unit: Motion, said: str, asked: bool) ->
     assumed = ASSUMED_ACCELERATION in response.notes
     if assumed:
         response = replace(
-            response, sensor=BY_ORDER[unit.order], notes=tuple(n for n in response.notes if n != ASSUMED_ACCELERATION)
+            response,
+            sensor=BY_ORDER[unit.order],
+            notes=tuple(n for n in response.notes if n != ASSUMED_ACCELERATION),
         )
     elif unit.order != response.sensor.order and not (asked and unit.order == 0):
         raise InputError(
-            f"the output in {said} is a {BY_ORDER[unit.order].value}, the response is read as that of a"
-            f" {response.sensor.value}: give sensor={BY_ORDER[unit.order].value}, or another unit"
+            f"the output in {said} is a {BY_ORDER[unit.order].value}, the response is read as that"
+            f" of a {response.sensor.value}: give sensor={BY_ORDER[unit.order].value}, or another"
+            " unit"
         )
-    note = f"output taken from {said} to {unit.base}{SUFFIX[unit.order]}" if unit.factor != 1 else None
+    note = (
+        f"output taken from {said} to {unit.base}{SUFFIX[unit.order]}" if unit.factor != 1 else None
+    )
     signal = response.output._replace(unit=unit.base + SUFFIX[response.sensor.order])
     return _scaled(replace(response, output=signal), unit.factor).noted(note)
 

@@ -1,7 +1,8 @@
-"""Frequency responses and time series from named arrays, as MATLAB files and archives of arrays hold them.
+"""Frequency responses and time series from named arrays, as MATLAB files and archives of arrays
+hold them.
 
-`NAME[2]` is the second signal of an array of several, `NAME[2,1]` the response from the first input to the second output:
-numbers from 1, as in MATLAB.
+`NAME[2]` is the second signal of an array of several, `NAME[2,1]` the response from the first
+input to the second output: numbers from 1, as in MATLAB.
 """
 
 import re
@@ -14,7 +15,13 @@ from numpy.typing import NDArray
 from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
 from disting.measurement.grid import in_omega
-from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.response import (
+    ASSUMED_ACCELERATION,
+    FrequencyResponse,
+    Signal,
+    as_sensor,
+    as_sign,
+)
 from disting.measurement.table_series import rate_of
 from disting.measurement.time_series import TimeSeries, said
 from disting.model.chain import Sensor
@@ -30,7 +37,8 @@ TIME_NAMES = ("t", "time", "Time")
 
 INDEXED = re.compile(r"(.+?)(?:\[|\((?::,)?)([0-9]{1,9}(?:,[0-9]{1,9})*)[\])]")
 
-Arrays = Mapping[str, Callable[[], NDArray[Any]]]  # by name; called where needed, so that others may be unreadable
+# by name; called where needed, so that others may be unreadable
+Arrays = Mapping[str, Callable[[], NDArray[Any]]]
 
 
 def from_variables(
@@ -46,10 +54,12 @@ def from_variables(
     sensor: Sensor | str | None = None,
     sign: int = 1,
 ) -> FrequencyResponse:
-    """Response from variables of these names; without names, usual ones (f, freq, w, omega; G, H, FRF, ...) are looked for.
+    """Response from variables of these names; without names, usual ones (f, freq, w, omega; G, H,
+    FRF, ...) are looked for.
 
-    `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which response (from 0, one number for
-    every other axis) of an array of several; `sensor`, `sign` as for a text file.
+    `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which
+    response (from 0, one number for every other axis) of an array of several; `sensor`, `sign` as
+    for a text file.
     """
     name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
     default = "rad/s" if name in OMEGA_NAMES else "Hz"
@@ -92,16 +102,20 @@ def series_from_variables(
     sensor: Sensor | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
-    """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a variable, or `time` [s] = a variable.
+    """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a
+    variable, or `time` [s] = a variable.
 
-    Without either, fs, Fs, Ts, dt, then t, time are looked for. A signal may be `NAME[2]`, one of an array of several.
+    Without either, fs, Fs, Ts, dt, then t, time are looked for. A signal may be `NAME[2]`, one of
+    an array of several.
     """
     rate = _rate(arrays, sampling_rate, time, origin)
     signals = Signal(input), Signal(output)
     samples = _signal(arrays, input, origin), _signal(arrays, output, origin) * as_sign(sign)
     quantity, notes = said(sensor)
     wanted = None if reference is None else _signal(arrays, reference, origin)
-    return TimeSeries(*samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes, wanted)
+    return TimeSeries(
+        *samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes, wanted
+    )
 
 
 def indexed(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
@@ -114,20 +128,31 @@ def indexed(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
     return (found[1], tuple(int(n) - 1 for n in found[2].split(","))) if found else (asked, None)
 
 
-def row(values: NDArray[Any], size: int, index: int | Sequence[int] | None, name: str) -> NDArray[Any]:
-    """One response of `size` lines from an array whose other axes count responses, taken at `index`."""
+def row(
+    values: NDArray[Any], size: int, index: int | Sequence[int] | None, name: str
+) -> NDArray[Any]:
+    """One response of `size` lines from an array whose other axes count responses, taken at
+    `index`.
+    """
     array = np.squeeze(np.asarray(values))
     array = array.reshape(1) if array.ndim == 0 else array
     axes = [axis for axis, length in enumerate(array.shape) if length == size]
     if not axes:
-        raise InputError(f"{name} of shape {np.shape(values)} has no axis of {size} values, one a frequency")
+        raise InputError(
+            f"{name} of shape {np.shape(values)} has no axis of {size} values, one a frequency"
+        )
     several = np.moveaxis(array, axes[-1], -1)
     if several.ndim == 1:
         return several
     at = (index,) if isinstance(index, int) else tuple(index or ())
-    if len(at) != several.ndim - 1 or any(not 0 <= i < n for i, n in zip(at, several.shape, strict=False)):
+    if len(at) != several.ndim - 1 or any(
+        not 0 <= i < n for i, n in zip(at, several.shape, strict=False)
+    ):
         shape = " x ".join(map(str, several.shape[:-1]))
-        raise InputError(f"{name} holds {shape} responses; choose one by index= ({several.ndim - 1} numbers from 0)")
+        raise InputError(
+            f"{name} holds {shape} responses; choose one by index= ({several.ndim - 1} numbers"
+            " from 0)"
+        )
     return np.asarray(several[at])
 
 
@@ -135,7 +160,10 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
     if asked is None:
         found = next((name for name in usual if name in arrays), None)
         if found is None:
-            raise InputError(f"{origin}: which variable is the {role}? give {role}=; variables: {_listed(arrays)}")
+            raise InputError(
+                f"{origin}: which variable is the {role}? give {role}=; variables:"
+                f" {_listed(arrays)}"
+            )
         return found
     if asked not in arrays:
         raise InputError(f"{origin} has no variable {shown(asked)}; variables: {_listed(arrays)}")
@@ -143,11 +171,18 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
 
 
 def _optional(
-    arrays: Arrays, asked: str | None, usual: Sequence[str], size: int, index: int | Sequence[int] | None, origin: str
+    arrays: Arrays,
+    asked: str | None,
+    usual: Sequence[str],
+    size: int,
+    index: int | Sequence[int] | None,
+    origin: str,
 ) -> Real | None:
     """The variable asked for; or the first usual one, if it has a value a line."""
     if asked is not None:
-        return row(_numeric(arrays, _name(arrays, asked, (), "", origin), origin), size, index, asked)
+        return row(
+            _numeric(arrays, _name(arrays, asked, (), "", origin), origin), size, index, asked
+        )
     for name in (n for n in usual if n in arrays):
         try:
             return row(_numeric(arrays, name, origin), size, index, name)
@@ -170,7 +205,9 @@ def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
     if values.ndim == 2:
         several = values.T if values.shape[0] >= values.shape[1] else values
         if index is None or len(index) != 1 or not 0 <= index[0] < len(several):
-            raise InputError(f"{name} holds {len(several)} signals; choose one, from 1, as {name}[2]")
+            raise InputError(
+                f"{name} holds {len(several)} signals; choose one, from 1, as {name}[2]"
+            )
         return np.asarray(several[index[0]])
     if values.ndim != 1 or index is not None:
         raise InputError(f"{asked} is no single signal: {name} is of shape {values.shape}")

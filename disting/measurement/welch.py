@@ -1,17 +1,26 @@
-"""Frequency response from an excitation that does not repeat: Welch's method, in open loop and in closed loop.
+"""Frequency response from an excitation that does not repeat: Welch's method, in open loop and in
+closed loop.
 
-Half-overlapping Hann segments give the spectra S_ab of input u, output y and reference r. In open loop r = u. With
+Half-overlapping Hann segments give the spectra S_ab of input u, output y and reference r. In open
+loop r = u. With
 
-    G = S_ry / S_ru,      S_vv = S_yy - 2 Re(conj(G) S_uy) + |G|^2 S_uu      (v = y - G u, what u does not explain),
+    G = S_ry / S_ru,      S_vv = S_yy - 2 Re(conj(G) S_uy) + |G|^2 S_uu      (v = y - G u, what u
+    does not explain),
 
     deviation = sqrt(S_vv S_rr / n_e) / |S_ru|,      n_e = n_d / (1 + 2/36),
 
-for n_d segments; 1/36 is the squared correlation of neighbouring segments (Welch 1967). For r = u this is the H1 estimator with
-|G| sqrt((1 - gamma^2) / (gamma^2 n_e)) (Bendat and Piersol, Random Data, 4th ed. 2010, section 9.2, for the complex number). In
-closed loop u holds the noise that the controller feeds back; H1 is then biased, up to -1/controller, while r, which knows no
-noise, gives G free of bias (joint input-output method: Ljung, System Identification, 2nd ed. 1999, section 13.5). The coherence
-is gamma^2 = |S_uy|^2 / (S_uu S_yy) in open loop, the smaller one of those of r with u and with y in closed loop. Without any
-relation, gamma^2 exceeds 1 - p^(1 / (n_e - 1)) with probability p; lines below that tell nothing and are left out.
+for n_d segments; 1/36 is the squared correlation of neighbouring segments (Welch 1967). For r = u
+this is the H1 estimator with
+
+    deviation = |G| sqrt((1 - gamma^2) / (gamma^2 n_e))
+
+(Bendat and Piersol, Random Data, 4th ed. 2010, section 9.2, for the complex number). In closed
+loop u holds the noise that the controller feeds back; H1 is then biased, up to -1/controller,
+while r, which knows no noise, gives G free of bias (joint input-output method: Ljung, System
+Identification, 2nd ed. 1999, section 13.5). The coherence is gamma^2 = |S_uy|^2 / (S_uu S_yy) in
+open loop, the smaller one of those of r with u and with y in closed loop. Without any relation,
+gamma^2 exceeds 1 - p^(1 / (n_e - 1)) with probability p; lines below that tell nothing and are
+left out.
 """
 
 import numpy as np
@@ -33,7 +42,8 @@ def estimate(
     reference: Real | None = None,
     least_coherence: float | None = None,
 ) -> Estimated:
-    """Estimate at the multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half the sampling rate.
+    """Estimate at the multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half the
+    sampling rate.
 
     Lines of a coherence below `least_coherence` are left out (default: that of chance).
     """
@@ -45,25 +55,40 @@ def estimate(
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
 
     def spectrum(a: Real, b: Real) -> Complex:
-        options = {"fs": rate, "window": "hann", "nperseg": segment, "noverlap": segment // 2, "detrend": "constant"}
+        options = {
+            "fs": rate,
+            "window": "hann",
+            "nperseg": segment,
+            "noverlap": segment // 2,
+            "detrend": "constant",
+        }
         return np.asarray(csd(a, b, **options)[1][kept])
 
     uu, yy, uy = spectrum(u, u).real, spectrum(y, y).real, spectrum(u, y)
-    rr, ru, ry = (uu, uu + 0j, uy) if reference is None else tuple(spectrum(reference, x) for x in (reference, u, y))
+    rr, ru, ry = (
+        (uu, uu + 0j, uy)
+        if reference is None
+        else tuple(spectrum(reference, x) for x in (reference, u, y))
+    )
     if any(np.any(np.abs(power) <= 0) for power in (uu, yy, rr, ru)):
         raise InputError(
-            "input or output has no power at a frequency of the band; give band=(low, high) [Hz] of the excitation"
+            "input or output has no power at a frequency of the band; give band=(low, high) [Hz] of"
+            " the excitation"
         )
     response, effective = ry / ru, count / (1 + 2 / 36)
     unexplained = np.maximum(yy - 2 * (response.conj() * uy).real + np.abs(response) ** 2 * uu, 0.0)
     deviation = np.sqrt(unexplained * rr.real / effective) / np.abs(ru)
-    coherence = np.minimum(*(np.abs(cross) ** 2 / (rr.real * power) for cross, power in ((ru, uu), (ry, yy))))
+    coherence = np.minimum(
+        *(np.abs(cross) ** 2 / (rr.real * power) for cross, power in ((ru, uu), (ry, yy)))
+    )
     level = 1 - CHANCE ** (1 / (effective - 1)) if least_coherence is None else least_coherence
     good = coherence >= level
     notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples"]
     notes += [_left_out(grid[kept], good, level)] * (not good.all())
     coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
-    return Estimated(2 * np.pi * grid[kept][good], response[good], deviation[good], coherence[good], tuple(notes))
+    return Estimated(
+        2 * np.pi * grid[kept][good], response[good], deviation[good], coherence[good], tuple(notes)
+    )
 
 
 def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], level: float) -> str:
@@ -72,8 +97,8 @@ def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], leve
         return f"all {len(grid)} lines left out: their coherence is below {level:.2g}"
     most = np.quantile(grid[good], [0.05, 0.95])
     return (
-        f"{np.count_nonzero(~good)} of {len(grid)} lines left out, as their coherence is below {level:.2g};"
-        f" nine tenths of the others lie within {most[0]:.3g} to {most[1]:.3g} Hz"
+        f"{np.count_nonzero(~good)} of {len(grid)} lines left out, as their coherence is below"
+        f" {level:.2g}; nine tenths of the others lie within {most[0]:.3g} to {most[1]:.3g} Hz"
     )
 
 
@@ -83,6 +108,7 @@ def _segments(length: int, segment: int) -> int:
     count = (length - segment // 2) // (segment - segment // 2)
     if count < FEWEST_SEGMENTS:
         raise InputError(
-            f"{length} samples hold {max(count, 0)} half-overlapping segments of {segment}; {FEWEST_SEGMENTS} are needed"
+            f"{length} samples hold {max(count, 0)} half-overlapping segments of {segment};"
+            f" {FEWEST_SEGMENTS} are needed"
         )
     return count

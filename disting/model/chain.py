@@ -1,7 +1,9 @@
-"""A chain model: masses in a row, springs between neighbours, one gap, a force and a sensor (section 5.1 of the paper).
+"""A chain model: masses in a row, springs between neighbours, one gap, a force and a sensor
+(section 5.1 of the paper).
 
-Index 0 is the ground, which counts as the left neighbour of mass 1. There is a spring between all neighbours except at the
-gap. The force acts with +F on mass `act_plus` and with -F on `act_minus`; the sensor shows x[meas_plus] - x[meas_minus].
+Index 0 is the ground, which counts as the left neighbour of mass 1. There is a spring between all
+neighbours except at the gap. The force acts with +F on mass `act_plus` and with -F on `act_minus`;
+the sensor shows x[meas_plus] - x[meas_minus].
 """
 
 from collections.abc import Iterable
@@ -31,10 +33,11 @@ class Sensor(StrEnum):
 class Chain:
     """One chain model; immutable and hashable, its content is its identity.
 
-    Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1 (0 = ground); the sensor
-    quantity; `damped` = a damper beside every spring; `ground_dampers` = the masses with a damper to the ground; `lag` = a
-    first-order torque lag 1/(1 + T1 s) [T1 in s]; `dead_time` = a factor exp(-Td s) [Td in s].
-    Raises ConstraintViolation where (36) or (37) is broken, InputError for other bad values.
+    Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1
+    (0 = ground); the sensor quantity; `damped` = a damper beside every spring; `ground_dampers` =
+    the masses with a damper to the ground; `lag` = a first-order torque lag 1/(1 + T1 s) [T1 in
+    s]; `dead_time` = a factor exp(-Td s) [Td in s]. Raises ConstraintViolation where (36) or (37)
+    is broken, InputError for other bad values.
 
     >>> Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2, damped=True).parameters
     ('m1', 'm2', 'k01', 'd01')
@@ -53,8 +56,13 @@ class Chain:
     dead_time: bool = False
 
     def __post_init__(self) -> None:
-        if any(isinstance(i, bool) or not isinstance(i, int) for i in (*self.indices, *self.ground_dampers)):
-            raise InputError("the size, the indices and the ground dampers of a chain are whole numbers")
+        if any(
+            isinstance(i, bool) or not isinstance(i, int)
+            for i in (*self.indices, *self.ground_dampers)
+        ):
+            raise InputError(
+                "the size, the indices and the ground dampers of a chain are whole numbers"
+            )
         if self.n_masses < 1:
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violated(self.indices, (36, 37)):
@@ -65,7 +73,9 @@ class Chain:
     @property
     def indices(self) -> Indices:
         """Size and the five indices, in the order in which a family is numbered."""
-        return Indices(self.n_masses, self.gap, self.act_minus, self.act_plus, self.meas_minus, self.meas_plus)
+        return Indices(
+            self.n_masses, self.gap, self.act_minus, self.act_plus, self.meas_minus, self.meas_plus
+        )
 
     @property
     def structure(self) -> Structure:
@@ -84,8 +94,12 @@ class Chain:
 
     def __str__(self) -> str:
         ports = f"force {self.act_plus}-{self.act_minus}, sensor {self.meas_plus}-{self.meas_minus}"
-        extras = [self.sensor.value] * (self.sensor is not Sensor.ACCELERATION) + ["damped"] * self.damped
-        extras += [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"] * bool(self.ground_dampers)
+        extras = [self.sensor.value] * (self.sensor is not Sensor.ACCELERATION) + [
+            "damped"
+        ] * self.damped
+        extras += [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"] * bool(
+            self.ground_dampers
+        )
         extras += ["lag"] * self.lag + ["dead time"] * self.dead_time
         return ", ".join([f"{self.n_masses} masses, gap {self.gap}, {ports}", *extras])
 
@@ -93,19 +107,25 @@ class Chain:
 @lru_cache(maxsize=10_000)  # asked for again and again, dearer to make than to find
 def _structure(chain: Chain) -> Structure:
     joints = [i for i in range(chain.n_masses) if i != chain.gap]
-    elements: list[Mass | Spring | Damper | GroundDamper] = [Mass(i) for i in range(1, chain.n_masses + 1)]
+    elements: list[Mass | Spring | Damper | GroundDamper] = [
+        Mass(i) for i in range(1, chain.n_masses + 1)
+    ]
     elements += [Spring(i) for i in joints]
     elements += [Damper(i) for i in joints if chain.damped]
     elements += [GroundDamper(i) for i in chain.ground_dampers]
     ports = Ports(chain.act_minus, chain.act_plus, chain.meas_minus, chain.meas_plus)
-    return Structure(chain.n_masses, tuple(elements), ports, chain.sensor.order, chain.lag, chain.dead_time)
+    return Structure(
+        chain.n_masses, tuple(elements), ports, chain.sensor.order, chain.lag, chain.dead_time
+    )
 
 
 def _sensor(value: str) -> Sensor:
     try:
         return Sensor(value)
     except ValueError:
-        raise InputError(f"sensor is position, velocity or acceleration, not {shown(value)}") from None
+        raise InputError(
+            f"sensor is position, velocity or acceleration, not {shown(value)}"
+        ) from None
 
 
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:
@@ -117,4 +137,7 @@ def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:
 
 def _refusal(i: Indices, equation: int, text: str) -> str:
     given = f"N_B={i.n_masses}, n_gap={i.gap}, n_act-={i.act_minus}, n_act+={i.act_plus}"
-    return f"constraint ({equation}) {text} is violated by {given}, n_meas-={i.meas_minus}, n_meas+={i.meas_plus}"
+    return (
+        f"constraint ({equation}) {text} is violated by {given}, n_meas-={i.meas_minus},"
+        f" n_meas+={i.meas_plus}"
+    )

@@ -1,8 +1,10 @@
-"""The constraints (36), (37) and (38) of the paper, each a named predicate with its equation number.
+"""The constraints (36), (37) and (38) of the paper, each a named predicate with its equation
+number.
 
-(36) says where a port may be, (37) that every mass is excited and measured, (38) breaks the symmetry between models that
-differ in the numbering only. A chain that breaks (36) or (37) is no model; one that breaks (38) is a model with another
-numbering, so it can be made and compared but is not listed in a family.
+(36) says where a port may be, (37) that every mass is excited and measured, (38) breaks the
+symmetry between models that differ in the numbering only. A chain that breaks (36) or (37) is no
+model; one that breaks (38) is a model with another numbering, so it can be made and compared but
+is not listed in a family.
 """
 
 from collections.abc import Callable, Iterator
@@ -23,7 +25,9 @@ class Indices(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Constraint:
-    """One line of an equation: its number, its text in the paper's symbols and the predicate itself."""
+    """One line of an equation: its number, its text in the paper's symbols and the predicate
+    itself.
+    """
 
     equation: int
     name: str
@@ -34,12 +38,27 @@ class Constraint:
 CONSTRAINTS: tuple[Constraint, ...] = (
     Constraint(36, "gap-range", "0 <= n_gap <= N_B - 1", lambda i: 0 <= i.gap <= i.n_masses - 1),
     Constraint(36, "force-reference", "0 <= n_act- <= n_gap", lambda i: 0 <= i.act_minus <= i.gap),
-    Constraint(36, "force", "n_gap + 1 <= n_act+ <= N_B", lambda i: i.gap + 1 <= i.act_plus <= i.n_masses),
-    Constraint(36, "sensor-reference", "0 <= n_meas- <= n_gap", lambda i: 0 <= i.meas_minus <= i.gap),
-    Constraint(36, "sensor", "n_gap + 1 <= n_meas+ <= N_B", lambda i: i.gap + 1 <= i.meas_plus <= i.n_masses),
-    Constraint(37, "excitability", "n_gap = 0 or n_act- > 0", lambda i: i.gap == 0 or i.act_minus > 0),
-    Constraint(37, "sensitivity", "n_gap = 0 or n_meas- > 0", lambda i: i.gap == 0 or i.meas_minus > 0),
-    Constraint(38, "reciprocity-breaking", "n_act+ <= n_meas+", lambda i: i.act_plus <= i.meas_plus),
+    Constraint(
+        36, "force", "n_gap + 1 <= n_act+ <= N_B", lambda i: i.gap + 1 <= i.act_plus <= i.n_masses
+    ),
+    Constraint(
+        36, "sensor-reference", "0 <= n_meas- <= n_gap", lambda i: 0 <= i.meas_minus <= i.gap
+    ),
+    Constraint(
+        36,
+        "sensor",
+        "n_gap + 1 <= n_meas+ <= N_B",
+        lambda i: i.gap + 1 <= i.meas_plus <= i.n_masses,
+    ),
+    Constraint(
+        37, "excitability", "n_gap = 0 or n_act- > 0", lambda i: i.gap == 0 or i.act_minus > 0
+    ),
+    Constraint(
+        37, "sensitivity", "n_gap = 0 or n_meas- > 0", lambda i: i.gap == 0 or i.meas_minus > 0
+    ),
+    Constraint(
+        38, "reciprocity-breaking", "n_act+ <= n_meas+", lambda i: i.act_plus <= i.meas_plus
+    ),
     Constraint(
         38,
         "reflection-breaking",

@@ -12,7 +12,8 @@ LEGEND = (
 def text_drawing(chain: Chain) -> str:
     """The chain from left to right; references to the ground are not drawn.
 
-    >>> text_drawing(Chain(3, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=3, damped=True))
+    >>> ports = {"act_minus": 1, "act_plus": 2, "meas_minus": 1, "meas_plus": 3}
+    >>> text_drawing(Chain(3, gap=1, **ports, damped=True))
     '#=[1fs]   [2F]=[3S]'
     """
     elements = set(chain.structure.elements)
@@ -30,5 +31,10 @@ def _joint(elements: set[Element], i: int) -> str:
 
 
 def _roles(chain: Chain, i: int) -> str:
-    places = {"F": chain.act_plus, "f": chain.act_minus, "S": chain.meas_plus, "s": chain.meas_minus}
+    places = {
+        "F": chain.act_plus,
+        "f": chain.act_minus,
+        "S": chain.meas_plus,
+        "s": chain.meas_minus,
+    }
     return "".join(sign for sign, at in places.items() if at == i)

@@ -9,7 +9,9 @@ from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 
-MOST_MASSES = 40  # of a family that a command or a text may ask for: it has 1.4 million models, listed in half a minute
+# of a family that a command or a text may ask for: it has 1.4 million models, listed in half a
+# minute
+MOST_MASSES = 40
 
 
 @dataclass(frozen=True)
@@ -27,13 +29,19 @@ class Family:
     sensor: Sensor = Sensor.ACCELERATION
 
     def __post_init__(self) -> None:
-        if isinstance(self.n_masses, bool) or not isinstance(self.n_masses, int) or self.n_masses < 1:
+        if (
+            isinstance(self.n_masses, bool)
+            or not isinstance(self.n_masses, int)
+            or self.n_masses < 1
+        ):
             raise InputError(f"a family has at least one mass, not {shown(self.n_masses)}")
 
     @cached_property
     def models(self) -> tuple[Chain, ...]:
         """All models; `models[0]` is model 1."""
-        return tuple(Chain(*i, sensor=self.sensor, damped=self.damped) for i in _admissible(self.n_masses))
+        return tuple(
+            Chain(*i, sensor=self.sensor, damped=self.damped) for i in _admissible(self.n_masses)
+        )
 
     def __len__(self) -> int:
         return len(self.models)
@@ -43,7 +51,9 @@ class Family:
 
     def __getitem__(self, number: int) -> Chain:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(self):
-            raise InputError(f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)}")
+            raise InputError(
+                f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)}"
+            )
         return self.models[number - 1]
 
     def number(self, chain: Chain) -> int:
@@ -51,7 +61,9 @@ class Family:
         try:
             return self.models.index(replace(chain, sensor=self.sensor, damped=self.damped)) + 1
         except ValueError:
-            raise InputError(f"the chain with {chain} is not in the {self.n_masses}-mass family") from None
+            raise InputError(
+                f"the chain with {chain} is not in the {self.n_masses}-mass family"
+            ) from None
 
 
 def _admissible(n: int) -> Iterator[Indices]:

@@ -1,8 +1,10 @@
-"""What a chain is made of: masses, springs, dampers and ports, and when one structure is a part of another.
+"""What a chain is made of: masses, springs, dampers and ports, and when one structure is a part of
+another.
 
-A `Structure` is wider than a `Chain`: any set of joints may be present, so the supermodel of two chains (condition 9), which
-has no gap, is a structure too. Elements know their parameter's name and how they enter the equation of motion
-A(s) x = e_act F with A(s) = M s^2 + D s + K: each adds parameter * s^power * v v^T for a vector v of the masses.
+A `Structure` is wider than a `Chain`: any set of joints may be present, so the supermodel of two
+chains (condition 9), which has no gap, is a structure too. Elements know their parameter's name
+and how they enter the equation of motion A(s) x = e_act F with A(s) = M s^2 + D s + K: each adds
+parameter * s^power * v v^T for a vector v of the masses.
 """
 
 from collections.abc import Iterator
@@ -32,7 +34,9 @@ class Mass(NamedTuple):
 
 
 class Spring(NamedTuple):
-    """Spring between node `at` and its right neighbour (node 0 is the ground); parameter k_ij [N/m or N m/rad]."""
+    """Spring between node `at` and its right neighbour (node 0 is the ground); parameter k_ij
+    [N/m or N m/rad].
+    """
 
     at: int
     kind: str = "k"
@@ -82,7 +86,9 @@ class Ports(NamedTuple):
 
 @dataclass(frozen=True)
 class Structure:
-    """Elements and ports of a chain-like model; `sensor_order` = differentiations of the measured position."""
+    """Elements and ports of a chain-like model; `sensor_order` = differentiations of the
+    measured position.
+    """
 
     n_masses: int
     elements: tuple[Element, ...]
@@ -123,14 +129,20 @@ class Structure:
         )
 
     def embeddings(self, larger: "Structure") -> Iterator[dict[int, int]]:
-        """Yield every numbering of this structure's masses under which all its elements and ports lie in `larger`.
+        """Yield every numbering of this structure's masses under which all its elements and ports
+        lie in `larger`.
 
-        "Submodel means that model structures are identical except for missing elements" (section 4.4): chains embed
-        as shifted or mirrored runs, found as graph monomorphisms that keep the ground, the ports and the joints.
+        "Submodel means that model structures are identical except for missing elements" (section
+        4.4): chains embed as shifted or mirrored runs, found as graph monomorphisms that keep the
+        ground, the ports and the joints.
         """
         import networkx as nx
 
-        if self.sensor_order != larger.sensor_order or self.dead_time != larger.dead_time or (self.lag and not larger.lag):
+        if (
+            self.sensor_order != larger.sensor_order
+            or self.dead_time != larger.dead_time
+            or (self.lag and not larger.lag)
+        ):
             return
         matcher = nx.algorithms.isomorphism.GraphMatcher(
             larger.graph(), self.graph(), node_match=_node_fits, edge_match=_edge_fits
@@ -139,13 +151,17 @@ class Structure:
             yield {mine: theirs for theirs, mine in sorted(mapping.items(), key=lambda kv: kv[1])}
 
     def graph(self) -> "nx.Graph[int]":
-        """networkx graph: node 0 is the ground, nodes carry ports and ground dampers, edges the joint's elements."""
+        """networkx graph: node 0 is the ground, nodes carry ports and ground dampers, edges the
+        joint's elements.
+        """
         import networkx as nx
 
         graph: nx.Graph[int] = nx.Graph()
         for node in range(self.n_masses + 1):
             roles = frozenset(name for name, at in self.ports._asdict().items() if at == node)
-            graph.add_node(node, ground=node == 0, roles=roles, damper=GroundDamper(node) in self.elements)
+            graph.add_node(
+                node, ground=node == 0, roles=roles, damper=GroundDamper(node) in self.elements
+            )
         for element in self.elements:
             if element.kind in "kd":
                 graph.add_edge(element.at, element.at + 1)

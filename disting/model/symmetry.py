@@ -1,9 +1,10 @@
 """Symmetries that hold for every parameter value: renamings of condition 6 that need no search.
 
-With a gap, the receptance is the sum of the grounded part's (between `act_minus` and `meas_minus`) and the free part's
-(between `act_plus` and `meas_plus`). Each part is reciprocal on its own (A(s) is symmetric, so is its inverse), and the free
-part may be mirrored: mass i becomes mass n_gap + 1 + N_B - i. So every chain has up to eight equivalent forms, with the same
-transfer function after a renaming of the parameters, over complex, real and positive parameters alike.
+With a gap, the receptance is the sum of the grounded part's (between `act_minus` and `meas_minus`)
+and the free part's (between `act_plus` and `meas_plus`). Each part is reciprocal on its own (A(s)
+is symmetric, so is its inverse), and the free part may be mirrored: mass i becomes mass n_gap + 1
++ N_B - i. So every chain has up to eight equivalent forms, with the same transfer function after a
+renaming of the parameters, over complex, real and positive parameters alike.
 """
 
 from collections.abc import Iterator
@@ -28,7 +29,9 @@ class Symmetry(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """An equivalent `chain`, the symmetries that lead to it, and the renaming {given parameter: parameter here}."""
+    """An equivalent `chain`, the symmetries that lead to it, and the renaming {given parameter:
+    parameter here}.
+    """
 
     chain: Chain
     symmetries: tuple[Symmetry, ...]
@@ -42,14 +45,20 @@ def forms(chain: Chain) -> tuple[Form, ...]:
     >>> len({form.chain for form in forms(Chain(3, 0, 0, 1, 0, 2))})
     4
     """
-    return tuple(Form(_moved(chain, chosen), chosen, _renaming(chain, chosen)) for chosen in _choices())
+    return tuple(
+        Form(_moved(chain, chosen), chosen, _renaming(chain, chosen)) for chosen in _choices()
+    )
 
 
 @lru_cache(maxsize=REMEMBERED)
 def canonical(chain: Chain) -> Form:
-    """The equivalent form with the smallest indices and ground dampers: equal for chains that are renamings by symmetry."""
+    """The equivalent form with the smallest indices and ground dampers: equal for chains that
+    are renamings by symmetry.
+    """
     moved = {chosen: _moved(chain, chosen) for chosen in _choices()}
-    best = min(moved, key=lambda chosen: (moved[chosen].indices, moved[chosen].ground_dampers, len(chosen)))
+    best = min(
+        moved, key=lambda chosen: (moved[chosen].indices, moved[chosen].ground_dampers, len(chosen))
+    )
     return Form(moved[best], best, _renaming(chain, best))
 
 
@@ -83,12 +92,16 @@ def _moved(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Chain:
 
 def _renaming(chain: Chain, symmetries: tuple[Symmetry, ...]) -> dict[str, str]:
     mirrored = Symmetry.REFLECTION in symmetries
-    renaming = {e.parameter: _folded(e, chain, mirrored).parameter for e in chain.structure.elements}
+    renaming = {
+        e.parameter: _folded(e, chain, mirrored).parameter for e in chain.structure.elements
+    }
     return renaming | {p: p for p in chain.parameters if p not in renaming}
 
 
 def _folded(element: Element, chain: Chain, mirrored: bool) -> Element:
-    """Where reflection of the free part takes an element: a joint between i and i+1 goes to between fold(i+1) and fold(i)."""
+    """Where reflection of the free part takes an element: a joint between i and i+1 goes to
+    between fold(i+1) and fold(i).
+    """
     if not mirrored or element.at <= chain.gap:
         return element
     last = chain.n_masses - (element.kind in "kd")

@@ -1,6 +1,7 @@
 """What the paper prints, claim by claim, each with a check against what this package computes.
 
-Tantau, Perner, Wielitzka, "Model Selection for Servo Control Systems", International Journal of Mechatronics and Automation,
+Tantau, Perner, Wielitzka, "Model Selection for Servo Control Systems", International Journal of
+Mechatronics and Automation,
 2020. Tests assert every outcome, and the page "The paper, claim by claim" prints the same list.
 """
 

@@ -16,19 +16,26 @@ SIZES = (1, 2, 3, 4)
 
 def dead_time(findings: Findings) -> Found:
     """Models with a dead time against the same without."""
-    found = [_compared(findings, chain, replace(chain, dead_time=True)) for chain in Family(3, damped=True)]
+    found = [
+        _compared(findings, chain, replace(chain, dead_time=True))
+        for chain in Family(3, damped=True)
+    ]
     return Found(f"all {len(found)} pairs are distinguishable", _all_distinguishable(found))
 
 
 def lag(findings: Findings) -> Found:
-    """Models with a first-order lag against the same without, and against each other model without."""
+    """Models with a first-order lag against the same without, and against each other model
+    without.
+    """
     family = Family(3, damped=True)
     same = [_compared(findings, chain, replace(chain, lag=True)) for chain in family]
     every = [_compared(findings, a, replace(b, lag=True)) for a in family for b in family]
     return Found(
-        f"all {len(same)} pairs are distinguishable by condition {same[0].decided_by}, and so is every model with a lag from "
-        f"every model without ({len(every)} pairs)",
-        _all_distinguishable(same) and _all_distinguishable(every) and {v.decided_by for v in same} == {"1"},
+        f"all {len(same)} pairs are distinguishable by condition {same[0].decided_by}, and so is"
+        f" every model with a lag from every model without ({len(every)} pairs)",
+        _all_distinguishable(same)
+        and _all_distinguishable(every)
+        and {v.decided_by for v in same} == {"1"},
     )
 
 
@@ -43,9 +50,9 @@ def figure_14(findings: Findings) -> Found:
         if set(relations) == {Relation.DISTINGUISHABLE}:
             located.append(number)
     return Found(
-        f"{counts.total()} pairs: {counts[Relation.DISTINGUISHABLE]} distinguishable, {counts[Relation.INDISTINGUISHABLE]} "
-        "not; "
-        f"no damper and every single one are told apart in {', '.join(f'A{i}' for i in located)} only",
+        f"{counts.total()} pairs: {counts[Relation.DISTINGUISHABLE]} distinguishable,"
+        f" {counts[Relation.INDISTINGUISHABLE]} not; no damper and every single one are told apart"
+        f" in {', '.join(f'A{i}' for i in located)} only",
         1 in located and counts[Relation.UNDECIDED] == 0,
     )
 
@@ -55,7 +62,8 @@ def candidates(findings: Findings) -> Found:
     tables = [findings.dampers(Chain(n, damped=True), DamperSets.ALL) for n in SIZES]
     relations = [t.relation(*pair) for t in tables for pair in combinations(t.sets, 2)]
     return Found(
-        f"all {len(relations)} pairs of sets of base dampers for 1 to {SIZES[-1]} masses are distinguishable",
+        f"all {len(relations)} pairs of sets of base dampers for 1 to {SIZES[-1]} masses are"
+        " distinguishable",
         set(relations) == {Relation.DISTINGUISHABLE},
     )
 
@@ -64,12 +72,18 @@ def model_a3(findings: Findings) -> Found:
     """Base dampers of A3 (force at mass 1, sensor at mass 3)."""
     groups = findings.dampers(Family(3, damped=True)[3], DamperSets.ALL).classes()
     told = "; ".join(", ".join(map(spelled, group)) for group in groups)
-    return Found(f"told apart are only no damper and any: {told}", [len(g) for g in groups] == [1, 7])
+    return Found(
+        f"told apart are only no damper and any: {told}", [len(g) for g in groups] == [1, 7]
+    )
 
 
 def _compared(findings: Findings, left: Chain, right: Chain) -> Verdict:
     engine = findings.engine
-    return engine.verdict(engine.subject("left", left), engine.subject("right", right), Query(View.EXACT, inclusion=False))
+    return engine.verdict(
+        engine.subject("left", left),
+        engine.subject("right", right),
+        Query(View.EXACT, inclusion=False),
+    )
 
 
 def _all_distinguishable(found: list[Verdict]) -> bool:
@@ -78,31 +92,51 @@ def _all_distinguishable(found: list[Verdict]) -> bool:
 
 CANDIDATE_CLAIMS = (
     Claim(
-        "dead-time", "Section 5.2",
-        "“delay time cannot be confused with a fractional polynomial TF, unless the order is very high”",
-        "distinguishable", dead_time, Outcome.AGREES, "An exponential is no rational function, of whatever order.",
+        "dead-time",
+        "Section 5.2",
+        "“delay time cannot be confused with a fractional polynomial TF, unless the order is very"
+        " high”",
+        "distinguishable",
+        dead_time,
+        Outcome.AGREES,
+        "An exponential is no rational function, of whatever order.",
     ),
     Claim(
-        "lag", "Section 5.2",
-        "“the first-order hold model leads to augmented models that are distinguishable from the original models in all "
-        "eleven cases”",
-        "all eleven", lag, Outcome.AGREES, "Read as the first-order lag of the torque control.",
+        "lag",
+        "Section 5.2",
+        "“the first-order hold model leads to augmented models that are distinguishable from the"
+        " original models in all eleven cases”",
+        "all eleven",
+        lag,
+        Outcome.AGREES,
+        "Read as the first-order lag of the torque control.",
     ),
     Claim(
-        "figure-14", "Section 5.2, Fig. 14",
-        "“For each of the eleven 3-mass systems it is shown which combinations of dampers are distinguishable …”",
+        "figure-14",
+        "Section 5.2, Fig. 14",
+        "“For each of the eleven 3-mass systems it is shown which combinations of dampers are"
+        " distinguishable …”",
         "figure lost",
-        figure_14, Outcome.AGREES, "The figure is lost; what the text says of it holds.",
+        figure_14,
+        Outcome.AGREES,
+        "The figure is lost; what the text says of it holds.",
     ),
     Claim(
-        "candidates-distinguishable", "Section 5.2",
-        "“the set of candidate models was chosen appropriately with distinguishable models only”", "all distinguishable",
+        "candidates-distinguishable",
+        "Section 5.2",
+        "“the set of candidate models was chosen appropriately with distinguishable models only”",
+        "all distinguishable",
         candidates,
-        Outcome.AGREES, "Conditions 1 to 9 leave some of these pairs open; the exact decision settles them.",
+        Outcome.AGREES,
+        "Conditions 1 to 9 leave some of these pairs open; the exact decision settles them.",
     ),
     Claim(
-        "a3", "Section 5.2",
-        "“for other system, e.g. A3 it would not be possible to determine the correct positions of dampers”",
-        "not possible", model_a3, Outcome.AGREES,
+        "a3",
+        "Section 5.2",
+        "“for other system, e.g. A3 it would not be possible to determine the correct positions of"
+        " dampers”",
+        "not possible",
+        model_a3,
+        Outcome.AGREES,
     ),
-)  # fmt: skip
+)

@@ -32,8 +32,9 @@ class Found:
 class Claim:
     """One statement of the paper.
 
-    `place` where it is printed; `text` the statement, literally where it stands in quotation marks; `printed` its value;
-    `check` computes ours, None where nobody can; `outcome` what the check is known to give; `reason` why.
+    `place` where it is printed; `text` the statement, literally where it stands in quotation
+    marks; `printed` its value; `check` computes ours, None where nobody can; `outcome` what the
+    check is known to give; `reason` why.
     """
 
     key: str

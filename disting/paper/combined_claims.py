@@ -1,4 +1,6 @@
-"""Claims of section 5.2 and of the conclusions on all conditions together: Fig. 13, conditions 2, 6, 8 and 9."""
+"""Claims of section 5.2 and of the conclusions on all conditions together: Fig. 13, conditions
+2, 6, 8 and 9.
+"""
 
 from collections import Counter
 from itertools import combinations
@@ -22,7 +24,8 @@ def condition_9_holds(findings: Findings) -> Found:
     applicable = [c[Holding.FAILS] + c[Holding.HOLDS] for c in found]
     holds = [c[Holding.HOLDS] for c in found]
     return Found(
-        f"{named(applicable)} pairs of 3, 4 and 5 masses differ in the gap alone; condition 9 holds for {named(holds)} of them",
+        f"{named(applicable)} pairs of 3, 4 and 5 masses differ in the gap alone; condition 9 holds"
+        f" for {named(holds)} of them",
         holds == [0, 1, 6],
     )
 
@@ -44,15 +47,23 @@ def figure_13(findings: Findings) -> Found:
 def eight_cases(findings: Findings) -> Found:
     """Undamped 4-mass pairs that Markov parameters decide and coefficients do not."""
     catalog = findings.catalog(4)
-    gained = [v.relation for i, j, v in catalog.pairs(View.COMBINED) if v.representation == Representation.MARKOV]
-    return Found(f"{len(gained)} cases, all distinguishable", set(gained) != {Relation.DISTINGUISHABLE})
+    gained = [
+        v.relation
+        for i, j, v in catalog.pairs(View.COMBINED)
+        if v.representation == Representation.MARKOV
+    ]
+    return Found(
+        f"{len(gained)} cases, all distinguishable", set(gained) != {Relation.DISTINGUISHABLE}
+    )
 
 
 def eleven_and_thirteen(findings: Findings) -> Found:
     """4-mass models 11 and 13."""
     left, right = (findings.engine.subject(f"A{i}", Family(4)[i]) for i in (11, 13))
     by = findings.catalog(4).verdict(11, 13, View.COMBINED).decided_by
-    return Found(f"equivalent by condition {by}; condition 9 has {condition_9(left, right).note}", by == "9")
+    return Found(
+        f"equivalent by condition {by}; condition 9 has {condition_9(left, right).note}", by == "9"
+    )
 
 
 def condition_6_damped(findings: Findings) -> Found:
@@ -65,19 +76,30 @@ def superior(findings: Findings) -> Found:
     """Open pairs of 3 masses undamped and damped and of 4 undamped, by representation."""
     cases = ((3, False, 8), (3, True, 7), (4, False, 12))
     coefficients = [len(undecided(findings.picture(n, damped, View.TF))) for n, damped, _ in cases]
-    series = [len(undecided(findings.picture(n, damped, View.MARKOV, count))) for n, damped, count in cases]
+    series = [
+        len(undecided(findings.picture(n, damped, View.MARKOV, count)))
+        for n, damped, count in cases
+    ]
     fewer = all(a <= b for a, b in zip(coefficients, series, strict=True))
     return Found(f"open pairs: {named(coefficients)} against {named(series)}", fewer)
 
 
 def conditions_2_and_8(findings: Findings) -> Found:
-    """How many pairs conditions 2 and 8 decide: of one family, and of the single dampers of Fig. 14."""
-    families = [findings.catalog(n, damped=d).counts(View.COMBINED) for n in range(1, 6) for d in (False, True)]
+    """How many pairs conditions 2 and 8 decide: of one family, and of the single dampers of
+    Fig. 14.
+    """
+    families = [
+        findings.catalog(n, damped=d).counts(View.COMBINED)
+        for n in range(1, 6)
+        for d in (False, True)
+    ]
     decisive = sum(found.get(number, 0) for found in families for number in ("2", "8"))
-    rules = Counter(rule for chain in Family(3, damped=True) for *_, rule in findings.dampers(chain).rows())
+    rules = Counter(
+        rule for chain in Family(3, damped=True) for *_, rule in findings.dampers(chain).rows()
+    )
     return Found(
-        f"they decide {decisive} pairs within the families of 1 to 5 masses; of the fields of Fig. 14 condition 2 decides "
-        f"{rules['2']} and condition 8 {rules['8']}",
+        f"they decide {decisive} pairs within the families of 1 to 5 masses; of the fields of Fig."
+        f" 14 condition 2 decides {rules['2']} and condition 8 {rules['8']}",
         decisive + rules["2"] + rules["8"] == 0,
     )
 
@@ -85,7 +107,9 @@ def conditions_2_and_8(findings: Findings) -> Found:
 def almost_all(findings: Findings) -> Found:
     """Share of pairs that the conditions decide, and what the exact decision adds."""
     found = [findings.catalog(n, damped=d) for n, d in ((3, False), (3, True), (4, False))]
-    by_conditions, exactly = ([c.counts(view)[""] for c in found] for view in (View.COMBINED, View.EXACT))
+    by_conditions, exactly = (
+        [c.counts(view)[""] for c in found] for view in (View.COMBINED, View.EXACT)
+    )
     return Found(
         f"{named(by_conditions)} pairs stay open (3 masses undamped, damped, 4 undamped); "
         f"with the exact decision {named(exactly)}",
@@ -94,56 +118,87 @@ def almost_all(findings: Findings) -> Found:
 
 
 NINE = (
-    "The third model of condition 9, the chain without a gap, has more determinable parameters than its two submodels (8 "
-    "against "
-    "7 for models 11 and 13)."
+    "The third model of condition 9, the chain without a gap, has more determinable parameters than"
+    " its two submodels (8 against 7 for models 11 and 13)."
 )
 COMBINED_CLAIMS = (
     Claim(
-        "condition-9", "Section 5.2",
-        "Condition 9: “For three masses there is no such occurrence, for four masses the criterion proves "
-        "indistinguishability of "
-        "one combination (not covered by any other criterion) … and for five masses this is true for six combinations.”",
-        "it proves 0, 1 and 6 pairs of 3, 4 and 5 masses", condition_9_holds, Outcome.DIFFERS, NINE,
+        "condition-9",
+        "Section 5.2",
+        "Condition 9: “For three masses there is no such occurrence, for four masses the criterion"
+        " proves indistinguishability of one combination (not covered by any other criterion) … and"
+        " for five masses this is true for six combinations.”",
+        "it proves 0, 1 and 6 pairs of 3, 4 and 5 masses",
+        condition_9_holds,
+        Outcome.DIFFERS,
+        NINE,
     ),
     Claim(
-        "figure-13", "Section 5.2, Fig. 13",
+        "figure-13",
+        "Section 5.2, Fig. 13",
         "Combined TFA and MPA for the 4-mass system without damping; unknown areas remain.",
-        "pairs stay open", figure_13, Outcome.AGREES,
-        "The figure is lost: that pairs stay open is printed, their number is not. With G_0 to G_12, of which the odd ones are "
-        "zero without damping, the eight extra decisions of the text appear.",
+        "pairs stay open",
+        figure_13,
+        Outcome.AGREES,
+        "The figure is lost: that pairs stay open is printed, their number is not. With G_0 to"
+        " G_12, of which the odd ones are zero without damping, the eight extra decisions of the"
+        " text appear.",
     ),
     Claim(
-        "eight-cases", "Section 5.2, Fig. 13",
-        "“In eight cases the MPA proved indistinguishability which could not be proved by the TFA.”",
+        "eight-cases",
+        "Section 5.2, Fig. 13",
+        "“In eight cases the MPA proved indistinguishability which could not be proved by the"
+        " TFA.”",
         "8 cases of indistinguishability",
-        eight_cases, Outcome.DIFFERS, "The number is right. " + MISREAD,
+        eight_cases,
+        Outcome.DIFFERS,
+        "The number is right. " + MISREAD,
     ),
     Claim(
-        "11-and-13", "Section 5.2, Fig. 13", "“Equivalence of models 11 and 13 was shown by cond. 9.”", "by condition 9",
-        eleven_and_thirteen, Outcome.DIFFERS, "They are equivalent, and condition 7 proves it. " + NINE,
+        "11-and-13",
+        "Section 5.2, Fig. 13",
+        "“Equivalence of models 11 and 13 was shown by cond. 9.”",
+        "by condition 9",
+        eleven_and_thirteen,
+        Outcome.DIFFERS,
+        "They are equivalent, and condition 7 proves it. " + NINE,
     ),
     Claim(
-        "condition-6", "Section 5.2", "“Damping is neglected because otherwise … condition 6 could never be applied.”",
+        "condition-6",
+        "Section 5.2",
+        "“Damping is neglected because otherwise … condition 6 could never be applied.”",
         "condition 6 never applies",
-        condition_6_damped, Outcome.DIFFERS,
-        "Exchanging force and sensor and mirroring the free part are renamings with damping too; condition 7 is the one that "
-        "never applies there.",
+        condition_6_damped,
+        Outcome.DIFFERS,
+        "Exchanging force and sensor and mirroring the free part are renamings with damping too;"
+        " condition 7 is the one that never applies there.",
     ),
     Claim(
-        "2-and-8", "Section 6", "“Conditions 2 and 8 never appeared to be pivotal.”", "never",
-        conditions_2_and_8, Outcome.DIFFERS,
-        "Within one family, the setting that the paper gives as the reason, it is so. But the dampers of Fig. 14 are its own "
-        "comparison too, and there condition 8 decides: a base damper that adds to what is there makes a submodel of equal "
-        "rank. Between undamped models of different sizes condition 2 decides as well.",
+        "2-and-8",
+        "Section 6",
+        "“Conditions 2 and 8 never appeared to be pivotal.”",
+        "never",
+        conditions_2_and_8,
+        Outcome.DIFFERS,
+        "Within one family, the setting that the paper gives as the reason, it is so. But the"
+        " dampers of Fig. 14 are its own comparison too, and there condition 8 decides: a base"
+        " damper that adds to what is there makes a submodel of equal rank. Between undamped models"
+        " of different sizes condition 2 decides as well.",
     ),
     Claim(
-        "superior", "Section 7", "“The transfer function approach is mostly superior over the Markov parameter approach …”",
-        "mostly superior", superior, Outcome.AGREES,
+        "superior",
+        "Section 7",
+        "“The transfer function approach is mostly superior over the Markov parameter approach …”",
+        "mostly superior",
+        superior,
+        Outcome.AGREES,
     ),
     Claim(
-        "almost-all", "Abstract", "“It can be proved or disproved for almost all combinations of potential models.”",
+        "almost-all",
+        "Abstract",
+        "“It can be proved or disproved for almost all combinations of potential models.”",
         "almost all",
-        almost_all, Outcome.AGREES,
+        almost_all,
+        Outcome.AGREES,
     ),
-)  # fmt: skip
+)

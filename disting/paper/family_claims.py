@@ -16,14 +16,23 @@ FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 def table_2(findings: Findings) -> Found:
     """Sizes of the families."""
     found = [len(Family(n)) for n in range(1, 11)]
-    return Found(f"{named(found[:5])}; going on {named(found[5:])} for 6 to 10 masses", found[:5] == [1, 3, 11, 29, 73])
+    return Found(
+        f"{named(found[:5])}; going on {named(found[5:])} for 6 to 10 masses",
+        found[:5] == [1, 3, 11, 29, 73],
+    )
 
 
 def numbering(findings: Findings) -> Found:
-    """Both printed hints at the order of Table 3: A3 has fewest coefficients, 11 and 13 of four masses differ in the gap."""
+    """Both printed hints at the order of Table 3: A3 has fewest coefficients, 11 and 13 of four
+    masses differ in the gap.
+    """
     sizes = coefficients(findings, damped=True)
     left, right = Family(4)[11], Family(4)[13]
-    holds = [i for i, n in enumerate(sizes, 1) if n == 7] == [3] and left != right and replace(left, gap=right.gap) == right
+    holds = (
+        [i for i, n in enumerate(sizes, 1) if n == 7] == [3]
+        and left != right
+        and replace(left, gap=right.gap) == right
+    )
     return Found("order of (n_gap, n_act−, n_act+, n_meas−, n_meas+): both hold", holds)
 
 
@@ -39,13 +48,19 @@ def figure_9(findings: Findings) -> Found:
 def figure_1_models(findings: Findings) -> Found:
     """The candidates of Fig. 1 among the families."""
     found = [Family(n, damped=True)[1] == Chain(n, damped=True) for n in (1, 2, 3, 4)]
-    return Found("the candidate without base dampers is model 1 of its family, and collocated", all(found))
+    return Found(
+        "the candidate without base dampers is model 1 of its family, and collocated", all(found)
+    )
 
 
 def collocated(findings: Findings) -> Found:
     """Collocated models: their force and sensor share both points."""
     marked = [row.number for row in findings.catalog(3).rows if row.chain.collocated]
-    same = [i for i, c in enumerate(Family(3), 1) if (c.act_minus, c.act_plus) == (c.meas_minus, c.meas_plus)]
+    same = [
+        i
+        for i, c in enumerate(Family(3), 1)
+        if (c.act_minus, c.act_plus) == (c.meas_minus, c.meas_plus)
+    ]
     return Found(f"models {named(marked)}", marked == same)
 
 
@@ -61,11 +76,20 @@ def sensors(findings: Findings) -> Found:
     for damped in (False, True):
         for chain in Family(3, damped):
             shapes = [
-                {int(label[1:]) - shift for label in _series(findings, replace(chain, sensor=sensor), 12 + shift)}
-                for sensor, shift in ((Sensor.ACCELERATION, 0), (Sensor.VELOCITY, 1), (Sensor.POSITION, 2))
+                {
+                    int(label[1:]) - shift
+                    for label in _series(findings, replace(chain, sensor=sensor), 12 + shift)
+                }
+                for sensor, shift in (
+                    (Sensor.ACCELERATION, 0),
+                    (Sensor.VELOCITY, 1),
+                    (Sensor.POSITION, 2),
+                )
             ]
             moved.append(shapes[0] == shapes[1] == shapes[2])
-    return Found("non-constant Markov parameters move by one (two) places in all 22 models", all(moved))
+    return Found(
+        "non-constant Markov parameters move by one (two) places in all 22 models", all(moved)
+    )
 
 
 def _series(findings: Findings, chain: Chain, count: int) -> frozenset[str]:
@@ -74,35 +98,58 @@ def _series(findings: Findings, chain: Chain, count: int) -> frozenset[str]:
 
 FAMILY_CLAIMS = (
     Claim(
-        "table-2", "Table 2", "“Number of possible models for different numbers of masses”, 1 to 5.", "1, 3, 11, 29 and 73",
-        table_2, Outcome.AGREES,
+        "table-2",
+        "Table 2",
+        "“Number of possible models for different numbers of masses”, 1 to 5.",
+        "1, 3, 11, 29 and 73",
+        table_2,
+        Outcome.AGREES,
     ),
     Claim(
-        "numbering", "Table 3, section 5.2",
-        "A3 alone has 7 non-constant coefficients; 4-mass models 11 and 13 have the same actuator and sensor location, but a "
-        "different gap.",
-        "A3; 11 and 13", numbering, Outcome.AGREES,
-        "Table 3 itself did not survive in the text; this order fits every statement that names a model.",
+        "numbering",
+        "Table 3, section 5.2",
+        "A3 alone has 7 non-constant coefficients; 4-mass models 11 and 13 have the same actuator"
+        " and sensor location, but a different gap.",
+        "A3; 11 and 13",
+        numbering,
+        Outcome.AGREES,
+        "Table 3 itself did not survive in the text; this order fits every statement that names a"
+        " model.",
     ),
     Claim(
-        "figure-9", "Section 5.1, Fig. 9",
-        "“In the example in Fig. 9 the second condition [of (37)] is violated”; “In Fig. 9 both rules [(38)] are violated.”",
-        "second of (37), both of (38)", figure_9, Outcome.AGREES,
+        "figure-9",
+        "Section 5.1, Fig. 9",
+        "“In the example in Fig. 9 the second condition [of (37)] is violated”; “In Fig. 9 both"
+        " rules [(38)] are violated.”",
+        "second of (37), both of (38)",
+        figure_9,
+        Outcome.AGREES,
     ),
     Claim(
-        "figure-1", "Section 5",
-        "“Figure 1 represents a special case with single-sided force input and collocated measurement.”",
-        "special case", figure_1_models, Outcome.AGREES,
+        "figure-1",
+        "Section 5",
+        "“Figure 1 represents a special case with single-sided force input and collocated"
+        " measurement.”",
+        "special case",
+        figure_1_models,
+        Outcome.AGREES,
     ),
     Claim(
-        "collocated", "Table 3",
-        "“Collocated systems, i.e. sensor and actuator at the same position, are marked with an asterisk.”",
-        "asterisks, lost with the table", collocated, Outcome.AGREES,
+        "collocated",
+        "Table 3",
+        "“Collocated systems, i.e. sensor and actuator at the same position, are marked with an"
+        " asterisk.”",
+        "asterisks, lost with the table",
+        collocated,
+        Outcome.AGREES,
     ),
     Claim(
-        "sensors", "Section 5.2",
-        "“For velocity (position) sensors, the same results can be obtained, except that the Markov parameters and TF "
-        "coefficients are shifted by one (two) …”",
-        "shifted by one (two)", sensors, Outcome.AGREES,
+        "sensors",
+        "Section 5.2",
+        "“For velocity (position) sensors, the same results can be obtained, except that the Markov"
+        " parameters and TF coefficients are shifted by one (two) …”",
+        "shifted by one (two)",
+        sensors,
+        Outcome.AGREES,
     ),
-)  # fmt: skip
+)

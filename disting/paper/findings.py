@@ -1,4 +1,6 @@
-"""What claims and figures are checked against; each part is computed once, when it is first asked for."""
+"""What claims and figures are checked against; each part is computed once, when it is first
+asked for.
+"""
 
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
@@ -22,7 +24,9 @@ PictureKey = tuple[int, bool, View, int, Sensor]
 
 @dataclass
 class Findings:
-    """Verdicts, catalogues and fits behind one engine; `sizes` = numbers of masses of the fitted candidates of Fig. 1."""
+    """Verdicts, catalogues and fits behind one engine; `sizes` = numbers of masses of the
+    fitted candidates of Fig. 1.
+    """
 
     engine: Engine = field(default_factory=Engine)
     executor: Executor | None = None
@@ -32,14 +36,23 @@ class Findings:
     _tables: dict[tuple[Chain, DamperSets], DamperTable] = field(default_factory=dict, repr=False)
 
     def picture(
-        self, n_masses: int, damped: bool, view: View, markov: int = 0, sensor: Sensor = Sensor.ACCELERATION
+        self,
+        n_masses: int,
+        damped: bool,
+        view: View,
+        markov: int = 0,
+        sensor: Sensor = Sensor.ACCELERATION,
     ) -> Decisions:
-        """All pairs of a family, by the conditions in one view; `markov` parameters after G_0, 0 = all."""
+        """All pairs of a family, by the conditions in one view; `markov` parameters after G_0,
+        0 = all.
+        """
         key = (n_masses, damped, view, markov, sensor)
         if key not in self._pictures:
             chains = enumerate(Family(n_masses, damped, sensor), 1)
             subjects = [self.engine.subject(f"A{number}", chain) for number, chain in chains]
-            self._pictures[key] = self.engine.decisions(subjects, Query(view, markov=markov), executor=self.executor)
+            self._pictures[key] = self.engine.decisions(
+                subjects, Query(view, markov=markov), executor=self.executor
+            )
         return self._pictures[key]
 
     def catalog(self, n_masses: int, *, damped: bool = False) -> Catalog:
@@ -47,7 +60,9 @@ class Findings:
         return catalog(n_masses, damped=damped)
 
     def dampers(self, chain: Chain, which: DamperSets = DamperSets.SINGLE) -> DamperTable:
-        """Ground dampers of a chain against each other, over complex parameters, as the paper has them."""
+        """Ground dampers of a chain against each other, over complex parameters, as the paper
+        has them.
+        """
         if (chain, which) not in self._tables:
             self._tables[chain, which] = dampers(
                 chain, which, domain=Domain.COMPLEX, engine=self.engine, executor=self.executor
@@ -69,7 +84,12 @@ class Findings:
         """The candidates of Fig. 1 fitted to the demonstration drive."""
         candidates = figure_1(self.sizes)
         return select(
-            self.train, candidates, test=self.test, engine=self.engine, executor=self.executor, progress=self.progress
+            self.train,
+            candidates,
+            test=self.test,
+            engine=self.engine,
+            executor=self.executor,
+            progress=self.progress,
         )
 
     @cached_property

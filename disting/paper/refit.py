@@ -1,7 +1,8 @@
 """Fig. 12: A4 fitted to the exact frequency response of a damped A1.
 
-Without damping the two are indistinguishable: both have rank 5 for 5 non-constant coefficients (condition 7), so resonances
-and antiresonances can agree. With damping, two dampers face the damping ratios of two poles and two zeros.
+Without damping the two are indistinguishable: both have rank 5 for 5 non-constant coefficients
+(condition 7), so resonances and antiresonances can agree. With damping, two dampers face the
+damping ratios of two poles and two zeros.
 """
 
 from collections.abc import Mapping
@@ -22,14 +23,19 @@ from disting.model.family import Family
 GIVEN: Mapping[str, float] = MappingProxyType(
     {"m1": 0.005, "m2": 0.01, "m3": 0.01, "k12": 1000.0, "k23": 1000.0, "d12": 0.2, "d23": 0.02}
 )
-"""Parameters of A1 in SI units: the size of a small servo drive, its first coupling ten times as damped as the second."""
+"""Parameters of A1 in SI units: the size of a small servo drive, its first coupling ten times
+as damped as the second.
+"""
 LINES = 400
-BAND = 3.0  # the response reaches this factor below the first antiresonance and above the last resonance
+# the response reaches this factor below the first antiresonance and above the last resonance
+BAND = 3.0
 
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A resonance or antiresonance: frequencies [Hz] and damping ratios in A1 and in the fitted A4."""
+    """A resonance or antiresonance: frequencies [Hz] and damping ratios in A1 and in the fitted
+    A4.
+    """
 
     name: str
     frequencies: tuple[float, float]
@@ -65,10 +71,16 @@ class Refit:
     def _modes(self, kind: str) -> tuple[Mode, ...]:
         roots = zeros if kind == "antiresonance" else poles
         ours = oscillating(roots(self.given.structure, _vector(self.given, self.given_parameters)))
-        theirs = oscillating(roots(self.fitted.structure, _vector(self.fitted, self.fitted_parameters)))
+        theirs = oscillating(
+            roots(self.fitted.structure, _vector(self.fitted, self.fitted_parameters))
+        )
         pairs = enumerate(zip(ours, theirs, strict=True), 1)
         return tuple(
-            Mode(f"{kind} {i}", (abs(a) / (2 * pi), abs(b) / (2 * pi)), (-a.real / abs(a), -b.real / abs(b)))
+            Mode(
+                f"{kind} {i}",
+                (abs(a) / (2 * pi), abs(b) / (2 * pi)),
+                (-a.real / abs(a), -b.real / abs(b)),
+            )
             for i, (a, b) in pairs
         )
 

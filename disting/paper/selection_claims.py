@@ -1,4 +1,6 @@
-"""Claims of sections 2 and 3: criteria, cost function, candidates, and what a selection depends on."""
+"""Claims of sections 2 and 3: criteria, cost function, candidates, and what a selection depends
+on.
+"""
 
 from math import pi, sqrt
 
@@ -16,14 +18,17 @@ from disting.paper.findings import Findings
 from disting.paper.words import named
 
 SAMPLE = np.array([[3.0, 1.0], [4.0, 2.0], [0.0, 2.0]])  # columns of lengths 5 and 3
-TABLE_1 = (  # condition index, PII ratio, collinearity index: their thresholds, test bed 1, test bed 2
+# condition index, PII ratio, collinearity index: their thresholds, test bed 1, test bed 2
+TABLE_1 = (
     ((30, 1000, 20), (6.4, 10.2, 4.0), (11.3, 12.0, 7.0)),
     ((10, 1000, 10), (6.4, 10.2, 4.0), (10.3, 7.7, 7.0)),
     ((10, 1000, 5), (6.4, 10.2, 4.0), (2.6, 7.5, 1.9)),
 )
 TABLE_1_SIZES = ((9, 12), (9, 9), (9, 6))  # N_p of those models (section 3.1)
 DRIVE = Chain(4, damped=True, ground_dampers=(1, 3), lag=True, dead_time=True)
-DRIVE_VALUES = np.array([0.01, 0.02, 0.01, 0.03, 900.0, 700.0, 500.0, 0.1, 0.2, 0.05, 0.3, 0.1, 1e-3, 2e-3])
+DRIVE_VALUES = np.array(
+    [0.01, 0.02, 0.01, 0.03, 900.0, 700.0, 500.0, 0.1, 0.2, 0.05, 0.3, 0.1, 1e-3, 2e-3]
+)
 OMEGA = 2 * pi * np.geomspace(5.0, 300.0, 60)
 STEP = 1e-5
 
@@ -31,26 +36,37 @@ STEP = 1e-5
 def weights(findings: Findings) -> Found:
     """Cost (14) of a factor 10 in the amplitude and of half a turn of the phase."""
     measured = FrequencyResponse(OMEGA, Plant(DRIVE.structure, OMEGA).response(DRIVE_VALUES))
-    larger, turned = (float(Cost(measured).total(measured.G * factor)) / len(OMEGA) for factor in (10, -1))
+    larger, turned = (
+        float(Cost(measured).total(measured.G * factor)) / len(OMEGA) for factor in (10, -1)
+    )
     return Found("π² a line for either", bool(np.allclose([larger, turned], pi**2)))
 
 
 def importance_index(findings: Findings) -> Found:
     """(16) of columns of known length."""
     found = importance(SAMPLE)
-    return Found("the length of each column S_j Δp_j, with Δp_j = p_j", bool(np.allclose(found, [5.0, 3.0])))
+    return Found(
+        "the length of each column S_j Δp_j, with Δp_j = p_j", bool(np.allclose(found, [5.0, 3.0]))
+    )
 
 
 def collinearity_formula(findings: Findings) -> Found:
-    """(17) against Table 1: with "singular value", kappa / gamma^2 would be mu_max, between 1 and sqrt(N_p)."""
-    rows = [(row[k + 1], sizes[k]) for row, sizes in zip(TABLE_1, TABLE_1_SIZES, strict=True) for k in (0, 1)]
+    """(17) against Table 1: with "singular value", kappa / gamma^2 would be mu_max, between 1
+    and sqrt(N_p).
+    """
+    rows = [
+        (row[k + 1], sizes[k])
+        for row, sizes in zip(TABLE_1, TABLE_1_SIZES, strict=True)
+        for k in (0, 1)
+    ]
     printed = [kappa / gamma**2 >= 1 for (kappa, _, gamma), _ in rows]
     ours = [1 <= kappa / gamma <= sqrt(n) for (kappa, _, gamma), n in rows]
     smallest = np.linalg.svd(unit_columns(SAMPLE), compute_uv=False)[-1]
     as_used = np.isclose(collinearity_index(SAMPLE), 1 / np.sqrt(smallest))
     return Found(
-        "γ = 1/μ, μ the smallest singular value of S̃: μ² is the smallest eigenvalue of S̃ᵀS̃. Of Table 1's "
-        f"{len(rows)} pairs κ, γ this reading allows {sum(ours)}, the printed one {sum(printed)}",
+        "γ = 1/μ, μ the smallest singular value of S̃: μ² is the smallest eigenvalue of S̃ᵀS̃. Of"
+        f" Table 1's {len(rows)} pairs κ, γ this reading allows {sum(ours)}, the printed one"
+        f" {sum(printed)}",
         bool(all(printed) and as_used),
     )
 
@@ -68,10 +84,14 @@ def sensitivities(findings: Findings) -> Found:
     measured, absolute = FrequencyResponse(OMEGA, response), gradient * response
     along = response.imag * absolute.imag + response.real * absolute.real
     across = (response.real * absolute.imag - response.imag * absolute.real) / np.abs(response) ** 2
-    printed = {Case.AMPLITUDE: along / np.abs(response), Case.LOGARITHM: along / np.abs(response) ** 2 / np.log(10)}
+    printed = {
+        Case.AMPLITUDE: along / np.abs(response),
+        Case.LOGARITHM: along / np.abs(response) ** 2 / np.log(10),
+    }
     equal = [
         np.allclose(
-            Cost(measured, case, (1.0, 1.0)).sensitivity(response, gradient), np.concatenate([first, across], axis=-1).T
+            Cost(measured, case, (1.0, 1.0)).sensitivity(response, gradient),
+            np.concatenate([first, across], axis=-1).T,
         )
         for case, first in printed.items()
     ]
@@ -84,19 +104,27 @@ def phase(findings: Findings) -> Found:
     error = Cost(FrequencyResponse(OMEGA, response)).residual(response * np.exp(0.1j))[len(OMEGA) :]
     turns = int(np.sum(np.abs(np.diff(np.angle(response))) > pi))
     continuous = turns > 10 and np.allclose(error, 0.1)
-    return Found("the phase error is arg(G/G_M) in (−π, π]: nothing is interpolated", not continuous)
+    return Found(
+        "the phase error is arg(G/G_M) in (−π, π]: nothing is interpolated", not continuous
+    )
 
 
 def candidates(findings: Findings) -> Found:
     """Size of the candidate set."""
     number = len(figure_1())
-    return Found(f"{number} = Σ 2^N sets of ground dampers × 2 (lag) × 2 (dead time), N = 1 to 4", number == 120)
+    return Found(
+        f"{number} = Σ 2^N sets of ground dampers × 2 (lag) × 2 (dead time), N = 1 to 4",
+        number == 120,
+    )
 
 
 def sizes(findings: Findings) -> Found:
     """N_p of the four best models that are named."""
     named_models = ((3, (2,)), (4, (1,)), (3, (3,)), (2, (2,)))
-    found = [len(Chain(n, damped=True, ground_dampers=b, dead_time=True).parameters) for n, b in named_models]
+    found = [
+        len(Chain(n, damped=True, ground_dampers=b, dead_time=True).parameters)
+        for n, b in named_models
+    ]
     return Found(named(found), found == [9, 12, 9, 6])
 
 
@@ -109,112 +137,190 @@ def table_1(findings: Findings) -> Found:
         for limit, value in zip(limits, bed, strict=True)
         if value > limit
     ]
-    return Found(f"17 of 18 values; {', '.join(beyond)} (condition index, test bed 2, second row)", not beyond)
+    return Found(
+        f"17 of 18 values; {', '.join(beyond)} (condition index, test bed 2, second row)",
+        not beyond,
+    )
 
 
 def numerical_sensitivity(findings: Findings) -> Found:
-    """Closed-form derivatives of a 4-mass candidate with everything, against central differences of logarithms."""
+    """Closed-form derivatives of a 4-mass candidate with everything, against central
+    differences of logarithms.
+    """
     plant = Plant(DRIVE.structure, OMEGA)
     gradient = plant.logarithmic_gradient(DRIVE_VALUES)[1] * DRIVE_VALUES[:, None]
     steps = np.exp(STEP * np.eye(len(DRIVE_VALUES)))
     ahead, behind = plant.response(DRIVE_VALUES * steps), plant.response(DRIVE_VALUES / steps)
     exact = np.allclose(np.log(ahead / behind) / (2 * STEP), gradient, rtol=1e-5, atol=1e-7)
-    return Found("closed forms for every size: two tridiagonal solves a frequency give G and all its derivatives", not exact)
+    return Found(
+        "closed forms for every size: two tridiagonal solves a frequency give G and all its"
+        " derivatives",
+        not exact,
+    )
 
 
 def thresholds(findings: Findings) -> Found:
     """Steps of N_p with rising thresholds, on the demonstration drive."""
     steps = [np.diff(sweep(findings.selection.candidates, c).n_parameters) for c in CRITERIA]
     rises, falls = (sum(int((sign * s > 0).sum()) for s in steps) for sign in (1, -1))
-    told = f"simulated demonstration drive: with rising thresholds N_p rises {rises} times and falls {falls} times"
+    told = (
+        f"simulated demonstration drive: with rising thresholds N_p rises {rises} times and falls"
+        f" {falls} times"
+    )
     return Found(told, rises > falls)
 
 
 TEST_BEDS = "It depends on measurements of the authors' test beds, which are not published."
 SELECTION_CLAIMS = (
     Claim(
-        "weights", "Section 2.3, after (14)",
-        "“… π and 1 can be chosen as weightings for amplitude and phase, respectively. Then 20 dB difference in the amplitude "
-        "has an equivalent effect as 180° in the phase.”",
-        "20 dB ≙ 180°", weights, Outcome.AGREES,
+        "weights",
+        "Section 2.3, after (14)",
+        "“… π and 1 can be chosen as weightings for amplitude and phase, respectively. Then 20 dB"
+        " difference in the amplitude has an equivalent effect as 180° in the phase.”",
+        "20 dB ≙ 180°",
+        weights,
+        Outcome.AGREES,
     ),
     Claim(
-        "sensitivities", "Equations (13), (15)",
-        "The sensitivities of amplitude, of its logarithm and of the phase in terms of S_r and S_i.",
-        "formulas", sensitivities, Outcome.AGREES,
+        "sensitivities",
+        "Equations (13), (15)",
+        "The sensitivities of amplitude, of its logarithm and of the phase in terms of S_r and"
+        " S_i.",
+        "formulas",
+        sensitivities,
+        Outcome.AGREES,
     ),
     Claim(
-        "phase", "Section 2.3, end",
-        "“A potential problem is, however, that the measured and simulated phase must be interpolated continuous beyond ±2π.”",
-        "must be interpolated", phase, Outcome.DIFFERS,
-        "The difference of the phases is the argument of the quotient; neither phase has to be unwrapped.",
+        "phase",
+        "Section 2.3, end",
+        "“A potential problem is, however, that the measured and simulated phase must be"
+        " interpolated continuous beyond ±2π.”",
+        "must be interpolated",
+        phase,
+        Outcome.DIFFERS,
+        "The difference of the phases is the argument of the quotient; neither phase has to be"
+        " unwrapped.",
     ),
     Claim(
-        "importance", "Equation (16)",
+        "importance",
+        "Equation (16)",
         "msqr parameter importance index “given by Brun et al. (2001): δ_j = ‖S_j Δp_j‖₂”",
-        "‖S_j Δp_j‖₂", importance_index, Outcome.AGREES,
-        "Brun et al. divide by the number of rows under the root; the ratio of two indices, which is thresholded, is the same.",
+        "‖S_j Δp_j‖₂",
+        importance_index,
+        Outcome.AGREES,
+        "Brun et al. divide by the number of rows under the root; the ratio of two indices, which"
+        " is thresholded, is the same.",
     ),
     Claim(
-        "collinearity", "Equation (17)",
+        "collinearity",
+        "Equation (17)",
         "“γ_k = 1/√λ_k … λ_k is the smallest singular value of S̃”",
-        "smallest singular value under the root", collinearity_formula, Outcome.DIFFERS,
-        "A misprint: with unit columns 1 ≤ μ_max ≤ √N_p, which the printed formula contradicts in every row of Table 1. "
-        "Brun et "
-        "al. take the smallest eigenvalue of S̃ᵀS̃.",
+        "smallest singular value under the root",
+        collinearity_formula,
+        Outcome.DIFFERS,
+        "A misprint: with unit columns 1 ≤ μ_max ≤ √N_p, which the printed formula contradicts in"
+        " every row of Table 1. Brun et al. take the smallest eigenvalue of S̃ᵀS̃.",
     ),
     Claim(
-        "condition", "Equation (18)", "“η̃_k = μ_max/μ_k”, with the singular values of S̃", "μ_max/μ_k", condition_index,
+        "condition",
+        "Equation (18)",
+        "“η̃_k = μ_max/μ_k”, with the singular values of S̃",
+        "μ_max/μ_k",
+        condition_index,
         Outcome.AGREES,
     ),
     Claim(
-        "candidates", "Section 3.1", "“a maximum of 4 masses are considered (120 different models)”", "120", candidates,
+        "candidates",
+        "Section 3.1",
+        "“a maximum of 4 masses are considered (120 different models)”",
+        "120",
+        candidates,
         Outcome.AGREES,
     ),
     Claim(
-        "sizes", "Section 3.1",
-        "The best models, such as “a 3-mass system with additional damper to the base at mass 2 and delay time”, have 9, "
-        "12, 9 and 6 "
-        "estimation parameters.",
-        "9, 12, 9 and 6", sizes, Outcome.AGREES,
+        "sizes",
+        "Section 3.1",
+        "The best models, such as “a 3-mass system with additional damper to the base at mass 2 and"
+        " delay time”, have 9, 12, 9 and 6 estimation parameters.",
+        "9, 12, 9 and 6",
+        sizes,
+        Outcome.AGREES,
     ),
     Claim(
-        "numerical", "Section 3.1",
-        "4-mass models “often require numerical sensitivity matrix calculation due to TF complexity”",
-        "numerical differentiation", numerical_sensitivity, Outcome.DIFFERS,
-        "The transfer function is never expanded: its derivatives are products of two solutions of the same linear equations.",
+        "numerical",
+        "Section 3.1",
+        "4-mass models “often require numerical sensitivity matrix calculation due to TF"
+        " complexity”",
+        "numerical differentiation",
+        numerical_sensitivity,
+        Outcome.DIFFERS,
+        "The transfer function is never expanded: its derivatives are products of two solutions of"
+        " the same linear equations.",
     ),
     Claim(
-        "table-1", "Table 1", "Every best model fulfils the thresholds of its setting.", "18 values within their thresholds",
-        table_1, Outcome.DIFFERS,
+        "table-1",
+        "Table 1",
+        "Every best model fulfils the thresholds of its setting.",
+        "18 values within their thresholds",
+        table_1,
+        Outcome.DIFFERS,
         "Either a digit of the table is wrong, or the comparison allowed for rounding.",
     ),
     Claim(
-        "thresholds", "Section 3.2, Figs. 5 and 6",
-        "“mostly the number of parameters increases as the threshold increases. Exceptions exist …”",
-        "mostly increases", thresholds, Outcome.AGREES, "Checked on other data than the paper's.",
+        "thresholds",
+        "Section 3.2, Figs. 5 and 6",
+        "“mostly the number of parameters increases as the threshold increases. Exceptions"
+        " exist …”",
+        "mostly increases",
+        thresholds,
+        Outcome.AGREES,
+        "Checked on other data than the paper's.",
     ),
     Claim(
-        "test-bed-1", "Section 3.1, Fig. 3",
+        "test-bed-1",
+        "Section 3.1, Fig. 3",
         "Test bed 1: three masses, damper at mass 2 and delay time, for all three settings.",
-        "3 masses, b2, delay", None, Outcome.UNCHECKED, TEST_BEDS,
-    ),
-    Claim(
-        "test-bed-2", "Section 3.1, Fig. 4", "Test bed 2: four masses, three or two, depending on the thresholds.",
-        "4, 3 or 2 masses", None, Outcome.UNCHECKED, TEST_BEDS,
-    ),
-    Claim(
-        "values", "Table 1", "The values of the criteria of the best models.", "18 values", None, Outcome.UNCHECKED, TEST_BEDS,
-    ),
-    Claim(
-        "edge", "Section 3.2, Figs. 7 and 8", "“The graphs of testbed 1 show a clear edge at approx. 60 models.”", "about 60",
+        "3 masses, b2, delay",
         None,
-        Outcome.UNCHECKED, TEST_BEDS,
+        Outcome.UNCHECKED,
+        TEST_BEDS,
     ),
     Claim(
-        "hours", "Section 3.1", "The calculation takes about seven hours, for at most three masses 35 minutes.",
-        "7 h, 35 min", None,
-        Outcome.UNCHECKED, "It depends on the authors' program and computer; here a selection takes seconds to a minute.",
+        "test-bed-2",
+        "Section 3.1, Fig. 4",
+        "Test bed 2: four masses, three or two, depending on the thresholds.",
+        "4, 3 or 2 masses",
+        None,
+        Outcome.UNCHECKED,
+        TEST_BEDS,
     ),
-)  # fmt: skip
+    Claim(
+        "values",
+        "Table 1",
+        "The values of the criteria of the best models.",
+        "18 values",
+        None,
+        Outcome.UNCHECKED,
+        TEST_BEDS,
+    ),
+    Claim(
+        "edge",
+        "Section 3.2, Figs. 7 and 8",
+        "“The graphs of testbed 1 show a clear edge at approx. 60 models.”",
+        "about 60",
+        None,
+        Outcome.UNCHECKED,
+        TEST_BEDS,
+    ),
+    Claim(
+        "hours",
+        "Section 3.1",
+        "The calculation takes about seven hours, for at most three masses 35 minutes.",
+        "7 h, 35 min",
+        None,
+        Outcome.UNCHECKED,
+        "It depends on the authors' program and computer; here a selection takes seconds to a"
+        " minute.",
+    ),
+)
 """In the paper's order, what depends on the test beds last."""

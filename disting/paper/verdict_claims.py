@@ -19,10 +19,13 @@ from disting.verdict import Relation, View
 
 
 def same_pictures(findings: Findings) -> Found:
-    """Verdicts on 3 masses with every sensor quantity, in every view of the paper, with and without damping."""
+    """Verdicts on 3 masses with every sensor quantity, in every view of the paper, with and
+    without damping.
+    """
     equal = [
         np.array_equal(
-            findings.picture(3, damped, view).decided_by, findings.picture(3, damped, view, sensor=sensor).decided_by
+            findings.picture(3, damped, view).decided_by,
+            findings.picture(3, damped, view, sensor=sensor).decided_by,
         )
         for damped in (False, True)
         for view in (View.TF, View.MARKOV, View.COMBINED)
@@ -38,13 +41,20 @@ def figure_10_left(findings: Findings) -> Found:
 
 
 def figure_10_right(findings: Findings) -> Found:
-    """Undamped, 8 Markov parameters: what is left open is what the transfer function proves indistinguishable."""
+    """Undamped, 8 Markov parameters: what is left open is what the transfer function proves
+    indistinguishable.
+    """
     series = findings.picture(3, False, View.MARKOV, 8)
     by = findings.picture(3, False, View.TF)
     same = {
-        (i + 1, j + 1) for i, j in combinations(range(len(by.subjects)), 2) if by.relation(i, j) is Relation.INDISTINGUISHABLE
+        (i + 1, j + 1)
+        for i, j in combinations(range(len(by.subjects)), 2)
+        if by.relation(i, j) is Relation.INDISTINGUISHABLE
     }
-    return Found(f"{told(counted(series))}: exactly the {len(same)} indistinguishable pairs", undecided(series) == same)
+    return Found(
+        f"{told(counted(series))}: exactly the {len(same)} indistinguishable pairs",
+        undecided(series) == same,
+    )
 
 
 def fewer_than_eight(findings: Findings) -> Found:
@@ -61,18 +71,25 @@ def all_twelve(findings: Findings) -> Found:
 
 def no_additional_information(findings: Findings) -> Found:
     """Undamped pairs that only Markov parameters decide."""
-    gained = undecided(findings.picture(3, False, View.TF)) - undecided(findings.picture(3, False, View.MARKOV, 8))
+    gained = undecided(findings.picture(3, False, View.TF)) - undecided(
+        findings.picture(3, False, View.MARKOV, 8)
+    )
     return Found(f"{len(gained)} pairs more", not gained)
 
 
 def figure_11(findings: Findings) -> Found:
     """Damped, both representations."""
     left, right = findings.picture(3, True, View.TF), findings.picture(3, True, View.MARKOV, 7)
-    exact = Counter(v.relation for i, j, v in findings.catalog(3, damped=True).pairs(View.EXACT) if (i, j) in _open(findings))
+    exact = Counter(
+        v.relation
+        for i, j, v in findings.catalog(3, damped=True).pairs(View.EXACT)
+        if (i, j) in _open(findings)
+    )
     return Found(
-        f"left: {told(counted(left))}; right: {told(counted(right))}; both together leave {len(_open(findings))}, of which "
-        f"the exact decision finds {exact[Relation.INDISTINGUISHABLE]} indistinguishable and "
-        f"{exact[Relation.DISTINGUISHABLE]} distinguishable",
+        f"left: {told(counted(left))}; right: {told(counted(right))}; both together leave"
+        f" {len(_open(findings))}, of which the exact decision finds"
+        f" {exact[Relation.INDISTINGUISHABLE]} indistinguishable and"
+        f" {exact[Relation.DISTINGUISHABLE]} distinguishable",
         bool(undecided(left)) and bool(undecided(right)),
     )
 
@@ -87,7 +104,8 @@ def non_constant(findings: Findings) -> Found:
     fewest = [i for i, n in enumerate(damped, 1) if n == 7]
     agrees = (min(damped), max(damped), min(undamped), max(undamped), fewest) == (7, 9, 3, 5, [3])
     return Found(
-        f"{min(damped)} to {max(damped)} damped (7 for A{named(fewest)} only), {min(undamped)} to {max(undamped)} undamped",
+        f"{min(damped)} to {max(damped)} damped (7 for A{named(fewest)} only), {min(undamped)} to"
+        f" {max(undamped)} undamped",
         agrees,
     )
 
@@ -95,7 +113,9 @@ def non_constant(findings: Findings) -> Found:
 def determinable(findings: Findings) -> Found:
     """Determinable parameters of the undamped 3-mass models."""
     ranks = [row.rank for row in findings.catalog(3).rows]
-    return Found(f"5 parameters, of which {min(ranks)} to {max(ranks)} are determinable", set(ranks) == {5})
+    return Found(
+        f"5 parameters, of which {min(ranks)} to {max(ranks)} are determinable", set(ranks) == {5}
+    )
 
 
 def more_markov_than_parameters(findings: Findings) -> Found:
@@ -104,7 +124,10 @@ def more_markov_than_parameters(findings: Findings) -> Found:
     profiles = [s.profile(Representation.MARKOV, 12) for s in subjects]
     more = [len(p.form) > p.rank for p in profiles]
     holds = [condition_7(*pair).outcome is Holding.HOLDS for pair in combinations(profiles, 2)]
-    said = f"so in {sum(more)} of {len(more)} models with all 12 Markov parameters; condition 7 holds for {sum(holds)} pairs"
+    said = (
+        f"so in {sum(more)} of {len(more)} models with all 12 Markov parameters; condition 7 holds"
+        f" for {sum(holds)} pairs"
+    )
     return Found(said, all(more) and not any(holds))
 
 
@@ -114,13 +137,18 @@ def beyond_coefficients(findings: Findings) -> Found:
     gained = undecided(findings.picture(3, True, View.TF)) - undecided(series)
     pairs = named([f"{i}-{j}" for i, j in sorted(gained)])
     kinds = {series.relation(i - 1, j - 1) for i, j in gained}
-    return Found(f"{len(gained)} pairs, all distinguishable: {pairs}", kinds != {Relation.DISTINGUISHABLE})
+    return Found(
+        f"{len(gained)} pairs, all distinguishable: {pairs}", kinds != {Relation.DISTINGUISHABLE}
+    )
 
 
 def figure_12_pair(findings: Findings) -> Found:
     """A1 against A4."""
     by = [deciding(findings.picture(3, True, *how))[1, 4] for how in ((View.TF,), (View.MARKOV, 7))]
-    return Found("open by coefficients, distinguishable by condition 5 on Markov parameters", by == ["", DEPENDENCES.name])
+    return Found(
+        "open by coefficients, distinguishable by condition 5 on Markov parameters",
+        by == ["", DEPENDENCES.name],
+    )
 
 
 def figure_12_frequencies(findings: Findings) -> Found:
@@ -148,90 +176,148 @@ def fewer_than_seven(findings: Findings) -> Found:
 
 
 MISREAD = (
-    "“Distinguishability” is meant: with fewer than all Markov parameters only the necessary conditions can be used, and "
-    "Fig. 12 "
-    "shows the misfit of a pair that is told apart."
+    "“Distinguishability” is meant: with fewer than all Markov parameters only the necessary"
+    " conditions can be used, and Fig. 12 shows the misfit of a pair that is told apart."
 )
 VERDICT_CLAIMS = (
     Claim(
-        "same-pictures", "Section 5.2", "“For velocity (position) sensors, the same results can be obtained …”", "same results",
-        same_pictures, Outcome.AGREES,
+        "same-pictures",
+        "Section 5.2",
+        "“For velocity (position) sensors, the same results can be obtained …”",
+        "same results",
+        same_pictures,
+        Outcome.AGREES,
     ),
     Claim(
-        "figure-10-left", "Section 5.2, Fig. 10 left",
-        "“without damping a conclusive result is obtained for all model combinations with the TFA”", "0 of 55 open",
-        figure_10_left, Outcome.AGREES,
+        "figure-10-left",
+        "Section 5.2, Fig. 10 left",
+        "“without damping a conclusive result is obtained for all model combinations with the TFA”",
+        "0 of 55 open",
+        figure_10_left,
+        Outcome.AGREES,
     ),
     Claim(
-        "figure-10-right", "Section 5.2, Fig. 10 right",
-        "“The MPA with 8 Markov parameters produces no contradictions but it cannot prove indistinguishability of the "
-        "indistinguishable models …”",
-        "all indistinguishable pairs open", figure_10_right, Outcome.AGREES,
+        "figure-10-right",
+        "Section 5.2, Fig. 10 right",
+        "“The MPA with 8 Markov parameters produces no contradictions but it cannot prove"
+        " indistinguishability of the indistinguishable models …”",
+        "all indistinguishable pairs open",
+        figure_10_right,
+        Outcome.AGREES,
     ),
     Claim(
-        "determinable", "Section 5.2", "“the 5 determinable parameters” (3 masses, undamped)", "5 determinable parameters",
+        "determinable",
+        "Section 5.2",
+        "“the 5 determinable parameters” (3 masses, undamped)",
+        "5 determinable parameters",
         determinable,
         Outcome.DIFFERS,
-        "Five is the number of parameters; several transfer functions determine fewer combinations of them.",
+        "Five is the number of parameters; several transfer functions determine fewer combinations"
+        " of them.",
     ),
     Claim(
-        "condition-7-markov", "Section 5.2",
-        "“Condition 7 is not applicable because there are typically more non-constant moment invariants than the 5 "
-        "determinable "
-        "parameters”",
-        "condition 7 not applicable", more_markov_than_parameters, Outcome.AGREES,
+        "condition-7-markov",
+        "Section 5.2",
+        "“Condition 7 is not applicable because there are typically more non-constant moment"
+        " invariants than the 5 determinable parameters”",
+        "condition 7 not applicable",
+        more_markov_than_parameters,
+        Outcome.AGREES,
     ),
     Claim(
-        "fewer-than-8", "Section 5.2", "“For the case of calculating fewer Markov parameters than 8 the unknown area expands”",
-        "expands", fewer_than_eight, Outcome.AGREES,
+        "fewer-than-8",
+        "Section 5.2",
+        "“For the case of calculating fewer Markov parameters than 8 the unknown area expands”",
+        "expands",
+        fewer_than_eight,
+        Outcome.AGREES,
     ),
     Claim(
-        "all-12", "Section 5.2", "“for significantly more than 8, up to 12 the computation time would be formidable”",
-        "out of reach", all_twelve, Outcome.DIFFERS,
-        "At random points modulo primes all 12 take a fraction of a second for the whole family; condition 6 then applies.",
+        "all-12",
+        "Section 5.2",
+        "“for significantly more than 8, up to 12 the computation time would be formidable”",
+        "out of reach",
+        all_twelve,
+        Outcome.DIFFERS,
+        "At random points modulo primes all 12 take a fraction of a second for the whole family;"
+        " condition 6 then applies.",
     ),
     Claim(
-        "no-more", "Section 5.2", "“the TFA seems more powerful and the MPA provides no additional information” (undamped)",
-        "none", no_additional_information, Outcome.AGREES,
+        "no-more",
+        "Section 5.2",
+        "“the TFA seems more powerful and the MPA provides no additional information” (undamped)",
+        "none",
+        no_additional_information,
+        Outcome.AGREES,
     ),
     Claim(
-        "figure-11", "Section 5.2, Fig. 11",
-        "“neither the TFA, nor the MPA with 7 Markov parameters can derive an answer to the distinguishability question for "
-        "all "
-        "combinations” (damped)",
-        "both leave pairs open", figure_11, Outcome.AGREES,
+        "figure-11",
+        "Section 5.2, Fig. 11",
+        "“neither the TFA, nor the MPA with 7 Markov parameters can derive an answer to the"
+        " distinguishability question for all combinations” (damped)",
+        "both leave pairs open",
+        figure_11,
+        Outcome.AGREES,
     ),
     Claim(
-        "non-constant", "Section 5.2",
-        "“the number of non-constant TF coefficients (7...9, 7 only for model A3) … Without damping … (3...5)”",
-        "7 to 9, 7 for A3 only; 3 to 5", non_constant, Outcome.AGREES,
+        "non-constant",
+        "Section 5.2",
+        "“the number of non-constant TF coefficients (7...9, 7 only for model A3) … Without damping"
+        " … (3...5)”",
+        "7 to 9, 7 for A3 only; 3 to 5",
+        non_constant,
+        Outcome.AGREES,
     ),
     Claim(
-        "beyond", "Section 5.2", "“in some cases the MPA proves indistinguishability that cannot be proved with the TFA”",
-        "indistinguishability", beyond_coefficients, Outcome.DIFFERS, MISREAD,
+        "beyond",
+        "Section 5.2",
+        "“in some cases the MPA proves indistinguishability that cannot be proved with the TFA”",
+        "indistinguishability",
+        beyond_coefficients,
+        Outcome.DIFFERS,
+        MISREAD,
     ),
     Claim(
-        "figure-12-pair", "Section 5.2, Fig. 12", "A1 and A4 are such a case.", "decided by the MPA only",
-        figure_12_pair, Outcome.AGREES,
+        "figure-12-pair",
+        "Section 5.2, Fig. 12",
+        "A1 and A4 are such a case.",
+        "decided by the MPA only",
+        figure_12_pair,
+        Outcome.AGREES,
     ),
     Claim(
-        "figure-12-frequencies", "Section 5.2, Fig. 12", "“the frequencies of resonances and antiresonances are in agreement”",
-        "in agreement", figure_12_frequencies, Outcome.AGREES,
+        "figure-12-frequencies",
+        "Section 5.2, Fig. 12",
+        "“the frequencies of resonances and antiresonances are in agreement”",
+        "in agreement",
+        figure_12_frequencies,
+        Outcome.AGREES,
         "A1 with damped first coupling (Fig. 12 below); the paper's parameters are not given.",
     ),
     Claim(
-        "figure-12-damping", "Section 5.2, Fig. 12",
-        "“it is not possible to match the damping at all four (anti)resonances simultaneously”", "not possible",
-        figure_12_damping, Outcome.AGREES, "The best fit of many starts; the proof is the verdict on A1 and A4. "
+        "figure-12-damping",
+        "Section 5.2, Fig. 12",
+        "“it is not possible to match the damping at all four (anti)resonances simultaneously”",
+        "not possible",
+        figure_12_damping,
+        Outcome.AGREES,
+        "The best fit of many starts; the proof is the verdict on A1 and A4. "
         "Dampers in proportion to the springs are an exception: then A4 matches exactly.",
     ),
     Claim(
-        "8-as-7", "Section 5.2", "“For 8 Markov parameters the same pattern results” (damped)", "same pattern",
-        eight_as_seven, Outcome.AGREES,
+        "8-as-7",
+        "Section 5.2",
+        "“For 8 Markov parameters the same pattern results” (damped)",
+        "same pattern",
+        eight_as_seven,
+        Outcome.AGREES,
     ),
     Claim(
-        "fewer-than-7", "Section 5.2", "“6 or fewer Markov parameters lead to larger unknown areas.”", "larger",
+        "fewer-than-7",
+        "Section 5.2",
+        "“6 or fewer Markov parameters lead to larger unknown areas.”",
+        "larger",
         fewer_than_seven,
         Outcome.AGREES,
     ),
-)  # fmt: skip
+)

@@ -1,4 +1,6 @@
-"""General parametric models: any rational transfer function with parameters, compared as chains are."""
+"""General parametric models: any rational transfer function with parameters, compared as chains
+are.
+"""
 
 from disting.evidence.general import Witnesses as Witnesses
 from disting.parametric.admissible import confirms as confirms

@@ -1,9 +1,11 @@
-"""Whether models that agree over complex parameters agree over real or positive ones: always, never or for some.
+"""Whether models that agree over complex parameters agree over real or positive ones: always,
+never or for some.
 
-What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of either model have an
-equivalent in the other one; DISTINGUISHABLE if those of one have none, and so no admissible parameters agree, but for thin
-sets; SOMETIMES if in an open set there is an equivalent, and in another one, of either model, there is none. All of it is
-proven. Points are drawn to be looked at only; what is said of them is said of all points around them (see `robust`).
+What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of
+either model have an equivalent in the other one; DISTINGUISHABLE if those of one have none, and so
+no admissible parameters agree, but for thin sets; SOMETIMES if in an open set there is an
+equivalent, and in another one, of either model, there is none. All of it is proven. Points are
+drawn to be looked at only; what is said of them is said of all points around them (see `robust`).
 """
 
 from collections.abc import Iterator
@@ -43,61 +45,97 @@ def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> 
 
 
 def of_ways(left: Model, right: Model, ways: Ways, domain: Domain, seed: str) -> Finding:
-    """The finding from what is known each way; raises ContradictionError where that cannot all be true."""
+    """The finding from what is known each way; raises ContradictionError where that cannot all
+    be true.
+    """
     for left_given, one in zip((True, False), ways, strict=True):
         if one and one.never:
             _refuse_equivalents(ways, domain, seed)
             closed = tuple(dict.fromkeys(one.parted.search.closed))
-            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=NoEquivalent(domain.value, left_given, closed))
+            return Finding(
+                ADMISSIBLE,
+                Outcome.FAILS,
+                Certainty.PROVEN,
+                evidence=NoEquivalent(domain.value, left_given, closed),
+            )
     if all(one and one.covering for one in ways):
         return _always(ways, domain)
     if domain is Domain.POSITIVE and same_one_ports(left, right):
-        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer"))
+        return Finding(
+            ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
+        )
     having, lacking, shares = _seen(ways, domain, seed)
     if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
-        raise ContradictionError(f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none")
+        raise ContradictionError(
+            f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
+        )
     if having and lacking:
-        return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=_witnesses(ways, having, lacking, domain))
+        return Finding(
+            ADMISSIBLE,
+            Outcome.SOMETIMES,
+            Certainty.PROVEN,
+            evidence=_witnesses(ways, having, lacking, domain),
+        )
     if not lacking and all(one and (one.covering or one.path()) for one in ways):
         return _always(ways, domain)
-    note = f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the others"
+    note = (
+        f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
+        " others"
+    )
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
 
 
 def confirms(evidence: Witnesses, left: Model, right: Model) -> bool:
-    """Whether both points are what they are said to be, and all parameters near them: the search is done anew.
+    """Whether both points are what they are said to be, and all parameters near them: the search
+    is done anew.
 
     Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
     """
     domain = Domain(evidence.domain)
     ways = {True: way(left, right, domain), False: way(right, left, domain)}
     with_, without = ways[evidence.with_left_given], ways[evidence.without_left_given]
-    points_ = [{name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)]
+    points_ = [
+        {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
+    ]
     if any(x == 0 or (x < 0 and domain is Domain.POSITIVE) for p in points_ for x in p.values()):
         return False
     return bool(with_ and without and with_.having(points_[0]) and without.lacking(points_[1]))
 
 
 def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
-    """Yield random rational parameters of a domain, without end, determined by the seed and the model."""
+    """Yield random rational parameters of a domain, without end, determined by the seed and the
+    model.
+    """
     label = f"{seed}:{model.parameters}:{model.numerator_terms}:{model.denominator_terms}"
     n, k = len(model.parameters), 0
     while True:
         spread = SPREADS[k % len(SPREADS)]
         tops, bottoms, signs = (
-            residues(f"{what}:{label}:{k}", n, below) for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
+            residues(f"{what}:{label}:{k}", n, below)
+            for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
         )
         values = (Fraction(p, q) for p, q in zip(tops, bottoms, strict=True))
-        signed = (x if s == 1 or domain is Domain.POSITIVE else -x for x, s in zip(values, signs, strict=True))
+        signed = (
+            x if s == 1 or domain is Domain.POSITIVE else -x
+            for x, s in zip(values, signs, strict=True)
+        )
         yield dict(zip(model.parameters, signed, strict=True))
         k += 1
 
 
 def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:
-    """Raise ContradictionError if one model has equivalents although the other has none: they would be equivalents of it."""
+    """Raise ContradictionError if one model has equivalents although the other has none: they
+    would be equivalents of it.
+    """
     for one in ways:
-        if one and (one.covering or one.path() or any(map(one.having, islice(points(one.given, domain, seed), GUARDS)))):
-            raise ContradictionError(f"{one.given.name} has equivalents in {one.other.name}, which has none in it")
+        if one and (
+            one.covering
+            or one.path()
+            or any(map(one.having, islice(points(one.given, domain, seed), GUARDS)))
+        ):
+            raise ContradictionError(
+                f"{one.given.name} has equivalents in {one.other.name}, which has none in it"
+            )
 
 
 def _always(ways: Ways, domain: Domain) -> Finding:
@@ -105,17 +143,22 @@ def _always(ways: Ways, domain: Domain) -> Finding:
     evidence = explicit(known, domain)
     if not fit(evidence, known[0].given, known[0].other):
         raise ContradictionError(
-            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer function"
+            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer"
+            " function"
         )
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 
 def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | None, str]:
-    """A point with and one without an equivalent, of either model, and the shares of those with one."""
+    """A point with and one without an equivalent, of either model, and the shares of those with
+    one.
+    """
     having, lacking, shares = list[Found](), list[Found](), list[str]()
     for left_given, one in zip((True, False), ways, strict=True):
         if one is None:
-            shares.append(f"at no points of the {'left' if left_given else 'right'} model ({TOO_LARGE})")
+            shares.append(
+                f"at no points of the {'left' if left_given else 'right'} model ({TOO_LARGE})"
+            )
             continue
         count, always = 0, bool(one.covering)
         for values in islice(points(one.given, domain, seed), POINTS):
@@ -140,7 +183,9 @@ def _witnesses(ways: Ways, having: Found, lacking: Found, domain: Domain) -> Wit
 
 
 def _count(one: Way, point: Point) -> int:
-    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen at once."""
+    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
+    at once.
+    """
     goal = target(one.given, rational_values(one.given, dict(point)))
     try:
         found = solved(fibre_equations(goal, one.other), one.other.parameters, "count", Bounds())

@@ -1,8 +1,10 @@
-"""All parameter vectors of one model with exactly the transfer function that another one has at given rational values.
+"""All parameter vectors of one model with exactly the transfer function that another one has at
+given rational values.
 
-The equations of the fibre (see `target`) have no zero, finitely many or infinitely many, which a Groebner basis over Q tells
-without chance; what is said of them is proven (see `fibre`). Alternatives keep the order of the model: parameters at which
-its leading denominator coefficient is zero are none.
+The equations of the fibre (see `target`) have no zero, finitely many or infinitely many, which a
+Groebner basis over Q tells without chance; what is said of them is proven (see `fibre`).
+Alternatives keep the order of the model: parameters at which its leading denominator coefficient
+is zero are none.
 """
 
 from collections.abc import Mapping
@@ -19,7 +21,8 @@ from disting.parametric.model import Model
 from disting.parametric.target import fibre_equations, rational_values, target
 
 SECONDS = 30.0
-AT_ONCE = Bounds()  # milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time
+# milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time
+AT_ONCE = Bounds()
 AT_MOST = Bounds(2000, 5000, 100_000, 300)
 
 Values = tuple[tuple[str, Fraction], ...]
@@ -27,10 +30,12 @@ Values = tuple[tuple[str, Fraction], ...]
 
 @dataclass(frozen=True, slots=True)
 class Alternatives:
-    """Parameter vectors of `other` with the transfer function of `model` at `values`: all of them if finitely many.
+    """Parameter vectors of `other` with the transfer function of `model` at `values`: all of them
+    if finitely many.
 
-    FAMILY: infinitely many over the complex numbers, `equivalents` some of them, `free` the parameters that were fixed at
-    random; `excluded`: domains without any. UNKNOWN: not decided, for this `reason`. Everything else is proven.
+    FAMILY: infinitely many over the complex numbers, `equivalents` some of them, `free` the
+    parameters that were fixed at random; `excluded`: domains without any. UNKNOWN: not decided,
+    for this `reason`. Everything else is proven.
     """
 
     model: str
@@ -47,14 +52,21 @@ class Alternatives:
 
     def within(self, domain: Domain) -> tuple[Equivalent, ...]:
         """Those that are real or positive, or all."""
-        admissible = {Domain.COMPLEX: tuple(Domain), Domain.REAL: (Domain.REAL, Domain.POSITIVE)}.get(domain, (domain,))
+        admissible = {
+            Domain.COMPLEX: tuple(Domain),
+            Domain.REAL: (Domain.REAL, Domain.POSITIVE),
+        }.get(domain, (domain,))
         return tuple(x for x in self.equivalents if x.domain in admissible)
 
     def exist(self, domain: Domain) -> Outcome:
         """Whether there are any in a domain: HOLDS, FAILS, or ABANDONED where it is not known."""
         if self.within(domain) or (domain is Domain.COMPLEX and self.extent is Extent.FAMILY):
             return Outcome.HOLDS
-        return Outcome.FAILS if self.extent in (Extent.NONE, Extent.FINITE) or domain in self.excluded else Outcome.ABANDONED
+        return (
+            Outcome.FAILS
+            if self.extent in (Extent.NONE, Extent.FINITE) or domain in self.excluded
+            else Outcome.ABANDONED
+        )
 
     @property
     def sentence(self) -> str:
@@ -62,16 +74,29 @@ class Alternatives:
         at = ", ".join(f"{name} = {x}" for name, x in self.values)
         match self.extent:
             case Extent.NONE:
-                return f"{self.other} has no parameters, real or complex, with the transfer function of {self.model} at {at}."
+                return (
+                    f"{self.other} has no parameters, real or complex, with the transfer function"
+                    f" of {self.model} at {at}."
+                )
             case Extent.UNKNOWN:
-                return f"Which parameters of {self.other} give {self.model} at {at} was not decided: {self.reason}."
+                return (
+                    f"Which parameters of {self.other} give {self.model} at {at} was not decided:"
+                    f" {self.reason}."
+                )
             case Extent.FINITE:
-                many = f"exactly {len(self.equivalents)} parameter vector{'s' * (len(self.equivalents) > 1)}"
+                many = (
+                    f"exactly {len(self.equivalents)} parameter"
+                    f" vector{'s' * (len(self.equivalents) > 1)}"
+                )
             case Extent.FAMILY:
-                many = f"infinitely many parameter vectors; {len(self.equivalents)} found with random {', '.join(self.free)}"
+                many = (
+                    f"infinitely many parameter vectors; {len(self.equivalents)} found with random"
+                    f" {', '.join(self.free)}"
+                )
         return (
-            f"{self.other} has {many} with the transfer function of {self.model} at {at}; "
-            f"{len(self.within(Domain.REAL))} of them real, {len(self.within(Domain.POSITIVE))} positive{self._none}."
+            f"{self.other} has {many} with the transfer function of {self.model} at {at};"
+            f" {len(self.within(Domain.REAL))} of them real, {len(self.within(Domain.POSITIVE))}"
+            f" positive{self._none}."
         )
 
     @property
@@ -80,11 +105,18 @@ class Alternatives:
 
 
 def alternatives(
-    model: Model, values: Mapping[str, object], other: Model, *, seed: str = "disting", seconds: float = SECONDS
+    model: Model,
+    values: Mapping[str, object],
+    other: Model,
+    *,
+    seed: str = "disting",
+    seconds: float = SECONDS,
 ) -> Alternatives:
-    """Alternatives to a model at rational values (numbers, texts such as "0.1", fractions), in the parameters of `other`.
+    """Alternatives to a model at rational values (numbers, texts such as "0.1", fractions), in the
+    parameters of `other`.
 
-    Gives up after so many seconds. Raises InputError for missing, foreign or inexact values and a zero leading coefficient.
+    Gives up after so many seconds. Raises InputError for missing, foreign or inexact values and a
+    zero leading coefficient.
 
     >>> a = Model.from_transfer_function("1", "(s + a)*(s + b)")
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
@@ -98,5 +130,12 @@ def alternatives(
         ended = run_limited(solved, (equations, other.parameters, seed, AT_MOST), seconds)
         found = ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)
     return Alternatives(
-        model.name, other.name, exact, found.extent, found.equivalents, found.free, found.excluded, found.reason
+        model.name,
+        other.name,
+        exact,
+        found.extent,
+        found.equivalents,
+        found.free,
+        found.excluded,
+        found.reason,
     )

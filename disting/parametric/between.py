@@ -1,13 +1,15 @@
 """Unknowns that are roots: an equivalent for every p by the intermediate value theorem.
 
-In a case with one equation h = 0 some unknowns are chosen as fractions of the p, and for the last one, x, two points a, b of
-[0, oo] are sought between which h changes its sign for all p: the numerators of h(a) and h(b) have opposite signs, and all
-inequalities hold on the whole way x = (a + b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they
-have positive coefficients. So h has a root on the way. What is solved for is N/c, and inequalities lose even powers, so it is
-also asked that the `nonzero` polynomials of the case, among them these c, N and lead(q), have no common factor with h that
-contains x: then for generic p none of them is zero at any root of h (their resultant with h, a polynomial in the p, is not
-zero), and all other unknowns are positive there. What is tried: 0, oo, 1, single p, sums and quotients of products of a few of
-them, and the roots of linear inequalities.
+In a case with one equation h = 0 some unknowns are chosen as fractions of the p, and for the last
+one, x, two points a, b of [0, oo] are sought between which h changes its sign for all p: the
+numerators of h(a) and h(b) have opposite signs, and all inequalities hold on the whole way x = (a
++ b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they have
+positive coefficients. So h has a root on the way. What is solved for is N/c, and inequalities lose
+even powers, so it is also asked that the `nonzero` polynomials of the case, among them these c, N
+and lead(q), have no common factor with h that contains x: then for generic p none of them is zero
+at any root of h (their resultant with h, a polynomial in the p, is not zero), and all other
+unknowns are positive there. What is tried: 0, oo, 1, single p, sums and quotients of products of a
+few of them, and the roots of linear inequalities.
 """
 
 from collections.abc import Iterator
@@ -32,7 +34,9 @@ End = tuple[fmpz_mpoly, fmpz_mpoly]
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """An equivalent for every generic p: `values`, x among them being a root of `equation` between `low` and `high`."""
+    """An equivalent for every generic p: `values`, x among them being a root of `equation`
+    between `low` and `high`.
+    """
 
     equation: fmpz_mpoly
     at: int
@@ -58,7 +62,9 @@ def path(ring: Orthant, case: Case) -> Path | None:
 
 
 def odd_path(ring: Orthant, case: Case) -> Path | None:
-    """Over the real numbers: a root of an equation of odd degree in its only unknown, whose leading coefficient is not zero."""
+    """Over the real numbers: a root of an equation of odd degree in its only unknown, whose
+    leading coefficient is not zero.
+    """
     free = ring.occurring((*case.equations, *case.positive))
     if len(case.equations) != 1 or len(free) != 1 or case.equations[0].degrees()[free[0]] % 2 == 0:
         return None
@@ -74,13 +80,17 @@ def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case
 def _root(ring: Orthant, case: Case, at: int) -> Path | None:
     for low, high in _promising(ring, case, at):
         signs = [_seen(ring, ring.put(case.equations[0], at, *end)[0]) for end in (low, high)]
-        if signs[0] * signs[1] < 0 and all(_holds_between(ring, g, at, low, high) for g in case.positive):
+        if signs[0] * signs[1] < 0 and all(
+            _holds_between(ring, g, at, low, high) for g in case.positive
+        ):
             return _known(ring, case, at, low, high)
     return None
 
 
 def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | None:
-    """The path, unless a polynomial that must not be zero has a common root with the equation for all p."""
+    """The path, unless a polynomial that must not be zero has a common root with the equation
+    for all p.
+    """
     whole, equation = numbered(ring, case), case.equations[0]
     if any(c.gcd(equation).degrees()[at] for c in whole.nonzero):
         return None
@@ -95,11 +105,18 @@ def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:
 
 
 def _promising(ring: Orthant, case: Case, at: int) -> Iterator[tuple[End, End]]:
-    """Pairs of ends between which the signs are right at some points, in rounded numbers: what is left out is not proven."""
+    """Pairs of ends between which the signs are right at some points, in rounded numbers: what
+    is left out is not proven.
+    """
     ends = list(_ends(ring, case, at))
-    at_ends = [_numbers(ring, [ring.put(g, at, *end)[0] for g in (*case.equations, *case.positive)]) for end in ends]
+    at_ends = [
+        _numbers(ring, [ring.put(g, at, *end)[0] for g in (*case.equations, *case.positive)])
+        for end in ends
+    ]
     kept = [
-        i for i, rows in enumerate(at_ends) if abs(sum(rows[0])) == TRIALS and all(min(r, default=0) >= 0 for r in rows[1:])
+        i
+        for i, rows in enumerate(at_ends)
+        if abs(sum(rows[0])) == TRIALS and all(min(r, default=0) >= 0 for r in rows[1:])
     ]
     for i, j in combinations(kept, 2):
         if at_ends[i][0] != at_ends[j][0]:
@@ -146,7 +163,9 @@ def _candidates(ring: Orthant) -> Iterator[End]:
     yield from ((x, one) for x in p)
     yield one, one
     yield from ((x + y, one) for x, y in combinations(p, 2))
-    yield from ((sum(c, ring.number(0)), one) for k in range(3, len(p) + 1) for c in combinations(p, k))
+    yield from (
+        (sum(c, ring.number(0)), one) for k in range(3, len(p) + 1) for c in combinations(p, k)
+    )
     yield from ((x, y) for x in p for y in p if x != y)
     if len(p) <= QUOTIENTS:
         for x, y in combinations_with_replacement(p, 2):
@@ -155,7 +174,9 @@ def _candidates(ring: Orthant) -> Iterator[End]:
 
 
 def without_equations(ring: Orthant, case: Case) -> Case | None:
-    """A case whose inequalities all hold by a choice of its unknowns as fractions of the p, if one that is tried does."""
+    """A case whose inequalities all hold by a choice of its unknowns as fractions of the p, if
+    one that is tried does.
+    """
     free = ring.occurring(case.positive)
     if not free:
         return None if case.positive else case

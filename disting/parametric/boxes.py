@@ -1,10 +1,13 @@
-"""Polynomials on closed boxes of [0, oo]^n, n = 1 or 2: boxes where inequalities are seen to fail or to hold, and roots.
+"""Polynomials on closed boxes of [0, oo]^n, n = 1 or 2: boxes where inequalities are seen to fail
+or to hold, and roots.
 
-A polynomial f of degree at most d in x is taken as homogeneous, x = x0/x1, so that x = oo is a point like others, and a box is
-the image of [0, oo]. If all coefficients are >= 0 and those at the corners > 0, f is positive on the whole closed box; the
-same for negative. Halving: x = u/(1 + u) is the part up to 1, x = 1 + u the part from 1.
+A polynomial f of degree at most d in x is taken as homogeneous, x = x0/x1, so that x = oo is a
+point like others, and a box is the image of [0, oo]. If all coefficients are >= 0 and those at the
+corners > 0, f is positive on the whole closed box; the same for negative. Halving: x = u/(1 + u)
+is the part up to 1, x = 1 + u the part from 1.
 
-What is said of one polynomial on a closed box stays true if its coefficients move a little, as the box is compact.
+What is said of one polynomial on a closed box stays true if its coefficients move a little, as the
+box is compact.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,7 +27,9 @@ NARROW = 12  # halvings before a root is named
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """Polynomials in the coordinates of the box, and its ends by axis: two points (numerator, denominator) each."""
+    """Polynomials in the coordinates of the box, and its ends by axis: two points (numerator,
+    denominator) each.
+    """
 
     equations: tuple[Grid, ...]
     positive: tuple[Grid, ...]
@@ -34,7 +39,9 @@ class Box:
 
 
 def sign_on(grid: Grid) -> int:
-    """1 or -1 if the polynomial has this sign on the whole closed box as its coefficients show it, else 0."""
+    """1 or -1 if the polynomial has this sign on the whole closed box as its coefficients show
+    it, else 0.
+    """
     corners = {grid[i][j] for i in (0, -1) for j in (0, -1)}
     entries = [c for row in grid for c in row]
     if min(corners) > 0 and min(entries) >= 0:
@@ -43,7 +50,9 @@ def sign_on(grid: Grid) -> int:
 
 
 def is_empty(start: Box, axes: int) -> bool:
-    """Whether no point of the closed box solves all equations with all inequalities >= 0; False also where it is not seen."""
+    """Whether no point of the closed box solves all equations with all inequalities >= 0; False
+    also where it is not seen.
+    """
     todo, seen = [start], 0
     while todo:
         box, seen = todo.pop(), seen + 1
@@ -56,7 +65,8 @@ def is_empty(start: Box, axes: int) -> bool:
 
 
 def root(start: Box) -> tuple[Fraction, Fraction] | None:
-    """An interval on which all inequalities hold and no `nonzero` polynomial vanishes, if one is found.
+    """An interval on which all inequalities hold and no `nonzero` polynomial vanishes, if one is
+    found.
 
     With one equation also one at whose ends the equation has opposite signs.
     """
@@ -81,7 +91,9 @@ def root(start: Box) -> tuple[Fraction, Fraction] | None:
 
 def _changes(box: Box) -> bool:
     """Whether the box is narrow and the equation has opposite signs at its ends."""
-    return not box.equations or (box.depth[0] >= NARROW and box.equations[0][0][0] * box.equations[0][-1][0] < 0)
+    return not box.equations or (
+        box.depth[0] >= NARROW and box.equations[0][0][0] * box.equations[0][-1][0] < 0
+    )
 
 
 def halves(box: Box, axes: int) -> Iterator[Box]:
@@ -93,7 +105,8 @@ def halves(box: Box, axes: int) -> Iterator[Box]:
     for upper, ends in ((False, (low, middle)), (True, (middle, high))):
         every = tuple(ends if i == axis else e for i, e in enumerate(box.ends))
         first, second, third = (
-            tuple(_half(g, axis, upper) for g in side) for side in (box.equations, box.positive, box.nonzero)
+            tuple(_half(g, axis, upper) for g in side)
+            for side in (box.equations, box.positive, box.nonzero)
         )
         yield Box(first, second, third, every, (depth[0], depth[1]))
 

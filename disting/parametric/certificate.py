@@ -1,7 +1,9 @@
-"""An equivalent checked alone: put into the transfer function, with its reality and signs seen in rational intervals.
+"""An equivalent checked alone: put into the transfer function, with its reality and signs seen in
+rational intervals.
 
-The substitution is exact in Q[u]/f: N2(q) D - N D2(q) = 0, and the leading coefficient of D2(q) is prime to f. A sign change of
-f over the interval proves a real root there, and interval arithmetic the signs of the coordinates at it.
+The substitution is exact in Q[u]/f: N2(q) D - N D2(q) = 0, and the leading coefficient of D2(q) is
+prime to f. A sign change of f over the interval proves a real root there, and interval arithmetic
+the signs of the coordinates at it.
 """
 
 from collections.abc import Sequence
@@ -18,7 +20,9 @@ Interval = tuple[Fraction, Fraction]
 
 
 def certified(found: Equivalent, goal: Target, other: Model) -> bool:
-    """Whether these parameters of `other` have the target's transfer function and are real or positive as they say."""
+    """Whether these parameters of `other` have the target's transfer function and are real or
+    positive as they say.
+    """
     if not _fits(found, goal, other) or found.parameters != other.parameters:
         return False
     if found.domain is Domain.COMPLEX:
@@ -32,8 +36,13 @@ def certified(found: Equivalent, goal: Target, other: Model) -> bool:
 def _fits(found: Equivalent, goal: Target, other: Model) -> bool:
     modulus = fmpq_poly([fmpq(c) for c in found.polynomial])
     point = [_poly(c) % modulus for c in found.coordinates]
-    above, below = ([_at(c, point, modulus) for c in side] for side in (other.numerator_terms, other.denominator_terms))
-    crossed = [fmpq_poly([0])] * (max(len(above) + len(goal.denominator), len(below) + len(goal.numerator)) - 1)
+    above, below = (
+        [_at(c, point, modulus) for c in side]
+        for side in (other.numerator_terms, other.denominator_terms)
+    )
+    crossed = [fmpq_poly([0])] * (
+        max(len(above) + len(goal.denominator), len(below) + len(goal.numerator)) - 1
+    )
     for searched, given, sign in ((above, goal.denominator, 1), (below, goal.numerator, -1)):
         for i, a in enumerate(searched):
             for j, b in enumerate(given):
@@ -57,7 +66,9 @@ def _poly(coefficients: tuple[Fraction, ...]) -> fmpq_poly:
 
 
 def _value(coefficients: Sequence[Fraction | int], at: Interval) -> Interval:
-    """An interval that holds all values of a polynomial on an interval, by Horner's rule in exact fractions."""
+    """An interval that holds all values of a polynomial on an interval, by Horner's rule in
+    exact fractions.
+    """
     least = largest = Fraction(0)
     for c in map(Fraction, reversed(coefficients)):
         products = [x * y for x in (least, largest) for y in at]

@@ -1,4 +1,6 @@
-"""What a user writes down: matrices and lists of entries, checked for shape and turned into trees."""
+"""What a user writes down: matrices and lists of entries, checked for shape and turned into
+trees.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,7 +29,9 @@ class StateSpace:
 
 
 def state_space(a: object, b: object, c: object, d: object) -> StateSpace:
-    """Four matrices as a user gives them: SymPy or NumPy ones, nested lists, for b and c flat lists too."""
+    """Four matrices as a user gives them: SymPy or NumPy ones, nested lists, for b and c flat
+    lists too.
+    """
     rows = _matrix(a, "A")
     n = len(rows)
     if any(len(row) != n for row in rows):
@@ -37,22 +41,31 @@ def state_space(a: object, b: object, c: object, d: object) -> StateSpace:
 
 
 def refuse_namesakes(*given: object) -> None:
-    """Raises InputError where two symbols of SymPy that are not the same have one name: they would become one parameter."""
+    """Raises InputError where two symbols of SymPy that are not the same have one name: they
+    would become one parameter.
+    """
     known: dict[str, Any] = {}
     for symbol in _symbols(given):
         if known.setdefault(symbol.name, symbol) != symbol:
-            raise InputError(f"two different symbols are called {shown(symbol.name)}; use one of them")
+            raise InputError(
+                f"two different symbols are called {shown(symbol.name)}; use one of them"
+            )
 
 
 def polynomial(side: object, variable: str) -> Tree:
-    """A numerator or denominator: a list of the coefficients of falling powers, or an expression."""
+    """A numerator or denominator: a list of the coefficients of falling powers, or an
+    expression.
+    """
     if not _is_list(side):
         return tree(side)
     coefficients = [tree(entry) for entry in _listed(side)]
     if not coefficients:
         raise InputError("a list of coefficients is not empty")
     if variable in {name for c in coefficients for name in names(c)}:
-        raise InputError(f"the coefficients contain the frequency variable {variable}; name another one with s=..")
+        raise InputError(
+            f"the coefficients contain the frequency variable {variable}; name another one with"
+            " s=.."
+        )
     top = len(coefficients) - 1
     return Sum(tuple(Product((c, Power(variable, top - i))) for i, c in enumerate(coefficients)))
 
@@ -69,10 +82,15 @@ def _shaped(entries: object, height: int, width: int, name: str) -> Matrix:
     if any(map(_is_list, flat)):
         rows = _matrix(entries, name)
     else:
-        rows = [[tree(entry)] for entry in flat] if width == 1 else [[tree(entry) for entry in flat]]
+        rows = (
+            [[tree(entry)] for entry in flat] if width == 1 else [[tree(entry) for entry in flat]]
+        )
     if len(rows) != height or any(len(row) != width for row in rows):
         found = f"{len(rows)} x {max(map(len, rows), default=0)}"
-        raise InputError(f"{name} is {height} x {width} (one input, one output, A with {max(height, width)} rows), not {found}")
+        raise InputError(
+            f"{name} is {height} x {width} (one input, one output, A with {max(height, width)}"
+            f" rows), not {found}"
+        )
     return rows
 
 
@@ -86,7 +104,9 @@ def _symbols(given: Any) -> Iterator[Any]:
 
 def _is_list(entry: object) -> bool:
     """Lists, tuples, and arrays or matrices that turn into a list."""
-    return isinstance(entry, (list, tuple)) or (hasattr(entry, "tolist") and isinstance(entry.tolist(), list))
+    return isinstance(entry, (list, tuple)) or (
+        hasattr(entry, "tolist") and isinstance(entry.tolist(), list)
+    )
 
 
 def _listed(entry: Any) -> list[Any]:

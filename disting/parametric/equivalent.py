@@ -1,8 +1,10 @@
-"""One parameter vector of a fibre: exact numbers of Q(u), u one root of an irreducible polynomial, with certified signs.
+"""One parameter vector of a fibre: exact numbers of Q(u), u one root of an irreducible polynomial,
+with certified signs.
 
-A zero of an ideal is real exactly if u is, a rational linear combination of its coordinates that determines them. Real roots
-are told from others by FLINT's isolation of roots. A coordinate g(u) is zero exactly if f divides g; the sign of any other
-one is seen in ball arithmetic once the balls are small enough.
+A zero of an ideal is real exactly if u is, a rational linear combination of its coordinates that
+determines them. Real roots are told from others by FLINT's isolation of roots. A coordinate g(u)
+is zero exactly if f divides g; the sign of any other one is seen in ball arithmetic once the balls
+are small enough.
 """
 
 from collections.abc import Iterator
@@ -21,10 +23,11 @@ FIRST_BITS = 128
 
 @dataclass(frozen=True, slots=True)
 class Equivalent:
-    """Parameter i is `coordinates`[i], a polynomial (ascending) in the root u of the irreducible `polynomial` inside `box`.
+    """Parameter i is `coordinates`[i], a polynomial (ascending) in the root u of the irreducible
+    `polynomial` inside `box`.
 
-    `box` = (least, largest) real and imaginary part; `domain`: POSITIVE if all parameters are, else REAL or COMPLEX: certified.
-    `numbers` are rounded values of the parameters.
+    `box` = (least, largest) real and imaginary part; `domain`: POSITIVE if all parameters are,
+    else REAL or COMPLEX: certified. `numbers` are rounded values of the parameters.
     """
 
     parameters: tuple[str, ...]
@@ -55,14 +58,20 @@ class Equivalent:
 
 
 def equivalents(found: Shape, parameters: tuple[str, ...]) -> Iterator[Equivalent]:
-    """Yield the zeros, one irreducible factor after the other; `coordinates[0]` of the shape is t, no parameter."""
+    """Yield the zeros, one irreducible factor after the other; `coordinates[0]` of the shape is
+    t, no parameter.
+    """
     for factor, _ in found.polynomial.numer().factor()[1]:
         reduced = [g % fmpq_poly(factor) for g in found.coordinates[1:]]
         yield from _certified(factor, reduced, parameters)
 
 
-def _certified(factor: fmpz_poly, reduced: list[fmpq_poly], parameters: tuple[str, ...]) -> list[Equivalent]:
-    """The zeros that belong to the roots of an irreducible factor, with as many bits as the signs need."""
+def _certified(
+    factor: fmpz_poly, reduced: list[fmpq_poly], parameters: tuple[str, ...]
+) -> list[Equivalent]:
+    """The zeros that belong to the roots of an irreducible factor, with as many bits as the
+    signs need.
+    """
     bits = FIRST_BITS
     while True:
         with ctx.workprec(bits):
@@ -75,7 +84,9 @@ def _certified(factor: fmpz_poly, reduced: list[fmpq_poly], parameters: tuple[st
         bits *= 2
 
 
-def _equivalent(factor: fmpz_poly, root: acb, reduced: list[fmpq_poly], parameters: tuple[str, ...]) -> Equivalent | None:
+def _equivalent(
+    factor: fmpz_poly, root: acb, reduced: list[fmpq_poly], parameters: tuple[str, ...]
+) -> Equivalent | None:
     """The zero at one root; None if a ball is too wide to tell a sign."""
     images = [evaluated(g, root) for g in reduced]
     signs = [_sign(g, x) for g, x in zip(reduced, images, strict=True)]
@@ -84,7 +95,9 @@ def _equivalent(factor: fmpz_poly, root: acb, reduced: list[fmpq_poly], paramete
     exact = tuple(tuple(map(fraction, g.coeffs())) for g in reduced)
     box = (_interval(root.real), _interval(root.imag))
     numbers = tuple(complex(x) for x in images)
-    return Equivalent(parameters, tuple(map(int, factor.coeffs())), box, exact, _domain(root, signs), numbers)
+    return Equivalent(
+        parameters, tuple(map(int, factor.coeffs())), box, exact, _domain(root, signs), numbers
+    )
 
 
 def evaluated(polynomial: fmpq_poly, at: acb) -> acb:

@@ -1,9 +1,11 @@
-"""Trees multiplied out, with a bound on the work: what would grow too large is refused before it is computed.
+"""Trees multiplied out, with a bound on the work: what would grow too large is refused before it
+is computed.
 
-A product of polynomials of m and n terms takes m n products of coefficients; a power of t terms has at most as many as there
-are monomials of its degree. Work is counted in words of 64 bits, so that it bounds time and memory alike: a few seconds, and
-some hundred megabytes. The terms of a sum that are written out, numbers times powers of symbols, are gathered at once; all
-else is taken in halves, so that long sums and products take n log n steps.
+A product of polynomials of m and n terms takes m n products of coefficients; a power of t terms
+has at most as many as there are monomials of its degree. Work is counted in words of 64 bits, so
+that it bounds time and memory alike: a few seconds, and some hundred megabytes. The terms of a sum
+that are written out, numbers times powers of symbols, are gathered at once; all else is taken in
+halves, so that long sums and products take n log n steps.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,7 +24,10 @@ STEP = 20  # work of an operation, however small
 HIGHEST_DEGREE = 5000
 LONGEST = 50_000  # bits of a coefficient on the way
 COMMON = 50  # work per term of a common factor
-TOO_LARGE = "the expressions grow too large when they are multiplied out; write the model with fewer terms, powers or states"
+TOO_LARGE = (
+    "the expressions grow too large when they are multiplied out; write the model with fewer terms,"
+    " powers or states"
+)
 
 Term = tuple[Fraction, dict[str, int]]
 """A number times powers of symbols."""
@@ -45,8 +50,14 @@ class Expansion:
         match of:
             case Sum(parts):
                 terms = [self._term(part) for part in parts]
-                others = [self.value(part) for part, term in zip(parts, terms, strict=True) if term is None]
-                return self._halved(self._plus, [self._gathered([term for term in terms if term]), *others])
+                others = [
+                    self.value(part)
+                    for part, term in zip(parts, terms, strict=True)
+                    if term is None
+                ]
+                return self._halved(
+                    self._plus, [self._gathered([term for term in terms if term]), *others]
+                )
             case Product(parts):
                 return self._halved(self._times, [self.value(part) for part in parts])
             case Power(base, exponent):
@@ -57,13 +68,19 @@ class Expansion:
         """Product of two polynomials."""
         bits = _bits(a) + _bits(b)
         self._spend(len(a) * len(b) * (1 + bits // 64))
-        if bits > LONGEST or any(x + y > HIGHEST_DEGREE for x, y in zip(a.degrees(), b.degrees(), strict=True)):
+        if bits > LONGEST or any(
+            x + y > HIGHEST_DEGREE for x, y in zip(a.degrees(), b.degrees(), strict=True)
+        ):
             raise InputError(TOO_LARGE)
         return a * b
 
     def ratio(self, num: fmpz_mpoly, den: fmpz_mpoly) -> RationalFunction:
         """A fraction in lowest terms."""
-        self._spend(0 if den.is_one() else COMMON * sum(len(side) * (1 + _bits(side) // 64) for side in (num, den)))
+        self._spend(
+            0
+            if den.is_one()
+            else COMMON * sum(len(side) * (1 + _bits(side) // 64) for side in (num, den))
+        )
         return _over(num, den)
 
     def quotient(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
@@ -78,7 +95,9 @@ class Expansion:
         self._spend(len(a.num) + len(b.num))
         if a.den == b.den:
             return self.ratio(a.num + b.num, a.den)
-        return self.ratio(self.times(a.num, b.den) + self.times(b.num, a.den), self.times(a.den, b.den))
+        return self.ratio(
+            self.times(a.num, b.den) + self.times(b.num, a.den), self.times(a.den, b.den)
+        )
 
     def _times(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
         return self.ratio(self.times(a.num, b.num), self.times(a.den, b.den))
@@ -89,7 +108,9 @@ class Expansion:
         return base**exponent if exponent >= 0 else _over(base.den, base.num) ** -exponent
 
     def _of_power(self, base: fmpz_mpoly, n: int) -> float:
-        """Work of a power: its terms times those of the base, times the words of its coefficients."""
+        """Work of a power: its terms times those of the base, times the words of its
+        coefficients.
+        """
         terms, degrees = len(base), [n * int(d) for d in base.degrees()]
         bits = n * (_bits(base) + max(terms, 1).bit_length())
         if max(degrees, default=0) > HIGHEST_DEGREE or (bits > LONGEST and not base.is_one()):
@@ -110,7 +131,9 @@ class Expansion:
                 return of, {}
             case str():
                 return Fraction(1), {of: 1}
-            case Power(Fraction() as base, n) if (base or n >= 0) and _length(base) * abs(n) <= LONGEST:
+            case Power(Fraction() as base, n) if (base or n >= 0) and _length(base) * abs(
+                n
+            ) <= LONGEST:
                 return base**n, {}
             case Power(str() as name, n) if n > 0:
                 return Fraction(1), {name: n}

@@ -1,8 +1,10 @@
-"""Entries of a model as trees of sums, products and whole powers: read from numbers, from text and from SymPy expressions.
+"""Entries of a model as trees of sums, products and whole powers: read from numbers, from text and
+from SymPy expressions.
 
-Only exact numbers enter: integers, fractions, decimals written in a text ("0.1" is 1/10). A float is taken if it is a whole
-number; any other one stands for a rounded number, and its digits are to be written as text. SymPy expressions are recognised
-by their own attributes, so SymPy itself is not needed. Symbols are known by their names alone, whatever they are assumed to be.
+Only exact numbers enter: integers, fractions, decimals written in a text ("0.1" is 1/10). A float
+is taken if it is a whole number; any other one stands for a rounded number, and its digits are to
+be written as text. SymPy expressions are recognised by their own attributes, so SymPy itself is
+not needed. Symbols are known by their names alone, whatever they are assumed to be.
 """
 
 from fractions import Fraction
@@ -31,19 +33,26 @@ def tree(entry: object) -> Tree:
             return _of_sympy(entry.as_expr() if hasattr(entry, "as_expr") else entry)
         case Rational():
             return number(Fraction(int(entry.numerator), int(entry.denominator)))
-    raise InputError(f"an entry is a number, a text or a SymPy expression, not of type {type(entry).__name__}")
+    raise InputError(
+        f"an entry is a number, a text or a SymPy expression, not of type {type(entry).__name__}"
+    )
 
 
 def _of_float(value: float) -> Fraction:
     if not value.is_integer():
-        raise InputError(f"{value!r} is a float and no exact number; write it as text, '{value!r}', or as a fraction")
+        raise InputError(
+            f"{value!r} is a float and no exact number; write it as text, '{value!r}', or as a"
+            " fraction"
+        )
     return Fraction(int(value))
 
 
 def _of_sympy(expression: Any, depth: int = 0) -> Tree:
     """SymPy's own names of the kinds of expressions; no import of SymPy."""
     if depth > DEEPEST:
-        raise InputError(f"an expression is nested too deeply: {DEEPEST} operations within each other are read")
+        raise InputError(
+            f"an expression is nested too deeply: {DEEPEST} operations within each other are read"
+        )
     if expression.is_Symbol:
         return str(expression.name)
     if expression.is_Rational:
@@ -55,5 +64,7 @@ def _of_sympy(expression: Any, depth: int = 0) -> Tree:
     if getattr(expression, "is_Mul", False):
         return Product(tuple(_of_sympy(part, depth + 1) for part in expression.args))
     if getattr(expression, "is_Pow", False) and expression.exp.is_Integer:
-        return power(_of_sympy(expression.base, depth + 1), int(expression.exp), shown(str(expression)))
+        return power(
+            _of_sympy(expression.base, depth + 1), int(expression.exp), shown(str(expression))
+        )
     raise InputError(f"{shown(str(expression))[1:-1]} is no rational expression in its symbols")

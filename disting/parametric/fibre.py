@@ -1,9 +1,11 @@
-"""The zeros of the equations of a fibre: none, finitely many, all of them found, or a family with some members.
+"""The zeros of the equations of a fibre: none, finitely many, all of them found, or a family with
+some members.
 
-Finitely many are found with certified signs (see `groebner` and `equivalent`). In a family free parameters are fixed at random
-positive rational values, and the members found there are named. That no member at all is real or positive is proven only where
-one polynomial of the basis shows it: one whose coefficients all have the same sign has no positive zero, one in a single
-unknown without real roots no real one.
+Finitely many are found with certified signs (see `groebner` and `equivalent`). In a family free
+parameters are fixed at random positive rational values, and the members found there are named.
+That no member at all is real or positive is proven only where one polynomial of the basis shows
+it: one whose coefficients all have the same sign has no positive zero, one in a single unknown
+without real roots no real one.
 """
 
 from dataclasses import dataclass
@@ -43,7 +45,9 @@ class Fibre:
     reason: str = ""
 
 
-def solved(equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds) -> Fibre:
+def solved(
+    equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
+) -> Fibre:
     """The solutions of the equations in t and the parameters; raises TooLarge."""
     ideal = basis(equations, len(parameters) + 1, bounds)
     if ideal.is_one:
@@ -52,7 +56,9 @@ def solved(equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed:
         return _family(equations, ideal, parameters, seed, bounds)
     listed = _listed(equations, parameters, seed, bounds)
     if listed is None:
-        return Fibre(Extent.UNKNOWN, reason="no linear form tells the finitely many solutions apart")
+        return Fibre(
+            Extent.UNKNOWN, reason="no linear form tells the finitely many solutions apart"
+        )
     return Fibre(Extent.FINITE, listed)
 
 
@@ -63,10 +69,18 @@ def _listed(
     found = shape(equations, len(parameters) + 1, bounds, seed)
     if found is None:
         return None
-    return tuple(sorted(equivalents(found, parameters), key=lambda x: [(z.real, z.imag) for z in x.numbers]))
+    return tuple(
+        sorted(equivalents(found, parameters), key=lambda x: [(z.real, z.imag) for z in x.numbers])
+    )
 
 
-def _family(equations: tuple[Polynomial, ...], ideal: Basis, parameters: tuple[str, ...], seed: str, bounds: Bounds) -> Fibre:
+def _family(
+    equations: tuple[Polynomial, ...],
+    ideal: Basis,
+    parameters: tuple[str, ...],
+    seed: str,
+    bounds: Bounds,
+) -> Fibre:
     members, names, successes = list[Equivalent](), dict[str, None](), 0
     for draw in range(DRAWS):
         cut, fixed = _cut(equations, ideal, f"{seed}:{draw}", bounds)
@@ -83,10 +97,13 @@ def _family(equations: tuple[Polynomial, ...], ideal: Basis, parameters: tuple[s
 def _cut(
     equations: tuple[Polynomial, ...], ideal: Basis, label: str, bounds: Bounds
 ) -> tuple[tuple[Polynomial, ...], tuple[int, ...]]:
-    """The equations with free parameters at random values until the solutions are finite; nothing fixed if that failed."""
+    """The equations with free parameters at random values until the solutions are finite;
+    nothing fixed if that failed.
+    """
     fixed: tuple[int, ...] = ()
     while ideal.free:
-        candidates = [i for i in ideal.free if i]  # t is no parameter; where it is free, a parameter is
+        # t is no parameter; where it is free, a parameter is
+        candidates = [i for i in ideal.free if i]
         at = candidates[residues(f"which:{label}:{len(fixed)}", 1, len(candidates) + 1)[0] - 1]
         for choice in range(CHOICES):
             tried = (*equations, _fixed(at, ideal.size, f"{label}:{at}:{choice}"))
@@ -120,5 +137,7 @@ def _has_no_real_zero(polynomial: fmpz_mpoly) -> bool:
     if len(used) != 1:
         return False
     terms = {e[used[0]]: c for e, c in polynomial.to_dict().items()}
-    roots: list[Any] = fmpz_poly([int(terms.get(k, 0)) for k in range(max(terms) + 1)]).complex_roots()
+    roots: list[Any] = fmpz_poly(
+        [int(terms.get(k, 0)) for k in range(max(terms) + 1)]
+    ).complex_roots()
     return not any(root.imag.is_zero() for root, _ in roots)

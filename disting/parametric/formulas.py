@@ -16,7 +16,9 @@ from disting.parametric.words import polynomial_text, text_of
 
 
 def explicit(ways: list[Way], domain: Domain) -> Explicit:
-    """The evidence of two ways in which all generic parameters have an equivalent: the left model's first."""
+    """The evidence of two ways in which all generic parameters have an equivalent: the left
+    model's first.
+    """
     formulas: list[Formula] = []
     for left_given, one in zip((True, False), ways, strict=True):
         if one.covering:
@@ -27,11 +29,15 @@ def explicit(ways: list[Way], domain: Domain) -> Explicit:
 
 
 def is_explicit(evidence: Explicit, left: Model, right: Model) -> bool:
-    """Whether every formula gives the same transfer function, and the ways found anew cover all parameters."""
+    """Whether every formula gives the same transfer function, and the ways found anew cover all
+    parameters.
+    """
     domain = Domain(evidence.domain)
     ways = [way(left, right, domain), way(right, left, domain)]
     known = all(one and (one.covering or one.path()) for one in ways)
-    return known and {f[0] for f in evidence.formulas} == {True, False} and fit(evidence, left, right)
+    return (
+        known and {f[0] for f in evidence.formulas} == {True, False} and fit(evidence, left, right)
+    )
 
 
 def fit(evidence: Explicit, left: Model, right: Model) -> bool:
@@ -49,14 +55,18 @@ def is_without(evidence: NoEquivalent, left: Model, right: Model) -> bool:
 
 def _of_section(left_given: bool, one: Way, section: Section) -> Formula:
     names = _names(one)
-    values = tuple((q, text_of(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True))
+    values = tuple(
+        (q, text_of(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True)
+    )
     return left_given, tuple(polynomial_text(g, names) for g in section.where), values, ()
 
 
 def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
     names = _names(one)
     root = names[found.at] = next(n for n in ("x", "root", "x_") if n not in one.given.parameters)
-    values = tuple((q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True))
+    values = tuple(
+        (q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True)
+    )
     ends = [_end_text(end, names) for end in (found.low, found.high)]
     return left_given, (), values, (root, polynomial_text(found.equation, names), *ends)
 
@@ -68,15 +78,18 @@ def _end_text(end: End, names: list[str]) -> str:
 
 
 def _names(one: Way) -> list[str]:
-    """Of p, q and t: parameters of the given model as they are called, unknowns with names that do not occur."""
+    """Of p, q and t: parameters of the given model as they are called, unknowns with names that
+    do not occur.
+    """
     return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
 
 
 def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
-    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and what must not be zero is not.
+    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and
+    what must not be zero is not.
 
-    That is lead(q), all denominators and, over positive numbers, the values: none is zero or has a root in common with the
-    equation for all p.
+    That is lead(q), all denominators and, over positive numbers, the values: none is zero or has a
+    root in common with the equation for all p.
     """
     _, _, values, root = formula
     names = [*root[:1], *given.parameters]
@@ -84,15 +97,27 @@ def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
     expansion = Expansion(ring, next(iter(ring.values())) ** 0)
     one = expansion.one
     trees = [tree(text) for _, text in values]
-    if tuple(name for name, _ in values) != other.parameters or not {n for t in trees for n in symbols_of(t)} <= ring.keys():
+    if (
+        tuple(name for name, _ in values) != other.parameters
+        or not {n for t in trees for n in symbols_of(t)} <= ring.keys()
+    ):
         return False
     point = [expansion.value(t) for t in trees]
-    here = [value_of(c, [RationalFunction(ring[n], one) for n in given.parameters], one) for c in _every(given)]
+    here = [
+        value_of(c, [RationalFunction(ring[n], one) for n in given.parameters], one)
+        for c in _every(given)
+    ]
     there = [value_of(c, point, one) for c in _every(other)]
     equation = expansion.value(tree(root[1])).num if root else one - one
     rests = [b * here[-1] - a * there[-1] for a, b in zip(here, there, strict=True)]
-    sides = [side for v in (*point, there[-1]) for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))]
-    return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(_is_multiple(r.num, equation) for r in rests)
+    sides = [
+        side
+        for v in (*point, there[-1])
+        for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))
+    ]
+    return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(
+        _is_multiple(r.num, equation) for r in rests
+    )
 
 
 def value_of(terms: Terms, point: list[RationalFunction], one: fmpz_mpoly) -> RationalFunction:
@@ -112,11 +137,15 @@ def _ring(names: list[str]) -> tuple[fmpz_mpoly, ...]:
 
 def _is_multiple(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
     """Whether a polynomial vanishes where an irreducible one does (0: only zero does)."""
-    return bool(polynomial.is_zero()) or (not of.is_zero() and not of.is_constant() and bool(of.gcd(polynomial) in (of, -of)))
+    return bool(polynomial.is_zero()) or (
+        not of.is_zero() and not of.is_constant() and bool(of.gcd(polynomial) in (of, -of))
+    )
 
 
 def _is_apart(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
-    """Whether a polynomial is not zero, nor at any root of another one, for generic values of all symbols but the first."""
+    """Whether a polynomial is not zero, nor at any root of another one, for generic values of
+    all symbols but the first.
+    """
     return not polynomial.is_zero() and (of.is_zero() or not polynomial.gcd(of).degrees()[0])
 
 

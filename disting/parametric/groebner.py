@@ -1,10 +1,11 @@
 """Groebner bases over Q, and the finite algebra Q[x]/I of an ideal with finitely many zeros.
 
-For a zero-dimensional ideal the monomials that no leading monomial divides are a basis of A = Q[x]/I. If the powers 1, u, u^2,
-.. of a linear form u span A, then I = <f(u), x_i - g_i(u)>: every zero of I is a root of f, and the coordinates follow from
-it. For a radical ideal nearly every u does (Gianni and Mora 1989); an ideal becomes radical by the squarefree parts of the
-minimal polynomials of all unknowns (Seidenberg 1974). All of this is exact; a linear form that is no good is seen and drawn
-again.
+For a zero-dimensional ideal the monomials that no leading monomial divides are a basis of A =
+Q[x]/I. If the powers 1, u, u^2, .. of a linear form u span A, then I = <f(u), x_i - g_i(u)>: every
+zero of I is a root of f, and the coordinates follow from it. For a radical ideal nearly every u
+does (Gianni and Mora 1989); an ideal becomes radical by the squarefree parts of the minimal
+polynomials of all unknowns (Seidenberg 1974). All of this is exact; a linear form that is no good
+is seen and drawn again.
 """
 
 from collections.abc import Sequence
@@ -27,7 +28,9 @@ class TooLarge(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """Largest number of polynomials, of terms of one and of bits of a coefficient, and largest dimension of the algebra."""
+    """Largest number of polynomials, of terms of one and of bits of a coefficient, and largest
+    dimension of the algebra.
+    """
 
     polynomials: int = 80
     terms: int = 120
@@ -62,8 +65,12 @@ class Basis:
 
     @property
     def free(self) -> list[int]:
-        """Unknowns without a power among the leading monomials: no polynomial in such an unknown alone is in the ideal."""
-        powers = {next(i for i, e in enumerate(m) if e) for m in self.leads if sum(map(bool, m)) == 1}
+        """Unknowns without a power among the leading monomials: no polynomial in such an
+        unknown alone is in the ideal.
+        """
+        powers = {
+            next(i for i, e in enumerate(m) if e) for m in self.leads if sum(map(bool, m)) == 1
+        }
         return [i for i in range(self.size) if i not in powers]
 
 
@@ -80,7 +87,9 @@ def basis(generators: Sequence[Polynomial], size: int, bounds: Bounds) -> Basis:
 
 
 def shape(generators: Sequence[Polynomial], size: int, bounds: Bounds, seed: str) -> Shape | None:
-    """The shape of an ideal with finitely many zeros, or None if no linear form that was tried shows it; raises TooLarge."""
+    """The shape of an ideal with finitely many zeros, or None if no linear form that was tried
+    shows it; raises TooLarge.
+    """
     algebra = Algebra(basis(generators, size, bounds), bounds)
     found = algebra.shape(seed)
     if found:
@@ -104,7 +113,9 @@ class Algebra:
         one = self._column({(0,) * self.ideal.size: fmpq(1)})
         for k in range(FORMS):
             weights = residues(f"form:{seed}:{k}", self.ideal.size, 8 << k)
-            form = sum((w * m for w, m in zip(weights[1:], unknowns[1:], strict=True)), 0 * unknowns[0])
+            form = sum(
+                (w * m for w, m in zip(weights[1:], unknowns[1:], strict=True)), 0 * unknowns[0]
+            )
             powers = [one]
             for _ in self.monomials:
                 powers.append(form * powers[-1])
@@ -118,7 +129,9 @@ class Algebra:
         for i in range(self.ideal.size):
             least = self._matrix(i).minpoly()
             part = (least // least.gcd(least.derivative())).numer()
-            found.append({_unit(i, k, self.ideal.size): int(c) for k, c in enumerate(part.coeffs()) if c})
+            found.append(
+                {_unit(i, k, self.ideal.size): int(c) for k, c in enumerate(part.coeffs()) if c}
+            )
         return found
 
     def _solved(self, powers: list[fmpq_mat], unknowns: list[fmpq_mat]) -> Shape | None:
@@ -144,7 +157,9 @@ class Algebra:
         return found
 
     def _is_reducible(self, monomial: tuple[int, ...]) -> bool:
-        return any(all(a <= b for a, b in zip(lead, monomial, strict=True)) for lead in self.ideal.leads)
+        return any(
+            all(a <= b for a, b in zip(lead, monomial, strict=True)) for lead in self.ideal.leads
+        )
 
     def _matrix(self, unknown: int) -> fmpq_mat:
         """Multiplication by an unknown."""
@@ -159,7 +174,9 @@ class Algebra:
         if monomial in self._at:
             return {monomial: fmpq(1)}
         if monomial not in self._forms:
-            self._forms[monomial] = self._tail(monomial) if monomial in self.ideal.leads else self._reduced(monomial)
+            self._forms[monomial] = (
+                self._tail(monomial) if monomial in self.ideal.leads else self._reduced(monomial)
+            )
         return self._forms[monomial]
 
     def _tail(self, lead: tuple[int, ...]) -> Vector:

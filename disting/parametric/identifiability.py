@@ -1,7 +1,9 @@
-"""Which single parameters of a model are locally identifiable, from the Jacobian of its invariants at random points.
+"""Which single parameters of a model are locally identifiable, from the Jacobian of its invariants
+at random points.
 
-Parameter j is locally identifiable (generically: finitely many values fit) exactly if the unit vector e_j lies in the row space
-of the Jacobian J at a generic point, that is if J without column j has a smaller rank. With full column rank all are.
+Parameter j is locally identifiable (generically: finitely many values fit) exactly if the unit
+vector e_j lies in the row space of the Jacobian J at a generic point, that is if J without column
+j has a smaller rank. With full column rank all are.
 """
 
 from collections.abc import Sequence
@@ -20,7 +22,8 @@ SETTINGS = Settings()
 
 @dataclass(frozen=True, slots=True)
 class LocalIdentifiability:
-    """`rank` = number of determinable parameters, `identifiable` = the names of the single ones that are.
+    """`rank` = number of determinable parameters, `identifiable` = the names of the single ones
+    that are.
 
     With certainty BOUNDED the probability of any error is at most 2**-safety.
     """
@@ -54,12 +57,18 @@ def local_identifiability(model: Model, settings: Settings = SETTINGS) -> LocalI
 
 
 def identifiable_columns(seen: Sequence[Sample]) -> tuple[int, tuple[int, ...]]:
-    """The rank of the Jacobian, and the columns whose removal lowers it, by the largest ranks seen at the points."""
+    """The rank of the Jacobian, and the columns whose removal lowers it, by the largest ranks
+    seen at the points.
+    """
     every = range(seen[0].n_parameters)
     rank = max(_rank(s, tuple(every)) for s in seen)
-    return rank, tuple(j for j in every if max(_rank(s, tuple(i for i in every if i != j)) for s in seen) < rank)
+    return rank, tuple(
+        j for j in every if max(_rank(s, tuple(i for i in every if i != j)) for s in seen) < rank
+    )
 
 
 def _rank(seen: Sample, columns: tuple[int, ...]) -> int:
     kept = tuple(tuple(row[j] for j in columns) for row in seen.rows)
-    return Sample(seen.labels, seen.values, kept, len(columns), seen.modulus).rank(tuple(range(len(kept))))
+    return Sample(seen.labels, seen.values, kept, len(columns), seen.modulus).rank(
+        tuple(range(len(kept)))
+    )

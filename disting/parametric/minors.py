@@ -1,8 +1,9 @@
 """Determinants over a ring without division, by expansion along rows with shared minors.
 
-Row after row, the minors of the first rows are kept by their set of columns: a minor of k + 1 rows is the sum of an entry times
-a minor of k rows over the columns. Of n columns at most 2^n sets are met, and far fewer where the matrix has many zeros. With
-polynomials this is cheaper than elimination, whose exact quotients go through larger polynomials than the result.
+Row after row, the minors of the first rows are kept by their set of columns: a minor of k + 1 rows
+is the sum of an entry times a minor of k rows over the columns. Of n columns at most 2^n sets are
+met, and far fewer where the matrix has many zeros. With polynomials this is cheaper than
+elimination, whose exact quotients go through larger polynomials than the result.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,7 +17,8 @@ Minors = dict[int, fmpz_mpoly]
 
 
 def minors(rows: Sequence[Sequence[fmpz_mpoly]], start: Minors, times: Times = mul) -> Minors:
-    """The minors of more rows, from those of the rows above; {0: 1} stands for no row. `times` multiplies, or refuses to.
+    """The minors of more rows, from those of the rows above; {0: 1} stands for no row. `times`
+    multiplies, or refuses to.
 
     >>> from disting.algebra.symbols import symbols
     >>> a, b = symbols(["a", "b"]).values()
@@ -25,7 +27,9 @@ def minors(rows: Sequence[Sequence[fmpz_mpoly]], start: Minors, times: Times = m
     """
     found = start
     for row in rows:
-        found = _with_row(found, [(j, entry) for j, entry in enumerate(row) if not entry.is_zero()], times)
+        found = _with_row(
+            found, [(j, entry) for j, entry in enumerate(row) if not entry.is_zero()], times
+        )
     return found
 
 

@@ -1,9 +1,12 @@
-"""Polynomials in the parameters p of a given model and the unknowns q of a searched one, and the signs that are seen at once.
+"""Polynomials in the parameters p of a given model and the unknowns q of a searched one, and the
+signs that are seen at once.
 
-Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere. Over real numbers the same is
-said of one in which all exponents are even, coefficients have one sign and some term contains no unknown: it has this sign for
-all q and all p without zeros. Over complex numbers only constants have a sign, which then says that they are not zero.
-Polynomials in the p alone that are not zero vanish on no open set; they are passed over and listed by whoever rests on that.
+Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere.
+Over real numbers the same is said of one in which all exponents are even, coefficients have one
+sign and some term contains no unknown: it has this sign for all q and all p without zeros. Over
+complex numbers only constants have a sign, which then says that they are not zero. Polynomials in
+the p alone that are not zero vanish on no open set; they are passed over and listed by whoever
+rests on that.
 """
 
 from collections.abc import Iterable
@@ -20,7 +23,9 @@ from disting.domain import Domain
 from disting.parametric.model import Model, Terms
 
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
-"""A sign and distinct irreducible factors whose signs are not seen: their product has the sign of a polynomial, or is zero."""
+"""A sign and distinct irreducible factors whose signs are not seen: their product has the sign
+of a polynomial, or is zero.
+"""
 
 
 class TooMuch(Exception):
@@ -29,7 +34,9 @@ class TooMuch(Exception):
 
 @dataclass(frozen=True)
 class Orthant:
-    """The ring Z[p, q, t] with its admissible values; t is a path's parameter, positive like the rest (see `between`)."""
+    """The ring Z[p, q, t] with its admissible values; t is a path's parameter, positive like
+    the rest (see `between`).
+    """
 
     n_given: int
     n_unknown: int
@@ -40,7 +47,11 @@ class Orthant:
     @cached_property
     def context(self) -> fmpz_mpoly_ctx:
         """FLINT's ring."""
-        names = [f"p{i}" for i in range(self.n_given)] + [f"q{i}" for i in range(self.n_unknown)] + ["t"]
+        names = (
+            [f"p{i}" for i in range(self.n_given)]
+            + [f"q{i}" for i in range(self.n_unknown)]
+            + ["t"]
+        )
         return fmpz_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
 
     @cached_property
@@ -65,10 +76,14 @@ class Orthant:
     def lifted(self, terms: Terms, first: int) -> fmpz_mpoly:
         """A polynomial whose variables become those from position `first`."""
         size = self.path + 1
-        return self.context.from_dict({(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms})
+        return self.context.from_dict(
+            {(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms}
+        )
 
     def equations(self, given: Model, other: Model) -> list[fmpz_mpoly]:
-        """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for generic p (see `cases`)."""
+        """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for
+        generic p (see `cases`).
+        """
         here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
         return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
 
@@ -78,14 +93,23 @@ class Orthant:
         return [RationalFunction(c, sides[-1]) for c in sides[:-1]]
 
     def _invariants(self, model: Model, first: int) -> list[RationalFunction]:
-        """Coefficients of G over the leading one, the numerator without the multiple of the denominator that G is at s = oo."""
-        top, bottom = ([self.lifted(c, first) for c in side] for side in (model.numerator_terms, model.denominator_terms))
+        """Coefficients of G over the leading one, the numerator without the multiple of the
+        denominator that G is at s = oo.
+        """
+        top, bottom = (
+            [self.lifted(c, first) for c in side]
+            for side in (model.numerator_terms, model.denominator_terms)
+        )
         lead = bottom[-1]
         monic = [RationalFunction(c, lead) for c in bottom[:-1]]
         if len(top) < len(bottom):
             return [*(RationalFunction(c, lead) for c in top), *monic]
         rest = [b * lead - top[-1] * a for a, b in zip(bottom[:-1], top[:-1], strict=True)]
-        return [RationalFunction(top[-1], lead), *(RationalFunction(c, lead * lead) for c in rest), *monic]
+        return [
+            RationalFunction(top[-1], lead),
+            *(RationalFunction(c, lead * lead) for c in rest),
+            *monic,
+        ]
 
     def lead(self, other: Model) -> fmpz_mpoly:
         """Leading denominator coefficient of the searched model."""
@@ -97,7 +121,9 @@ class Orthant:
         return [i for i in self.unknowns if any(d[i] for d in degrees)]
 
     def sign(self, polynomial: fmpz_mpoly) -> int:
-        """1 or -1 where it has this sign for all admissible values (see above), 0 where that is not seen."""
+        """1 or -1 where it has this sign for all admissible values (see above), 0 where that is
+        not seen.
+        """
         if self.domain is Domain.COMPLEX and not polynomial.is_constant():
             return 0
         terms = polynomial.to_dict()
@@ -111,9 +137,13 @@ class Orthant:
         return signs.pop()
 
     def parts(self, polynomial: fmpz_mpoly, odd: bool) -> Parts:
-        """Sign and factors; `odd`: without factors of even multiplicity, which are not negative. Raises TooMuch."""
+        """Sign and factors; `odd`: without factors of even multiplicity, which are not
+        negative. Raises TooMuch.
+        """
         if len(polynomial) > self.terms or polynomial.total_degree() > self.degree:
-            raise TooMuch(f"a polynomial of {len(polynomial)} terms and degree {polynomial.total_degree()}")
+            raise TooMuch(
+                f"a polynomial of {len(polynomial)} terms and degree {polynomial.total_degree()}"
+            )
         number, factors = polynomial.factor()
         sign, kept = 1 if number > 0 else -1, []
         for factor, power in factors:
@@ -136,12 +166,16 @@ class Orthant:
             parts.setdefault(power, {})[(*exponents[:at], 0, *exponents[at + 1 :])] = number
         return [self.context.from_dict(parts.get(k, {})) for k in range(max(parts, default=0) + 1)]
 
-    def put(self, polynomial: fmpz_mpoly, at: int, num: fmpz_mpoly, den: fmpz_mpoly) -> tuple[fmpz_mpoly, int]:
+    def put(
+        self, polynomial: fmpz_mpoly, at: int, num: fmpz_mpoly, den: fmpz_mpoly
+    ) -> tuple[fmpz_mpoly, int]:
         """den^d times the value at num/den of one variable, and the degree d in this variable."""
         coefficients = self.coefficients(polynomial, at)
         degree = len(coefficients) - 1
         if len(polynomial) * len(num) ** min(degree, 2) > 100 * self.terms:
-            raise TooMuch(f"a fraction of {len(num)} terms put into a polynomial of {len(polynomial)}")
+            raise TooMuch(
+                f"a fraction of {len(num)} terms put into a polynomial of {len(polynomial)}"
+            )
         total, power = self.number(0), self.number(1)
         for c in reversed(coefficients):
             total, power = total * num + c * power, power * den

@@ -1,9 +1,11 @@
-"""Profiles of general models: what conditions 1 to 5 and 7 ask, from samples, and constants that are proven.
+"""Profiles of general models: what conditions 1 to 5 and 7 ask, from samples, and constants that
+are proven.
 
-Coefficients are explicit polynomials in lowest terms, so it is seen without chance which are zero or constant multiples of the
-leading one. Markov parameters follow from G_k = b_(m-k) - sum_j a_(m-j) G_(k-j), j = 1..k (monic form of degree m); this
-recurrence is run with the known constants alone, which proves the zeros below the relative degree and those of even and odd
-transfer functions, and constants such as a leading b that is 1.
+Coefficients are explicit polynomials in lowest terms, so it is seen without chance which are zero
+or constant multiples of the leading one. Markov parameters follow from G_k = b_(m-k) - sum_j
+a_(m-j) G_(k-j), j = 1..k (monic form of degree m); this recurrence is run with the known constants
+alone, which proves the zeros below the relative degree and those of even and odd transfer
+functions, and constants such as a leading b that is 1.
 """
 
 from collections.abc import Sequence
@@ -23,26 +25,39 @@ Known = Fraction | None
 
 
 @lru_cache(maxsize=64)
-def profile(model: Model, representation: Representation, count: int, settings: Settings) -> Profile:
-    """Profile from `settings.points` random points, or as many as it takes, with large primes, and one with a small prime.
+def profile(
+    model: Model, representation: Representation, count: int, settings: Settings
+) -> Profile:
+    """Profile from `settings.points` random points, or as many as it takes, with large primes, and
+    one with a small prime.
 
-    `proven_zeros` holds all invariants that are proven constant, and `constants` their exact values.
+    `proven_zeros` holds all invariants that are proven constant, and `constants` their exact
+    values.
     """
     size = minor_size(model, representation, count)
     seen = list(samples(model, representation, count, enough(size, settings.points), settings.seed))
-    searches = (drawn(model, representation, count, label, SEARCH_BITS) for label in search_labels(settings.seed))
+    searches = (
+        drawn(model, representation, count, label, SEARCH_BITS)
+        for label in search_labels(settings.seed)
+    )
     known = proven_constants(model, representation, count)
-    found = from_samples(seen, searches, frozenset(known), model.degrees, count, model.n_states, size, settings)
+    found = from_samples(
+        seen, searches, frozenset(known), model.degrees, count, model.n_states, size, settings
+    )
     values = zip(found.labels, found.constants, strict=True)
     constants = tuple(str(known[label]) if label in known else value for label, value in values)
     return replace(found, constants=constants, safety=found.safety - len(seen))
 
 
-def proven_constants(model: Model, representation: Representation, count: int) -> dict[str, Fraction]:
+def proven_constants(
+    model: Model, representation: Representation, count: int
+) -> dict[str, Fraction]:
     """Label -> value of the invariants that are proven constant."""
     top, bottom = monic_constants(model)
     if representation is Representation.TF:
-        pairs = [(f"b{i}", v) for i, v in enumerate(top)] + [(f"a{i}", v) for i, v in enumerate(bottom[:-1])]
+        pairs = [(f"b{i}", v) for i, v in enumerate(top)] + [
+            (f"a{i}", v) for i, v in enumerate(bottom[:-1])
+        ]
     else:
         pairs = [(f"G{i}", v) for i, v in enumerate(_series(top, bottom, count))]
     return {label: value for label, value in pairs if value is not None}
@@ -60,7 +75,9 @@ def _ratio(terms: Terms, lead: Terms) -> Known:
     if not terms:
         return Fraction(0)
     q = Fraction(terms[0][1], lead[0][1])
-    same = len(terms) == len(lead) and all(e == f and c == q * d for (e, c), (f, d) in zip(terms, lead, strict=True))
+    same = len(terms) == len(lead) and all(
+        e == f and c == q * d for (e, c), (f, d) in zip(terms, lead, strict=True)
+    )
     return q if same else None
 
 

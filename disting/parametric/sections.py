@@ -1,18 +1,24 @@
-"""Unknowns that are free, chosen by formulas: from inequalities in p and q to inequalities in the p alone.
+"""Unknowns that are free, chosen by formulas: from inequalities in p and q to inequalities in the
+p alone.
 
-In a case without equations an unknown x is eliminated where all inequalities are products of factors linear in it (Fourier and
-Motzkin). The signs of the factors of each product are tried in all ways; a x + b > 0 is x > -b/a or x < -b/a by the sign of a,
-tried in both ways unless it is seen. Then x exists exactly if some lower bound L (0 is one) is the largest, some upper bound U
-the smallest and L < U, and each x = (L + w U)/(1 + w), w = 1, 2, .., will do, or x = L + w if there is no upper bound: the
-first w is taken at which no `nonzero` polynomial of the case and no a becomes 0, as a polynomial does at finitely many w only.
-A factor of two inequalities gives one bound, not two: factors are irreducible and primitive, so equal bounds are those of one
-factor, but for its sign, and with both signs no x is between them. (Taken twice, a bound would have to be larger than itself.)
-A solution of strict inequalities stays one if the unknowns move a little, so those at which bounds are equal or a factor a is
-zero may be left out, unless a contains the p alone: then it is listed as not zero. What is found is a list of sections q =
-q(p), each with polynomials `where`:
+In a case without equations an unknown x is eliminated where all inequalities are products of
+factors linear in it (Fourier and Motzkin). The signs of the factors of each product are tried in
+all ways; a x + b > 0 is x > -b/a or x < -b/a by the sign of a, tried in both ways unless it is
+seen. Then x exists exactly if some lower bound L (0 is one) is the largest, some upper bound U the
+smallest and L < U, and each x = (L + w U)/(1 + w), w = 1, 2, .., will do, or x = L + w if there is
+no upper bound: the first w is taken at which no `nonzero` polynomial of the case and no a becomes
+0, as a polynomial does at finitely many w only. A factor of two inequalities gives one bound, not
+two: factors are irreducible and primitive, so equal bounds are those of one factor, but for its
+sign, and with both signs no x is between them. (Taken twice, a bound would have to be larger than
+itself.) A solution of strict inequalities stays one if the unknowns move a little, so those at
+which bounds are equal or a factor a is zero may be left out, unless a contains the p alone: then
+it is listed as not zero. What is found is a list of sections q = q(p), each with polynomials
+`where`:
 
-* where all of them are positive (and no value q_j(p) or lead(q(p)) zero), q(p) is an equivalent of p;
-* a generic p with an equivalent in the case has a section with all its polynomials positive or zero.
+* where all of them are positive (and no value q_j(p) or lead(q(p)) zero), q(p) is an equivalent of
+  p;
+* a generic p with an equivalent in the case has a section with all its polynomials positive or
+  zero.
 """
 
 from collections.abc import Iterator
@@ -23,7 +29,15 @@ from itertools import product
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
-from disting.parametric.cases import Case, Search, chosen, inequalities, numbered, put_positive, unknown_factors
+from disting.parametric.cases import (
+    Case,
+    Search,
+    chosen,
+    inequalities,
+    numbered,
+    put_positive,
+    unknown_factors,
+)
 from disting.parametric.orthant import Orthant, TooMuch
 
 SECTIONS = 200  # of one case
@@ -35,14 +49,18 @@ Bound = tuple[fmpz_mpoly, fmpz_mpoly]
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """An equivalent as fractions in the p, one for each unknown, wherever all polynomials of `where` are positive."""
+    """An equivalent as fractions in the p, one for each unknown, wherever all polynomials of
+    `where` are positive.
+    """
 
     where: tuple[fmpz_mpoly, ...]
     values: tuple[RationalFunction, ...]
 
 
 def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
-    """Sections of a case without equations, and what could not be written as sections; raises TooMuch."""
+    """Sections of a case without equations, and what could not be written as sections; raises
+    TooMuch.
+    """
     found, left, todo = list[Section](), list[Case](), [case]
     while todo:
         one = todo.pop()
@@ -61,7 +79,9 @@ def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
 
 
 def cover(ring: Orthant, found: list[Section]) -> bool:
-    """Whether every generic p lies in a section, whatever the signs of the irreducible factors of their polynomials are."""
+    """Whether every generic p lies in a section, whatever the signs of the irreducible factors
+    of their polynomials are.
+    """
     signed = [[ring.parts(g, odd=True) for g in s.where] for s in found]
     factors: list[fmpz_mpoly] = []
     for _, parts in (x for s in signed for x in s):
@@ -69,7 +89,10 @@ def cover(ring: Orthant, found: list[Section]) -> bool:
     if not found or len(factors) > SMOOTH:
         return any(not s.where for s in found)
     wanted = [[(sign, [factors.index(f) for f in parts]) for sign, parts in s] for s in signed]
-    return all(any(all(_sign(x, signs) > 0 for x in s) for s in wanted) for signs in product((1, -1), repeat=len(factors)))
+    return all(
+        any(all(_sign(x, signs) > 0 for x in s) for s in wanted)
+        for signs in product((1, -1), repeat=len(factors))
+    )
 
 
 def _sign(part: tuple[int, list[int]], signs: tuple[int, ...]) -> int:
@@ -113,19 +136,27 @@ def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:
             yield from _between(ring, asked, at, lower, upper)
 
 
-def _signs(ring: Orthant, polynomials: list[fmpz_mpoly], at: int) -> Iterator[tuple[list[fmpz_mpoly], list[fmpz_mpoly]]]:
-    """All ways to give factors signs so that the products are positive: factors linear in the unknown, and the others."""
+def _signs(
+    ring: Orthant, polynomials: list[fmpz_mpoly], at: int
+) -> Iterator[tuple[list[fmpz_mpoly], list[fmpz_mpoly]]]:
+    """All ways to give factors signs so that the products are positive: factors linear in the
+    unknown, and the others.
+    """
     ways = []
     for g in polynomials:
         sign, factors = ring.parts(g, odd=True)
-        inside, outside = ([f for f in factors if bool(f.degrees()[at]) is way] for way in (True, False))
+        inside, outside = (
+            [f for f in factors if bool(f.degrees()[at]) is way] for way in (True, False)
+        )
         rest = sign * ring.product(outside)
         ways.append([_way(inside, rest, signs) for signs in product((1, -1), repeat=len(inside))])
     for choice in product(*ways):
         yield [f for linear, _ in choice for f in linear], [g for _, g in choice]
 
 
-def _way(inside: list[fmpz_mpoly], rest: fmpz_mpoly, signs: tuple[int, ...]) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
+def _way(
+    inside: list[fmpz_mpoly], rest: fmpz_mpoly, signs: tuple[int, ...]
+) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
     negative = signs.count(-1) % 2
     return [s * f for s, f in zip(signs, inside, strict=True)], -rest if negative else rest
 
@@ -136,7 +167,9 @@ def _bound(ring: Orthant, linear: fmpz_mpoly, at: int) -> tuple[fmpz_mpoly, fmpz
     return factor, -rest, ring.sign(factor)
 
 
-def _between(ring: Orthant, case: Case, at: int, lower: list[Bound], upper: list[Bound]) -> Iterator[Case]:
+def _between(
+    ring: Orthant, case: Case, at: int, lower: list[Bound], upper: list[Bound]
+) -> Iterator[Case]:
     """One case for each choice of the largest lower and the smallest upper bound."""
     for i, low in enumerate(lower):
         above = [_difference(low, x) for j, x in enumerate(lower) if j != i]
@@ -159,7 +192,9 @@ def _inside(ring: Orthant, low: Bound, high: Bound | None, weight: int) -> Ratio
     least, w = RationalFunction(low[1], low[0]), ring.number(weight)
     if high is None:
         return least + RationalFunction(w, ring.number(1))
-    return (least + RationalFunction(w * high[1], high[0])) / RationalFunction(w + 1, ring.number(1))
+    return (least + RationalFunction(w * high[1], high[0])) / RationalFunction(
+        w + 1, ring.number(1)
+    )
 
 
 def held(ring: Orthant, polynomial: fmpz_mpoly, section: Section) -> fmpz_mpoly:

@@ -1,9 +1,10 @@
-"""The fibre of one model over the transfer function of another at rational parameters, as polynomial equations over Q.
+"""The fibre of one model over the transfer function of another at rational parameters, as
+polynomial equations over Q.
 
-With the target N/D in lowest terms (D monic) and the searched model N2(q)/D2(q), the transfer functions are the same exactly if
-N2(q) D - N D2(q) = 0 as a polynomial in s and D2(q) is not zero. These equations are linear in the coefficients of N2 and D2
-and are brought to reduced row echelon form first. One more unknown t with t lead(D2(q)) = 1 keeps the order of the searched
-model.
+With the target N/D in lowest terms (D monic) and the searched model N2(q)/D2(q), the transfer
+functions are the same exactly if N2(q) D - N D2(q) = 0 as a polynomial in s and D2(q) is not zero.
+These equations are linear in the coefficients of N2 and D2 and are brought to reduced row echelon
+form first. One more unknown t with t lead(D2(q)) = 1 keeps the order of the searched model.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,19 +21,24 @@ from disting.parametric.model import Model, Terms
 from disting.parametric.trees import names
 
 Polynomial = dict[tuple[int, ...], int]
-"""A polynomial in t and the parameters of the searched model: exponents (that of t first) and integer coefficients."""
+"""A polynomial in t and the parameters of the searched model: exponents (that of t first) and
+integer coefficients.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Coefficients of s^0, s^1, .. of numerator and denominator: coprime, the leading one of the denominator is 1."""
+    """Coefficients of s^0, s^1, .. of numerator and denominator: coprime, the leading one of
+    the denominator is 1.
+    """
 
     numerator: tuple[Fraction, ...]
     denominator: tuple[Fraction, ...]
 
 
 def rational_values(model: Model, values: Mapping[str, object]) -> tuple[tuple[str, Fraction], ...]:
-    """One exact number for each parameter, in the model's order; raises InputError for missing, foreign and inexact ones.
+    """One exact number for each parameter, in the model's order; raises InputError for missing,
+    foreign and inexact ones.
 
     >>> rational_values(Model.from_transfer_function("k", "s + k"), {"k": "0.1"})
     (('k', Fraction(1, 10)),)
@@ -40,17 +46,28 @@ def rational_values(model: Model, values: Mapping[str, object]) -> tuple[tuple[s
     missing = [name for name in model.parameters if name not in values]
     foreign = [str(name) for name in values if name not in model.parameters]
     if missing or foreign:
-        said = [f"{what} {listed(which)}" for what, which in (("no value for", missing), ("no parameter", foreign)) if which]
+        said = [
+            f"{what} {listed(which)}"
+            for what, which in (("no value for", missing), ("no parameter", foreign))
+            if which
+        ]
         raise InputError(f"{model.name}: {'; '.join(said)}")
     return tuple((name, _number(name, values[name])) for name in model.parameters)
 
 
 def target(model: Model, values: Sequence[tuple[str, Fraction]]) -> Target:
-    """The transfer function at these values; raises InputError where its leading denominator coefficient vanishes."""
+    """The transfer function at these values; raises InputError where its leading denominator
+    coefficient vanishes.
+    """
     point = [x for _, x in values]
-    num, den = (fmpq_poly([_fmpq(_at(c, point)) for c in side]) for side in (model.numerator_terms, model.denominator_terms))
+    num, den = (
+        fmpq_poly([_fmpq(_at(c, point)) for c in side])
+        for side in (model.numerator_terms, model.denominator_terms)
+    )
     if den.degree() < model.n_states:
-        raise InputError(f"{model.name}: the leading denominator coefficient is zero at these values")
+        raise InputError(
+            f"{model.name}: the leading denominator coefficient is zero at these values"
+        )
     common = num.gcd(den)
     num, den = num // common, den // common
     lead = den.leading_coefficient()
@@ -82,7 +99,8 @@ def _number(name: str, entry: object) -> Fraction:
         raise InputError(f"the value of {name} is a number, not {shown(entry)}")
     found = Expansion({}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1)).value(written)
     return Fraction(
-        int(found.num.leading_coefficient()) if not found.num.is_zero() else 0, int(found.den.leading_coefficient())
+        int(found.num.leading_coefficient()) if not found.num.is_zero() else 0,
+        int(found.den.leading_coefficient()),
     )
 
 
@@ -97,11 +115,19 @@ def _at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
 
 
 def _conditions(goal: Target, above: int, below: int) -> fmpq_mat:
-    """Rows: the coefficients of N2 D - N D2; columns: those of N2, then those of D2, whose leading one comes last."""
+    """Rows: the coefficients of N2 D - N D2; columns: those of N2, then those of D2, whose
+    leading one comes last.
+    """
     height = max(above + len(goal.denominator), below + len(goal.numerator)) - 1
-    shifts = [(goal.denominator, i, 1) for i in range(above)] + [(goal.numerator, i, -1) for i in range(below)]
+    shifts = [(goal.denominator, i, 1) for i in range(above)] + [
+        (goal.numerator, i, -1) for i in range(below)
+    ]
     table = [
-        [_fmpq(sign * side[k - i]) if 0 <= k - i < len(side) else fmpq(0) for side, i, sign in shifts] for k in range(height)
+        [
+            _fmpq(sign * side[k - i]) if 0 <= k - i < len(side) else fmpq(0)
+            for side, i, sign in shifts
+        ]
+        for k in range(height)
     ]
     return fmpq_mat(table)
 

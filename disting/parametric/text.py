@@ -1,7 +1,8 @@
 """Expressions written as in Python, read into trees: numbers, names, + - * / ** and parentheses.
 
-Sums and products of any length are one tree with many parts, so that long ones are no deep ones. Nesting and the lengths of
-texts and numbers are bounded before anything is computed. (Python's own parser nests sums, and ends in an error for long ones.)
+Sums and products of any length are one tree with many parts, so that long ones are no deep ones.
+Nesting and the lengths of texts and numbers are bounded before anything is computed. (Python's own
+parser nests sums, and ends in an error for long ones.)
 """
 
 import re
@@ -10,11 +11,23 @@ from fractions import Fraction
 from keyword import iskeyword
 
 from disting.errors import InputError, shown
-from disting.parametric.trees import DEEPEST, LONGEST_NUMBER, Power, Product, Sum, Tree, negative, number, power
+from disting.parametric.trees import (
+    DEEPEST,
+    LONGEST_NUMBER,
+    Power,
+    Product,
+    Sum,
+    Tree,
+    negative,
+    number,
+    power,
+)
 
 LONGEST_TEXT = 2_000_000  # characters
 MOST_DIGITS = LONGEST_NUMBER * 3 // 10
-TOKEN = re.compile(r"\s*((?:[0-9][0-9_]*\.?[0-9_]*|\.[0-9][0-9_]*)(?:[eE][+-]?[0-9]+)?|[^\W\d]\w*|\*\*|[-+*/()])")
+TOKEN = re.compile(
+    r"\s*((?:[0-9][0-9_]*\.?[0-9_]*|\.[0-9][0-9_]*)(?:[eE][+-]?[0-9]+)?|[^\W\d]\w*|\*\*|[-+*/()])"
+)
 END = ""
 
 
@@ -44,7 +57,10 @@ class _Reader:
     def error(self) -> InputError:
         """What is wrong as a whole: signs are missing, or there are others than those known."""
         if re.search(r"[^\w\s.+*/()-]|\w\s*\(|//|__", self.text):
-            reason = "is no rational expression: numbers, names and + - * / ** with whole exponents make one"
+            reason = (
+                "is no rational expression: numbers, names and + - * / ** with whole exponents"
+                " make one"
+            )
         else:
             reason = "is no expression; write it as in Python, such as 'k12*s/(m1 + m2)**2'"
         return InputError(f"{shown(self.text)} {reason}")
@@ -52,7 +68,10 @@ class _Reader:
     def sum(self, depth: int) -> Tree:
         """Terms with + and - between them."""
         if depth > DEEPEST:
-            raise InputError(f"{shown(self.text)} is nested too deeply: {DEEPEST} parentheses within each other are read")
+            raise InputError(
+                f"{shown(self.text)} is nested too deeply: {DEEPEST} parentheses within each other"
+                " are read"
+            )
         parts = [self._product(depth)]
         while self.next in ("+", "-"):
             is_negative = self._taken() == "-"
@@ -103,7 +122,10 @@ class _Reader:
     def _number(self, token: str) -> Fraction:
         digits, _, exponent = token.lower().partition("e")
         if len(digits) > MOST_DIGITS or len(exponent) > 9 or abs(int(exponent or 0)) > MOST_DIGITS:
-            raise InputError(f"{shown(token)}: a number has {MOST_DIGITS} digits and zeros at most; choose other units")
+            raise InputError(
+                f"{shown(token)}: a number has {MOST_DIGITS} digits and zeros at most; choose other"
+                " units"
+            )
         try:
             return number(Fraction(token))
         except ValueError:

@@ -1,4 +1,6 @@
-"""Entries of a model as trees of sums, products and whole powers, before anything is multiplied out."""
+"""Entries of a model as trees of sums, products and whole powers, before anything is multiplied
+out.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -54,7 +56,9 @@ def number(value: Fraction | int) -> Fraction:
     """An exact number as a tree; raises InputError for one that is too long."""
     exact = Fraction(value)
     if max(exact.numerator.bit_length(), exact.denominator.bit_length()) > LONGEST_NUMBER:
-        raise InputError(f"numbers of a model have {LONGEST_NUMBER} bits at most; choose other units")
+        raise InputError(
+            f"numbers of a model have {LONGEST_NUMBER} bits at most; choose other units"
+        )
     return exact
 
 

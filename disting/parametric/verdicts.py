@@ -1,8 +1,10 @@
-"""Two general models compared: the conditions of chains on the profiles of models, then the exact decision.
+"""Two general models compared: the conditions of chains on the profiles of models, then the exact
+decision.
 
-Conditions 8 and 9 look at the elements of chains, which general models do not have. Verdicts are over complex parameters; over
-real or positive ones a pair that is distinguishable stays so, one that a renaming makes identical stays identical, and points
-with and without an admissible equivalent are looked for otherwise (see `admissible`).
+Conditions 8 and 9 look at the elements of chains, which general models do not have. Verdicts are
+over complex parameters; over real or positive ones a pair that is distinguishable stays so, one
+that a renaming makes identical stays identical, and points with and without an admissible
+equivalent are looked for otherwise (see `admissible`).
 """
 
 from collections.abc import Iterator
@@ -24,7 +26,18 @@ from disting.parametric.model import Model
 from disting.parametric.profiles import profile, proven_constants
 from disting.parametric.renaming import condition_6
 from disting.settings import Settings
-from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, agreed, first, open_note, verdict_of
+from disting.verdict import (
+    FIBRE,
+    PARAMETERS,
+    Query,
+    Relation,
+    Step,
+    Verdict,
+    agreed,
+    first,
+    open_note,
+    verdict_of,
+)
 
 NO_ELEMENTS = "general models have no elements to be left out"
 
@@ -42,7 +55,10 @@ class Pair:
         """Profiles of both; so many Markov parameters as asked, or as are exhaustive."""
         exhaustive = self.left.n_states + self.right.n_states
         count = (self.query.markov or exhaustive) if representation is Representation.MARKOV else 0
-        left, right = (profile(model, representation, count, self.settings) for model in (self.left, self.right))
+        left, right = (
+            profile(model, representation, count, self.settings)
+            for model in (self.left, self.right)
+        )
         return left, right
 
     @property
@@ -53,7 +69,12 @@ class Pair:
 
 
 def compare(
-    left: Model, right: Model, *, query: Query | None = None, audit: bool = False, settings: Settings | None = None
+    left: Model,
+    right: Model,
+    *,
+    query: Query | None = None,
+    audit: bool = False,
+    settings: Settings | None = None,
 ) -> Verdict:
     """Verdict on two models; `query`, `audit` and `settings` as for chains.
 
@@ -71,7 +92,9 @@ def compare(
     return _admissible(pair, found, domain)
 
 
-def findings(left: Model, right: Model, *, query: Query | None = None, settings: Settings | None = None) -> tuple[Step, ...]:
+def findings(
+    left: Model, right: Model, *, query: Query | None = None, settings: Settings | None = None
+) -> tuple[Step, ...]:
     """What every condition finds in every representation, in order, whether it decides or not."""
     return tuple(steps(Pair(left, right, query or Query(), settings or Settings())))
 
@@ -84,9 +107,14 @@ def steps(pair: Pair) -> Iterator[Step]:
         elif representation == STRUCTURE:
             for condition in STRUCTURAL:
                 if pair.query.asks(condition.rule):
-                    yield Step(STRUCTURE, Finding(condition.rule, Outcome.INAPPLICABLE, note=NO_ELEMENTS))
+                    yield Step(
+                        STRUCTURE, Finding(condition.rule, Outcome.INAPPLICABLE, note=NO_ELEMENTS)
+                    )
         else:
-            yield from (Step(representation, found) for found in _conditions(pair, Representation(representation)))
+            yield from (
+                Step(representation, found)
+                for found in _conditions(pair, Representation(representation))
+            )
 
 
 def _conditions(pair: Pair, representation: Representation) -> Iterator[Finding]:
@@ -105,30 +133,46 @@ def _sufficient(condition: Sufficient, pair: Pair, representation: Representatio
     if condition.rule is not RENAMING:
         return Finding(condition.rule, Outcome.INAPPLICABLE, note="it is asked of chains")
     whole = one.describes_all(other)
-    return condition_6(pair.left, pair.right) if whole else Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
+    return (
+        condition_6(pair.left, pair.right)
+        if whole
+        else Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
+    )
 
 
 def _exact(pair: Pair) -> Finding:
     one, other = pair.profiles(Representation.TF)
     if one.rank != other.rank or one.degrees != other.degrees:
-        return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks or degrees differ (conditions 2 and 4)")
+        return Finding(
+            EXACT, Outcome.INAPPLICABLE, note="the ranks or degrees differ (conditions 2 and 4)"
+        )
     if one.rank == 0:
         return _constants(pair)
     return resting_on_ranks(exact_finding(pair.left, pair.right, pair.settings.seed), one, other)
 
 
 def _constants(pair: Pair) -> Finding:
-    """Transfer functions without parameters: unequal numbers, known exactly, tell the models apart."""
+    """Transfer functions without parameters: unequal numbers, known exactly, tell the models
+    apart.
+    """
     values = [proven_constants(model, Representation.TF, 0) for model in (pair.left, pair.right)]
-    differing = tuple(label for label, x in values[0].items() if label in values[1] and x != values[1][label])
+    differing = tuple(
+        label for label, x in values[0].items() if label in values[1] and x != values[1][label]
+    )
     if not differing:
-        return Finding(EXACT, Outcome.INAPPLICABLE, note="equal constant transfer functions are found by condition 7")
+        return Finding(
+            EXACT,
+            Outcome.INAPPLICABLE,
+            note="equal constant transfer functions are found by condition 7",
+        )
     evidence = Constants(differing, *(tuple(str(v[x]) for x in differing) for v in values))
     return Finding(EXACT, Outcome.FAILS, evidence=evidence)
 
 
 def _admissible(pair: Pair, found: Verdict, domain: Domain) -> Verdict:
-    """Over real or positive parameters: a renaming is a bijection there too; points with and without equivalents come next."""
+    """Over real or positive parameters: a renaming is a bijection there too; points with and
+    without equivalents come next.
+    """
     if isinstance(found.evidence, Renaming) and found.certainty:
         finding = Finding(ADMISSIBLE, Outcome.HOLDS, found.certainty, found.safety, found.evidence)
     else:

@@ -1,7 +1,9 @@
-"""Which given models have an admissible equivalent in another one: all, none, or some; each with its proof.
+"""Which given models have an admissible equivalent in another one: all, none, or some; each with
+its proof.
 
-ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`). NEVER: no case is left
-(`cases`). Points with and without equivalents in open sets around them are looked for with `robust`.
+ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`).
+NEVER: no case is left (`cases`). Points with and without equivalents in open sets around them are
+looked for with `robust`.
 """
 
 from collections.abc import Iterator
@@ -22,7 +24,9 @@ ORDERS = 24  # in which unknowns are solved for
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """The equivalents of `given` in `other`; `covering`: sections such that every generic p lies in one."""
+    """The equivalents of `given` in `other`; `covering`: sections such that every generic p
+    lies in one.
+    """
 
     given: Model
     other: Model
@@ -35,7 +39,9 @@ class Way:
         return not self.parted.sections and not self.parted.others
 
     def path(self) -> Path | None:
-        """A root that gives an equivalent for every generic p, if one that is tried does before a polynomial is too large."""
+        """A root that gives an equivalent for every generic p, if one that is tried does before
+        a polynomial is too large.
+        """
         ring = self.parted.search.ring
         tried = odd_path if ring.domain is Domain.REAL else path
         try:
@@ -52,7 +58,11 @@ class Way:
     def not_looked_at(self) -> str:
         """Why an equivalent of a point may be missed, or "" if it is looked for in all cases."""
         cases = len(self.parted.sections) + len(self.parted.others)
-        return "" if self.looked_at == cases else f"{cases - self.looked_at} of {cases} cases have too many unknowns to look"
+        return (
+            ""
+            if self.looked_at == cases
+            else f"{cases - self.looked_at} of {cases} cases have too many unknowns to look"
+        )
 
     def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""
@@ -67,9 +77,11 @@ class Way:
 
 
 def way(given: Model, other: Model, domain: Domain) -> Way | None:
-    """What is known one way, or None if the search grew too large. Both models have the same degrees.
+    """What is known one way, or None if the search grew too large. Both models have the same
+    degrees.
 
-    Unknowns are solved for in several orders, until all cases are sections; else the order with the fewest other cases is kept.
+    Unknowns are solved for in several orders, until all cases are sections; else the order with
+    the fewest other cases is kept.
     """
     ring, best = Orthant(len(given.parameters), len(other.parameters), domain), list[Parted]()
     for order in islice(permutations(ring.unknowns), ORDERS):
@@ -85,7 +97,9 @@ def way(given: Model, other: Model, domain: Domain) -> Way | None:
 
 def _left(parted: Parted) -> tuple[int, int]:
     ring = parted.search.ring
-    return len(parted.others), sum(len(ring.occurring((*c.equations, *c.positive))) for c in parted.others)
+    return len(parted.others), sum(
+        len(ring.occurring((*c.equations, *c.positive))) for c in parted.others
+    )
 
 
 def _parted(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -> Parted:
@@ -104,11 +118,14 @@ def _parted(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -
 def _covering(parted: Parted) -> tuple[Section, ...]:
     """Sections that cover all generic p, none if these do not or a polynomial is too large to tell.
 
-    At a section lead(q) and, over positive numbers, the values are not zero for generic p (see `nonzero` in `cases`); it is
-    looked at once more.
+    At a section lead(q) and, over positive numbers, the values are not zero for generic p (see
+    `nonzero` in `cases`); it is looked at once more.
     """
     ring = parted.search.ring
-    asked = [parted.lead, *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE)]
+    asked = [
+        parted.lead,
+        *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE),
+    ]
     try:
         every = (*parted.sections, *_by_choice(parted))
         good = [s for s in every if not any(held(ring, g, s).is_zero() for g in asked)]

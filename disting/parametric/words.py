@@ -1,6 +1,7 @@
 """Polynomials and fractions as FLINT writes them, which `text` reads back.
 
-This is how evidence is stored: its bytes depend on no printer's taste, and a search writes hundreds without loading SymPy.
+This is how evidence is stored: its bytes depend on no printer's taste, and a search writes
+hundreds without loading SymPy.
 """
 
 from collections.abc import Sequence

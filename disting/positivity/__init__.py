@@ -1,4 +1,6 @@
-"""Positive equivalents: which positive models of one chain have the behaviour of a positive model of another one."""
+"""Positive equivalents: which positive models of one chain have the behaviour of a positive
+model of another one.
+"""
 
 from disting.positivity.finding import positive_finding as positive_finding
 from disting.positivity.ranges import Ranges as Ranges

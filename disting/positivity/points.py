@@ -1,4 +1,6 @@
-"""Random positive rational models, and whether one of them has a positive equivalent in another chain: proven or not known."""
+"""Random positive rational models, and whether one of them has a positive equivalent in another
+chain: proven or not known.
+"""
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
@@ -22,7 +24,9 @@ _BITS = 25  # of a drawn value
 
 
 def random_point(chain: Chain, label: str, ranges: Mapping[str, Range] | None = None) -> Point:
-    """Independent parameters, log-uniform in their ranges (1/8 to 8 where none is given), determined by the label."""
+    """Independent parameters, log-uniform in their ranges (1/8 to 8 where none is given),
+    determined by the label.
+    """
     names = chain.parameters
     return {
         name: _drawn(*(ranges or {}).get(name, LIKELY), r / (1 << 40))
@@ -41,10 +45,12 @@ def read(values: Values) -> Point:
 
 
 def equivalent(given: Chain, point: Point, other: Chain) -> Answer:
-    """Whether `other` has positive parameters with the receptance of `given` at this positive point.
+    """Whether `other` has positive parameters with the receptance of `given` at this positive
+    point.
 
-    Undamped, with one gap and decay: part by part, by words. Undamped, `other` without a gap and ports apart: by the word of
-    the whole. Damped: NO where all solutions are listed and none is positive. UNKNOWN otherwise.
+    Undamped, with one gap and decay: part by part, by words. Undamped, `other` without a gap and
+    ports apart: by the word of the whole. Damped: NO where all solutions are listed and none is
+    positive. UNKNOWN otherwise.
     """
     if other.damped:
         return _damped(target(given.structure, point), other)
@@ -65,7 +71,13 @@ def _part(segment: Segment, t: Target) -> Answer:
     found, known = word(t), words(segment.nodes, segment.a, segment.b)
     if found is None:
         return Answer.UNKNOWN
-    return Answer.YES if found in known.lower else Answer.UNKNOWN if found in known.upper else Answer.NO
+    return (
+        Answer.YES
+        if found in known.lower
+        else Answer.UNKNOWN
+        if found in known.upper
+        else Answer.NO
+    )
 
 
 def _damped(whole: Target, other: Chain) -> Answer:
@@ -81,7 +93,9 @@ def _all(answers: Iterable[Answer]) -> Answer:
 
 
 def _drawn(low: Fraction, high: Fraction, share: float) -> fmpq:
-    """low (high/low)^share, cut to few bits and kept inside; from a range that begins at 0 its upper three decades."""
+    """low (high/low)^share, cut to few bits and kept inside; from a range that begins at 0 its
+    upper three decades.
+    """
     low = low or high / 1000
     mantissa, exponent = frexp(float(low) * (float(high) / float(low)) ** share)
     number, places = round(ldexp(mantissa, _BITS)), _BITS - exponent

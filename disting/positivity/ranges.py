@@ -1,14 +1,17 @@
-"""Positive equivalents within ranges that a user gives: of models of `given` in its ranges, in the ranges of `other`.
+"""Positive equivalents within ranges that a user gives: of models of `given` in its ranges, in the
+ranges of `other`.
 
-ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges (a range that is one value may
-make special what never happens generically: then only the decay counts). SOMETIMES: an open part of the box of `given` that has
-equivalents in the box of `other` and one that has none. Short random points look for both; long ones near by testify (see
-`witness`, which has the proof). Where no long point confirms what the search saw, nothing is claimed.
+ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges
+(a range that is one value may make special what never happens generically: then only the decay
+counts). SOMETIMES: an open part of the box of `given` that has equivalents in the box of `other`
+and one that has none. Short random points look for both; long ones near by testify (see `witness`,
+which has the proof). Where no long point confirms what the search saw, nothing is claimed.
 
-What is proven at a point: exact maps (renamings, duality) that lead into the box are equivalents; so are the listed solutions
-of an undamped chain without tests (see `synthesis.construction`), if they are real. None exists if there is no positive one at
-all, or if the list of solutions is complete and each has a value outside. Of a family of solutions random members are seen
-only: if none of them is inside, the point stays open.
+What is proven at a point: exact maps (renamings, duality) that lead into the box are equivalents;
+so are the listed solutions of an undamped chain without tests (see `synthesis.construction`), if
+they are real. None exists if there is no positive one at all, or if the list of solutions is
+complete and each has a value outside. Of a family of solutions random members are seen only: if
+none of them is inside, the point stays open.
 """
 
 from collections.abc import Iterator, Mapping
@@ -40,57 +43,80 @@ Bound = int | float | str | Fraction
 
 @dataclass(frozen=True, slots=True)
 class Ranges:
-    """Closed intervals of parameters, by name, of each side; what has none is any positive number (drawn from 1/8 to 8)."""
+    """Closed intervals of parameters, by name, of each side; what has none is any positive
+    number (drawn from 1/8 to 8).
+    """
 
     given: Mapping[str, Range]
     other: Mapping[str, Range]
 
 
-def ranges(given: Mapping[str, tuple[Bound, Bound]], other: Mapping[str, tuple[Bound, Bound]]) -> Ranges:
-    """Ranges from numbers or text such as "0.5" and "2/3", taken exactly. Raises InputError unless 0 <= low <= high > 0.
+def ranges(
+    given: Mapping[str, tuple[Bound, Bound]], other: Mapping[str, tuple[Bound, Bound]]
+) -> Ranges:
+    """Ranges from numbers or text such as "0.5" and "2/3", taken exactly. Raises InputError unless
+    0 <= low <= high > 0.
 
     >>> ranges({"m1": (1, "3/2")}, {}).given["m1"]
     (Fraction(1, 1), Fraction(3, 2))
     """
-    return Ranges(*({name: _range(name, *bounds) for name, bounds in side.items()} for side in (given, other)))
+    return Ranges(
+        *({name: _range(name, *bounds) for name, bounds in side.items()} for side in (given, other))
+    )
 
 
 def within_ranges(
     given: Chain, other: Chain, limits: Ranges, settings: Settings | None = None, tries: int = TRIES
 ) -> PositiveFinding:
-    """Share of the models of `given` in its ranges that have an equivalent in the ranges of `other`.
+    """Share of the models of `given` in its ranges that have an equivalent in the ranges of
+    `other`.
 
-    Raises InputError for chains of different kinds and for ranges of parameters that a chain does not have.
+    Raises InputError for chains of different kinds and for ranges of parameters that a chain does
+    not have.
     """
     refuse(given, other)
     _known(given, limits.given)
     _known(other, limits.other)
-    inside = next((BoxMap(tuple(m.items())) for m in renamings(given, other) if _maps(m, limits)), None)
+    inside = next(
+        (BoxMap(tuple(m.items())) for m in renamings(given, other) if _maps(m, limits)), None
+    )
     if inside:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=inside)
     if not all(is_plain(c) for c in (given, other)):
-        return PositiveFinding(Share.UNKNOWN, reason="ground dampers, a lag and dead time are not covered")
+        return PositiveFinding(
+            Share.UNKNOWN, reason="ground dampers, a lag and dead time are not covered"
+        )
     anywhere = positive_finding(given, other, settings)
     fixed = any(low == high for low, high in limits.given.values())
-    if anywhere.share is Share.NEVER and (not fixed or anywhere.evidence == Excluded(Obstacle.DECAY)):
+    if anywhere.share is Share.NEVER and (
+        not fixed or anywhere.evidence == Excluded(Obstacle.DECAY)
+    ):
         return anywhere
     return _sampled(given, other, limits, (settings or Settings()).seed, tries)
 
 
 def confirms_within(evidence: BoxMap | Points, given: Chain, other: Chain, limits: Ranges) -> bool:
-    """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by `confirms`."""
+    """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by
+    `confirms`.
+    """
     if isinstance(evidence, BoxMap):
         renaming = dict(evidence.pairs)
         return renaming in list(renamings(given, other)) and _maps(renaming, limits)
     with_one, without = read(evidence.with_one), read(evidence.without)
-    inside = all(_is_of(point, given, limits) and is_long(point, limits.given) for point in (with_one, without))
+    inside = all(
+        _is_of(point, given, limits) and is_long(point, limits.given)
+        for point in (with_one, without)
+    )
     has = inside and _has_piece(given, with_one, other, limits)
     return has and _lacks_piece(given, without, other, limits) is not None
 
 
 def equivalent_within(given: Chain, point: Point, other: Chain, box: Mapping[str, Range]) -> Answer:
     """Whether this model has an equivalent in the box of `other`."""
-    if any(all(_in(value, box.get(name)) for name, value in image.items()) for image in _images(given, point, other)):
+    if any(
+        all(_in(value, box.get(name)) for name, value in image.items())
+        for image in _images(given, point, other)
+    ):
         return Answer.YES
     if equivalent(given, point, other) is Answer.NO:
         return Answer.NO
@@ -98,7 +124,9 @@ def equivalent_within(given: Chain, point: Point, other: Chain, box: Mapping[str
     places = [_place(s, box) for s in found.solutions]
     if is_untested(other) and Answer.YES in places:
         return Answer.YES
-    complete = found.status is Status.EMPTY or (found.status is Status.COMPLETE and not found.tests.boundary)
+    complete = found.status is Status.EMPTY or (
+        found.status is Status.COMPLETE and not found.tests.boundary
+    )
     return Answer.NO if complete and set(places) <= {Answer.NO} else Answer.UNKNOWN
 
 
@@ -112,7 +140,10 @@ def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
     def near(wanted: Answer) -> Iterator[Point]:
         """Long points near the first places of this answer."""
         places = [p for p, answer in zip(points, answers, strict=True) if answer is wanted]
-        yield from (drawn_near(p, limits.given, length, f"{label}:{wanted}:{k}") for k, p in enumerate(places[:DRAWS]))
+        yield from (
+            drawn_near(p, limits.given, length, f"{label}:{wanted}:{k}")
+            for k, p in enumerate(places[:DRAWS])
+        )
 
     with_one = next((p for p in near(Answer.YES) if _has_piece(given, p, other, limits)), None)
     if with_one is not None:
@@ -121,7 +152,11 @@ def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
             if grade is not None:
                 evidence = Points(spelled(with_one), spelled(without))
                 return PositiveFinding(Share.SOMETIMES, *grade, evidence, empirical)
-    return PositiveFinding(Share.UNKNOWN, empirical=empirical, reason="random points are no proof for all of the ranges")
+    return PositiveFinding(
+        Share.UNKNOWN,
+        empirical=empirical,
+        reason="random points are no proof for all of the ranges",
+    )
 
 
 def _has_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> bool:
@@ -129,23 +164,31 @@ def _has_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> bool
     box = limits.other
     if any(_stays(renaming, point, limits) for renaming in renamings(given, other)):
         return True
-    if any(all(_strictly_in(v, box.get(name)) for name, v in image.items()) for image in _images(given, point, other)):
+    if any(
+        all(_strictly_in(v, box.get(name)) for name, v in image.items())
+        for image in _images(given, point, other)
+    ):
         return True
     found = fibre(other, target(given.structure, point)) if is_untested(other) else None
     return found is not None and any(_place(s, box) is Answer.YES for s in found.solutions)
 
 
 def _lacks_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> Grade | None:
-    """Whether, and how surely, an open part of the box near the point has none: words are exact, listed solutions bounded."""
+    """Whether, and how surely, an open part of the box near the point has none: words are
+    exact, listed solutions bounded.
+    """
     if equivalent_within(given, point, other, limits.other) is not Answer.NO:
         return None
     return graded(not other.damped and equivalent(given, point, other) is Answer.NO, LEAST_SAFETY)
 
 
 def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:
-    """Whether the renamed parameters near the point lie in the box: strictly inside, or with all of their range."""
+    """Whether the renamed parameters near the point lie in the box: strictly inside, or with
+    all of their range.
+    """
     return all(
-        _strictly_in(value, limits.other.get(renaming[name])) or _maps({name: renaming[name]}, limits)
+        _strictly_in(value, limits.other.get(renaming[name]))
+        or _maps({name: renaming[name]}, limits)
         for name, value in point.items()
     )
 
@@ -213,17 +256,24 @@ def _is_of(point: Point, given: Chain, limits: Ranges) -> bool:
 def _known(chain: Chain, side: Mapping[str, Range]) -> None:
     strange = sorted(set(side) - set(chain.parameters))
     if strange:
-        raise InputError(f"{chain} has no parameter {strange[0]}; it has {', '.join(chain.parameters)}")
+        raise InputError(
+            f"{chain} has no parameter {strange[0]}; it has {', '.join(chain.parameters)}"
+        )
 
 
 def _range(name: str, low: Bound, high: Bound) -> Range:
     if any(isinstance(edge, str) and is_too_long(edge) for edge in (low, high)):
         limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as a power of ten"
-        raise InputError(f"the range of {name}, {shown(low)} to {shown(high)}: a bound has {limits}; choose other units")
+        raise InputError(
+            f"the range of {name}, {shown(low)} to {shown(high)}: a bound has {limits}; choose"
+            " other units"
+        )
     try:
         exact = Fraction(low), Fraction(high)
     except (ValueError, TypeError, OverflowError, ZeroDivisionError):
-        raise InputError(f"the range of {name} has two numbers, not {shown(low)} and {shown(high)}") from None
+        raise InputError(
+            f"the range of {name} has two numbers, not {shown(low)} and {shown(high)}"
+        ) from None
     if not 0 <= exact[0] <= exact[1] or not exact[1]:
         raise InputError(f"the range of {name} is positive and not empty, not {low} to {high}")
     return exact

@@ -1,35 +1,44 @@
-"""Undamped chains over real parameters: each real model has a real equivalent, or some open set of them has none.
+"""Undamped chains over real parameters: each real model has a real equivalent, or some open set of
+them has none.
 
-x = s^2; all elements are real and not zero, of either sign. A real polynomial of degree e has a real factor of degree f unless
-e is even, f is odd and no root is real: pairs of conjugates and pairs of real roots make up any even number.
+x = s^2; all elements are real and not zero, of either sign. A real polynomial of degree e has a
+real factor of degree f unless e is even, f is odd and no root is real: pairs of conjugates and
+pairs of real roots make up any even number.
 
-Rows. A row of n nodes with ports a <= b has N = nu A B, A and B real of degrees a - 1 and n - b. Conversely let N/D be the
-receptance of a generic real row of the same n and b - a, and N have a real factor of degree a - 1. Then there is a real row:
+Rows. A row of n nodes with ports a <= b has N = nu A B, A and B real of degrees a - 1 and n - b.
+Conversely let N/D be the receptance of a generic real row of the same n and b - a, and N have a
+real factor of degree a - 1. Then there is a real row:
   - b = a: both sides are rational in the coefficients of A, B and D (see `synthesis.collocated`).
-  - b = a + 1: so they are in those of A, B, Theta, Phi and kappa, where D + kappa N = Theta Phi, Theta of degree a (see
-    `synthesis.undamped`). Theta needs a real root of D + kappa N at most, and kappa = -D(x)/N(x) makes any real x one.
-  - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped`). a = 1: the mirror image of that; at the wall the
-    reversed row (see `synthesis.foster`): its masses t^2 s_i^2 and springs are rational, for s_i^2 and s_a s_b J_(a,a+1) ..
-    J_(b-1,b) hold even powers of the off-diagonal elements of J alone; t^2 may be any real number.
-Each element is a rational function of those polynomials and free choices, which form an irreducible (rational) variety. It is
-not identically zero, for positive rows have all of them. Where it is zero is a proper subvariety, whose image among the pairs
-(N, D), with the free choices added, is a proper one too, because there are finitely many factors to each pair. The given rows
+  - b = a + 1: so they are in those of A, B, Theta, Phi and kappa, where D + kappa N = Theta Phi,
+    Theta of degree a (see `synthesis.undamped`). Theta needs a real root of D + kappa N at most,
+    and kappa = -D(x)/N(x) makes any real x one.
+  - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped`). a = 1: the mirror
+    image of that; at the wall the reversed row (see `synthesis.foster`): its masses t^2 s_i^2 and
+    springs are rational, for s_i^2 and s_a s_b J_(a,a+1) .. J_(b-1,b) hold even powers of the
+    off-diagonal elements of J alone; t^2 may be any real number.
+Each element is a rational function of those polynomials and free choices, which form an
+irreducible (rational) variety. It is not identically zero, for positive rows have all of them.
+Where it is zero is a proper subvariety, whose image among the pairs (N, D), with the free choices
+added, is a proper one too, because there are finitely many factors to each pair. The given rows
 fill the closure of these pairs. So for generic given rows and choices no element is zero.
 
 Chains of one gap and equal distances: the parts of `given` are taken one by one.
 
-Chains with force and sensor at one place in each part: R has any g of the non-zero poles. So D/x, of degree N - 1, needs a
-real factor of degree g, then the numerator of R, of degree g - 1, one of degree a_minus - 1, and that of F, of degree N - g -
-1, one of degree a_plus - g - 1; the same argument on elements. What is known of real factors of `given` helps: its own gap is
-the degree of a real factor of D/x, its own ports those of factors of the numerators.
+Chains with force and sensor at one place in each part: R has any g of the non-zero poles. So D/x,
+of degree N - 1, needs a real factor of degree g, then the numerator of R, of degree g - 1, one of
+degree a_minus - 1, and that of F, of degree N - g - 1, one of degree a_plus - g - 1; the same
+argument on elements. What is known of real factors of `given` helps: its own gap is the degree of
+a real factor of D/x, its own ports those of factors of the numerators.
 
-None. A polynomial of even degree that must have a real factor of odd degree and has no real root shows that there is no real
-equivalent. The polynomials: N, if `other` has no gap; with the same gap and distances, the numerators of the two parts,
-because generic equivalents have the same parts (own poles, see `parts`; that holds for all parameters but a proper algebraic
-subset, and an open set without it still has an open part); with ports together, for each set of g poles that is closed under
-conjugation (the poles of R are the roots of a real factor of D/x, and simple), the two numerators that it gives: if each set
-fails, or there is none, there is no equivalent. All of this is told by balls that leave something out: a root is not real, a
-leading coefficient is not zero, two poles differ. So it stays for all models near by: an open set, proven at one point, be it
+None. A polynomial of even degree that must have a real factor of odd degree and has no real root
+shows that there is no real equivalent. The polynomials: N, if `other` has no gap; with the same
+gap and distances, the numerators of the two parts, because generic equivalents have the same parts
+(own poles, see `parts`; that holds for all parameters but a proper algebraic subset, and an open
+set without it still has an open part); with ports together, for each set of g poles that is closed
+under conjugation (the poles of R are the roots of a real factor of D/x, and simple), the two
+numerators that it gives: if each set fails, or there is none, there is no equivalent. All of this
+is told by balls that leave something out: a root is not real, a leading coefficient is not zero,
+two poles differ. So it stays for all models near by: an open set, proven at one point, be it
 special or not. The models with a positive equivalent are an open set on the other side.
 """
 
@@ -49,13 +58,16 @@ from disting.synthesis.target import Target, target
 
 TRIES = 1000  # points of mixed signs, a millisecond each; seldom are more than a few needed
 BITS = 192
-Factor = tuple[Poly, int, int]  # a polynomial, its generic degree, the degree of a real factor that it must have
+# a polynomial, its generic degree, the degree of a real factor that it must have
+Factor = tuple[Poly, int, int]
 
 
 def always_real(given: Chain, other: Chain) -> bool:
-    """Whether each generic real model of `given` has a real equivalent in `other`, by real factors; False says nothing.
+    """Whether each generic real model of `given` has a real equivalent in `other`, by real
+    factors; False says nothing.
 
-    >>> always_real(Chain(3, 0, 0, 2, 0, 2), Chain(3)), always_real(Chain(3), Chain(3, 0, 0, 2, 0, 2))
+    >>> middle, end = Chain(3, 0, 0, 2, 0, 2), Chain(3)
+    >>> always_real(middle, end), always_real(end, middle)
     (True, False)
     """
     if not (is_plain(given) and is_plain(other)) or given.n_masses != other.n_masses:
@@ -68,7 +80,9 @@ def always_real(given: Chain, other: Chain) -> bool:
 
 
 def real_witness(given: Chain, other: Chain, seed: str) -> Values:
-    """A rational point of `given` in an open set of real models without real equivalents in `other`; () if none is found."""
+    """A rational point of `given` in an open set of real models without real equivalents in
+    `other`; () if none is found.
+    """
     plain = is_plain(given) and is_plain(other) and given.n_masses == other.n_masses
     if not plain or always_real(given, other):
         return ()
@@ -85,7 +99,9 @@ def confirms_real(values: Values, given: Chain, other: Chain) -> bool:
 
 
 def lacks_real(given: Chain, point: Point, other: Chain) -> bool:
-    """Whether real models near this one are proven to have no real equivalents, generic ones at least; False says nothing."""
+    """Whether real models near this one are proven to have no real equivalents, generic ones at
+    least; False says nothing.
+    """
     if not (is_plain(given) and is_plain(other)) or given.n_masses != other.n_masses:
         return False
     with ctx.workprec(BITS):
@@ -97,7 +113,9 @@ def lacks_real(given: Chain, point: Point, other: Chain) -> bool:
 
 
 def _candidates(given: Chain, point: Point, other: Chain) -> Iterator[list[Factor]]:
-    """For each way in which real parts of `other` may share the receptance, the polynomials that must have real factors."""
+    """For each way in which real parts of `other` may share the receptance, the polynomials
+    that must have real factors.
+    """
     whole = target(given.structure, point).folded(1)
     grounded, free = parts(other)
     full = whole.denominator.degree() == other.n_masses
@@ -106,7 +124,10 @@ def _candidates(given: Chain, point: Point, other: Chain) -> Iterator[list[Facto
     elif full and grounded and _together(other):
         yield from _shared(whole, grounded, free)
     elif full and grounded and given.gap == other.gap and distances(given) == distances(other):
-        yield [_numerator(t, s) for s, t in zip((grounded, free), receptances(given, point), strict=True)]
+        yield [
+            _numerator(t, s)
+            for s, t in zip((grounded, free), receptances(given, point), strict=True)
+        ]
     else:
         yield []  # nothing is said
 
@@ -116,10 +137,15 @@ def _numerator(t: Target, segment: Segment) -> Factor:
 
 
 def _shared(whole: Target, grounded: Segment, free: Segment) -> Iterator[list[Factor]]:
-    """Both numerators for every set of poles, closed under conjugation, that the grounded part may have."""
+    """Both numerators for every set of poles, closed under conjugation, that the grounded part
+    may have.
+    """
     data = whole.balls
     slope = data.denominator.derivative()
-    poles = [(z, data.numerator(z) / slope(z)) for z in roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)]
+    poles = [
+        (z, data.numerator(z) / slope(z))
+        for z in roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)
+    ]
     still = (acb(0), data.numerator[0] / slope[0])
     for mine, others in splits(poles, grounded.nodes):
         if all(any(z.conjugate().overlaps(w) for w, _ in mine) for z, _ in mine):
@@ -129,7 +155,10 @@ def _shared(whole: Target, grounded: Segment, free: Segment) -> Iterator[list[Fa
 
 def _sum(poles: list[tuple[Ball, Ball]]) -> Poly:
     """Numerator of the sum of r/(x - z)."""
-    terms = [residue * product([w for k, (w, _) in enumerate(poles) if k != i]) for i, (_, residue) in enumerate(poles)]
+    terms = [
+        residue * product([w for k, (w, _) in enumerate(poles) if k != i])
+        for i, (_, residue) in enumerate(poles)
+    ]
     return sum(terms[1:], terms[0])
 
 
@@ -141,12 +170,18 @@ def _fails(polynomial: Poly, degree: int, factor: int) -> bool:
 
 
 def _by_any_poles(given: Chain, other: Chain) -> bool:
-    """Whether real factors of all degrees exist, with force and sensor at one place in each part."""
+    """Whether real factors of all degrees exist, with force and sensor at one place in each
+    part.
+    """
     (mine_grounded, mine_free), (grounded, free) = parts(given), parts(other)
     if grounded is None:
         return _splits(free.numerator_degree, free.a - 1, 0 if mine_grounded else mine_free.a - 1)
     own = mine_grounded is not None and mine_grounded.nodes == grounded.nodes
-    if own and mine_grounded and all(_row(*pair) for pair in ((mine_grounded, grounded), (mine_free, free))):
+    if (
+        own
+        and mine_grounded
+        and all(_row(*pair) for pair in ((mine_grounded, grounded), (mine_free, free)))
+    ):
         return True
     poles = _splits(other.n_masses - 1, other.gap, given.gap)
     return poles and all(_splits(s.numerator_degree, s.a - 1, 0) for s in (grounded, free))
@@ -154,13 +189,17 @@ def _by_any_poles(given: Chain, other: Chain) -> bool:
 
 def _row(given: Segment, other: Segment) -> bool:
     """Whether each generic real row has a real equivalent of the other type."""
-    same = sorted((given.a, given.nodes + 1 - given.b)) == sorted((other.a, other.nodes + 1 - other.b))
+    same = sorted((given.a, given.nodes + 1 - given.b)) == sorted(
+        (other.a, other.nodes + 1 - other.b)
+    )
     covered = other.distance <= 1 or other.b == other.nodes or other.a == 1
     return same or (covered and _splits(other.numerator_degree, other.a - 1, given.a - 1))
 
 
 def _splits(degree: int, factor: int, known: int) -> bool:
-    """Whether a real polynomial has a real factor of this degree, if it has one of degree `known`."""
+    """Whether a real polynomial has a real factor of this degree, if it has one of degree
+    `known`.
+    """
     return degree % 2 == 1 or factor % 2 == 0 or known % 2 == 1
 
 
@@ -172,4 +211,7 @@ def _together(chain: Chain) -> bool:
 def _signed(point: Point, label: str) -> Point:
     """The point with random signs."""
     signs = residues(f"signs:{label}", len(point), 3)
-    return {name: value if sign == 1 else -value for (name, value), sign in zip(point.items(), signs, strict=True)}
+    return {
+        name: value if sign == 1 else -value
+        for (name, value), sign in zip(point.items(), signs, strict=True)
+    }

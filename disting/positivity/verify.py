@@ -24,7 +24,9 @@ from disting.synthesis.target import target
 
 
 def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
-    """Whether the evidence is true of the two chains; statements about ranges are confirmed by `confirms_within`."""
+    """Whether the evidence is true of the two chains; statements about ranges are confirmed by
+    `confirms_within`.
+    """
     refuse(given, other)
     given, other = without_dead_time(given), without_dead_time(other)
     match evidence:
@@ -37,13 +39,17 @@ def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
         case Interlacing():
             return _interlaced(evidence, given, other)
         case Points():
-            return _answers(evidence.with_one, given, other, Answer.YES) and _answers(evidence.without, given, other, Answer.NO)
+            return _answers(evidence.with_one, given, other, Answer.YES) and _answers(
+                evidence.without, given, other, Answer.NO
+            )
         case BoxMap():
             return False
 
 
 def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
-    """Whether the finding's evidence is true of the two chains and shows its share, as surely as it says."""
+    """Whether the finding's evidence is true of the two chains and shows its share, as surely
+    as it says.
+    """
     evidence = finding.evidence
     if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
         return False
@@ -61,7 +67,9 @@ def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
         case EmptyFibre():
             return Share.NEVER, Certainty.BOUNDED
         case Interlacing():
-            return Share.SOMETIMES if any(p.lacking for p in evidence.parts) else Share.ALWAYS, Certainty.THEOREM
+            return (
+                Share.SOMETIMES if any(p.lacking for p in evidence.parts) else Share.ALWAYS
+            ), Certainty.THEOREM
         case Points():
             return Share.SOMETIMES, Certainty.PROVEN
 
@@ -81,7 +89,9 @@ def _interlaced(evidence: Interlacing, given: Chain, other: Chain) -> bool:
     """The parts again; points, where there are any, are looked at again."""
     same = not given.damped and evidence.parts == part_words(given, other) != ()
     points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))
-    return same and all(not values or _answers(values, given, other, answer) for values, answer in points)
+    return same and all(
+        not values or _answers(values, given, other, answer) for values, answer in points
+    )
 
 
 def _answers(values: Values, given: Chain, other: Chain, answer: Answer) -> bool:
@@ -90,4 +100,6 @@ def _answers(values: Values, given: Chain, other: Chain, answer: Answer) -> bool
 
 def _is_of(values: Values, given: Chain) -> bool:
     """Whether these are all parameters, positive."""
-    return sorted(name for name, _ in values) == sorted(given.parameters) and all(v > 0 for v in read(values).values())
+    return sorted(name for name, _ in values) == sorted(given.parameters) and all(
+        v > 0 for v in read(values).values()
+    )

@@ -1,41 +1,53 @@
-"""Undamped rows with force and sensor apart: which receptances belong to positive masses and springs. A complete answer.
+"""Undamped rows with force and sensor apart: which receptances belong to positive masses and
+springs. A complete answer.
 
-A row of n masses, its left end at the wall or free, its right end free, ports a < b, d = b - a, x = s^2:
+A row of n masses, its left end at the wall or free, its right end free, ports a < b, d = b - a, x
+= s^2:
 
-    H = N/D = A k_a .. k_(b-1) B / D,     A = theta_(a-1),  B = phi_(b+1)   (leading and trailing minors)
+    H = N/D = A k_a .. k_(b-1) B / D,     A = theta_(a-1),  B = phi_(b+1)   (leading and trailing
+    minors)
 
-Let D have n simple real zeros -l_0 > .. > -l_(n-1), l_0 >= 0, none of them a zero of N. The *word* of H says how many zeros of
-N lie in each of the n - 1 gaps between neighbouring poles, from the slowest on; h_j = j - (number of zeros before l_j).
+Let D have n simple real zeros -l_0 > .. > -l_(n-1), l_0 >= 0, none of them a zero of N. The *word*
+of H says how many zeros of N lie in each of the n - 1 gaps between neighbouring poles, from the
+slowest on; h_j = j - (number of zeros before l_j).
 
-Necessary. The zeros of the driving-point receptances H_aa, H_bb separate the poles strictly, and those of A and of B are among
-them: at most one zero of A and one of B in each gap, so at most two, both kinds together where there are two. Mode j has j sign
-changes (F. Gantmacher, M. Krein, Oscillation Matrices, 1950), of which as many lie left of a as A has zeros before l_j and as
-many right of b as B has (Sturm's theorem), so that 0 <= h_j <= d:
+Necessary. The zeros of the driving-point receptances H_aa, H_bb separate the poles strictly, and
+those of A and of B are among them: at most one zero of A and one of B in each gap, so at most two,
+both kinds together where there are two. Mode j has j sign changes (F. Gantmacher, M. Krein,
+Oscillation Matrices, 1950), of which as many lie left of a as A has zeros before l_j and as many
+right of b as B has (Sturm's theorem), so that 0 <= h_j <= d:
 
-    word in {0,1,2}^(n-1),  sum = n - 1 - d,  0 <= h_j <= d,  number of twos <= min(a - 1, n - b)                       (upper)
+    word in {0,1,2}^(n-1),  sum = n - 1 - d,  0 <= h_j <= d,  number of twos <= min(a - 1, n - b)
+    (upper)
 
-Sufficient. Share out the poles: a to Theta, n - b + 1 to Phi, one to each of the d - 1 masses between the ports, such that the
-zeros of A separate those of Theta and the zeros of B those of Phi. Take rows with the receptances A/Theta (nodes 1 to a) and
-B/Phi (nodes b to n, hung up on spring b - 1), positive by Cauer's continued fraction, the masses between hung up on one spring
-each, and multiply the i-th of these pieces by e^i. A and B do not depend on e, and M^-1 K is polynomial in e, so
+Sufficient. Share out the poles: a to Theta, n - b + 1 to Phi, one to each of the d - 1 masses
+between the ports, such that the zeros of A separate those of Theta and the zeros of B those of
+Phi. Take rows with the receptances A/Theta (nodes 1 to a) and B/Phi (nodes b to n, hung up on
+spring b - 1), positive by Cauer's continued fraction, the masses between hung up on one spring
+each, and multiply the i-th of these pieces by e^i. A and B do not depend on e, and M^-1 K is
+polynomial in e, so
 
     D(e) = Theta w_1 .. w_(d-1) Phi + O(e)
 
-where the factors are coprime: by the implicit function theorem they can be changed by O(e) such that D(e) is the given D, which
-leaves them real and separated for a small e > 0. A factor of all masses and springs sets the gain. (Free left end: the piece
-with the pole 0 takes the place of the heaviest, the others hang on it to the left and to the right.)              (lower)
+where the factors are coprime: by the implicit function theorem they can be changed by O(e) such
+that D(e) is the given D, which leaves them real and separated for a small e > 0. A factor of all
+masses and springs sets the gain. (Free left end: the piece with the pole 0 takes the place of the
+heaviest, the others hang on it to the left and to the right.)              (lower)
 
-Reversal at the wall. J = M^(-1/2) K M^(-1/2) is a positive definite Jacobi matrix with negative off-diagonal entries, and each
-such J belongs to one row but for a factor: masses s_i^2, s = J^(-1) e_1 > 0 (J is a nonsingular irreducible M-matrix). J read
-backwards is one too, so ports a, b and n + 1 - b, n + 1 - a have the same receptances, as by mirroring a row free at both ends.
+Reversal at the wall. J = M^(-1/2) K M^(-1/2) is a positive definite Jacobi matrix with negative
+off-diagonal entries, and each such J belongs to one row but for a factor: masses s_i^2, s = J^(-1)
+e_1 > 0 (J is a nonsingular irreducible M-matrix). J read backwards is one too, so ports a, b and n
++ 1 - b, n + 1 - a have the same receptances, as by mirroring a row free at both ends.
 
-So whether H is positive depends on its word alone wherever lower and upper agree. They do for d = 1: h_j is 0 or 1 there; with
-h_j = 0 the one zero in a gap belongs to whichever of Theta and Phi is open, with h_j = 1 both are open; so each one can be A's
-or B's as the numbers demand. They also do for all n <= 6 (computed, see the tests).
+So whether H is positive depends on its word alone wherever lower and upper agree. They do for d =
+1: h_j is 0 or 1 there; with h_j = 0 the one zero in a gap belongs to whichever of Theta and Phi is
+open, with h_j = 1 both are open; so each one can be A's or B's as the numbers demand. They also do
+for all n <= 6 (computed, see the tests).
 
-Two rows with the same n and d always have a word in common for certain: d gaps without a zero, then one zero a gap. Give the
-first pole to Theta, the next d - 1 to the masses between, pole d + 1 to Phi; then both are open before each zero, which may be
-A's or B's, and the next pole goes to the one that it closed. So where a word is lacking, the answer is "some", not "none".
+Two rows with the same n and d always have a word in common for certain: d gaps without a zero,
+then one zero a gap. Give the first pole to Theta, the next d - 1 to the masses between, pole d + 1
+to Phi; then both are open before each zero, which may be A's or B's, and the next pole goes to the
+one that it closed. So where a word is lacking, the answer is "some", not "none".
 """
 
 from collections.abc import Iterator
@@ -54,7 +66,9 @@ PRECISIONS = (128, 512, 2048)  # of roots that are put in order
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """Words that some positive row of this type has for certain (`lower`), and those that none is known not to have."""
+    """Words that some positive row of this type has for certain (`lower`), and those that none
+    is known not to have.
+    """
 
     lower: frozenset[Word]
     upper: frozenset[Word]
@@ -62,7 +76,9 @@ class Words:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """Halfway: whether Theta and Phi have a pole more than A and B have zeros; free masses and zeros of A that are left."""
+    """Halfway: whether Theta and Phi have a pole more than A and B have zeros; free masses and
+    zeros of A that are left.
+    """
 
     theta: int
     phi: int
@@ -81,9 +97,11 @@ def words(nodes: int, a: int, b: int) -> Words:
 
 
 def word(t: Target) -> Word | None:
-    """The word of a receptance in x with two poles at least; None where two of the poles and zeros coincide.
+    """The word of a receptance in x with two poles at least; None where two of the poles and zeros
+    coincide.
 
-    () if no positive row has it: a gain that is not positive, a pole or zero that is not real, a zero outside the poles.
+    () if no positive row has it: a gain that is not positive, a pole or zero that is not real, a
+    zero outside the poles.
     """
     if not t.numerator[t.numerator.degree()] > 0:
         return ()
@@ -112,13 +130,17 @@ def _upper(gaps: int, distance: int, twos: int, height: int) -> Iterator[Word]:
     for zeros in range(3 if twos else 2):
         after = height + 1 - zeros
         if 0 <= after <= distance:
-            yield from ((zeros, *rest) for rest in _upper(gaps - 1, distance, twos - (zeros == 2), after))
+            yield from (
+                (zeros, *rest) for rest in _upper(gaps - 1, distance, twos - (zeros == 2), after)
+            )
 
 
 def _sharable(given: Word, states: frozenset[_State]) -> bool:
     """Pole, zeros, pole, .., pole: whether they can be shared out."""
     for zeros in given:
-        states = frozenset(after for s in states for taken in _pole(s) for after in _zeros(taken, zeros))
+        states = frozenset(
+            after for s in states for taken in _pole(s) for after in _zeros(taken, zeros)
+        )
     return _State(1, 1, 0, 0, 0) in {after for s in states for after in _pole(s)}
 
 
@@ -145,7 +167,11 @@ def _zeros(s: _State, zeros: int) -> Iterator[_State]:
 
 def _counted(t: Target) -> Word | None:
     """The word, if the balls are apart at this precision."""
-    found = [(z, n, is_pole) for p, is_pole in ((t.denominator, True), (t.numerator, False)) for z, n in p.complex_roots()]
+    found = [
+        (z, n, is_pole)
+        for p, is_pole in ((t.denominator, True), (t.numerator, False))
+        for z, n in p.complex_roots()
+    ]
     if any(bool(z.imag != 0) for z, _, _ in found):
         return ()
     if any(n > 1 or not z.imag.is_zero() for z, n, _ in found):
@@ -159,5 +185,7 @@ def _counted(t: Target) -> Word | None:
 
 
 def _compared(one: tuple[Any, bool], other: tuple[Any, bool]) -> int:
-    """From right to left; balls that overlap compare as equal, neighbours in the list will show it."""
+    """From right to left; balls that overlap compare as equal, neighbours in the list will show
+    it.
+    """
     return -1 if bool(one[0] > other[0]) else int(bool(one[0] < other[0]))

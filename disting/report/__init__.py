@@ -1,4 +1,6 @@
-"""Catalogues as pages and figures. This layer renders verdicts and never decides; it writes formulas out for people."""
+"""Catalogues as pages and figures. This layer renders verdicts and never decides; it writes
+formulas out for people.
+"""
 
 from disting.report.dampers import damper_page as damper_page
 from disting.report.drawing import chain_png as chain_png

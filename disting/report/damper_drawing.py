@@ -1,7 +1,9 @@
-"""Drawings of a whole family that share their parts: a mass, a spring, a place of the force is held once by a page.
+"""Drawings of a whole family that share their parts: a mass, a spring, a place of the force is
+held once by a page.
 
-Dampers to the ground are parts of their own, one a mass, laid over the drawing of any chain of that size; where one crosses the
-bar of a sensor the bar is broken, as in the drawing of a single chain.
+Dampers to the ground are parts of their own, one a mass, laid over the drawing of any chain of
+that size; where one crosses the bar of a sensor the bar is broken, as in the drawing of a single
+chain.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -51,7 +53,9 @@ def shared(chains: Sequence[Chain]) -> tuple[tuple[Part, ...], tuple[SharedDrawi
     """
     numbers: dict[Layer, int] = {}
     drawings = [
-        SharedDrawing(i, scene, tuple(numbers.setdefault(layer, len(numbers)) for layer in scene.layers))
+        SharedDrawing(
+            i, scene, tuple(numbers.setdefault(layer, len(numbers)) for layer in scene.layers)
+        )
         for i, scene in enumerate(map(draw, chains), start=1)
     ]
     return tuple(Part(f"part-{i}", layer) for layer, i in numbers.items()), tuple(drawings)

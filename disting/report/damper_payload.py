@@ -1,8 +1,10 @@
-"""The classes of a family with ground dampers in a compact form: the page's script looks every pair up as `Classes` does.
+"""The classes of a family with ground dampers in a compact form: the page's script looks every
+pair up as `Classes` does.
 
-No pair is sent. A class has a bucket number in every column (0: not known), a model its class and what the rules inside a class
-go by: which models are renamings of it, its free choice (0: none), its rank. Classes are numbered from 0, the largest first,
-so that the classes of several models come before the others; columns are told class by class, models in the family's order.
+No pair is sent. A class has a bucket number in every column (0: not known), a model its class and
+what the rules inside a class go by: which models are renamings of it, its free choice (0: none),
+its rank. Classes are numbered from 0, the largest first, so that the classes of several models
+come before the others; columns are told class by class, models in the family's order.
 """
 
 from dataclasses import dataclass
@@ -25,13 +27,21 @@ from disting.report.payload import packed, script_json
 Numbers = NDArray[np.int64]
 Rule = tuple[str, str, str]
 """Sign in a field, name in words, and what the condition asks for."""
-LINKS = {"renaming": RENAMING, "free": FREE_CHOICE, "submodel": SUBMODEL, "supermodel": SUPERMODEL, "exact": EXACT}
+LINKS = {
+    "renaming": RENAMING,
+    "free": FREE_CHOICE,
+    "submodel": SUBMODEL,
+    "supermodel": SUPERMODEL,
+    "exact": EXACT,
+}
 """Rules that link the models of one class, as the page's script calls them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Numbered:
-    """Classes by size: `group[i]` is the class of model i, `first[g]` the first model of class g."""
+    """Classes by size: `group[i]` is the class of model i, `first[g]` the first model of class
+    g.
+    """
 
     group: Numbers
     first: Numbers
@@ -52,7 +62,9 @@ def numbered(found: Classes) -> Numbered:
 
     Raises InputError where the columns of a class disagree: then no look-up by class is possible.
     """
-    _, first, inverse, sizes = np.unique(found.group, return_index=True, return_inverse=True, return_counts=True)
+    _, first, inverse, sizes = np.unique(
+        found.group, return_index=True, return_inverse=True, return_counts=True
+    )
     if not np.array_equal(found.columns, found.columns[first][inverse]):
         raise InputError("the models of one class have the same buckets")
     order = np.lexsort((first, -sizes))
@@ -62,13 +74,17 @@ def numbered(found: Classes) -> Numbered:
 
 
 def payload(found: DamperFamily, **more: object) -> Markup:
-    """JSON text that is safe inside a script element, with what else the page's script is to know."""
+    """JSON text that is safe inside a script element, with what else the page's script is to
+    know.
+    """
     classes, by_size = found.found, numbered(found.found)
     data = more | {
         "masses": found.family.n_masses,
         "damped": found.family.damped,
         "sets": [bits(masses) for masses in found.sets],
-        "structures": [[chain.gap, mirror(chain), len(chain.structure.elements)] for chain in found.family],
+        "structures": [
+            [chain.gap, mirror(chain), len(chain.structure.elements)] for chain in found.family
+        ],
         "tests": classes.tests,
         "rules": rules(),
         "links": {name: rule.name for name, rule in LINKS.items()},
@@ -94,7 +110,8 @@ def bits(masses: Masses) -> int:
 
 
 def mirror(chain: Chain) -> int:
-    """Mass m of the free part may be taken for mass (this number) - m, because force and sensor are at its centre; else 0.
+    """Mass m of the free part may be taken for mass (this number) - m, because force and sensor
+    are at its centre; else 0.
 
     >>> mirror(Chain(3, 0, 0, 2, 0, 2)), mirror(Chain(3))
     (4, 0)
@@ -105,14 +122,19 @@ def mirror(chain: Chain) -> int:
 
 def rules() -> dict[str, Rule]:
     """What the page says of every rule."""
-    said = {c.rule.name: (c.rule.sign, f"{c.rule.in_words()}, {c.rule.title}", c.rule.text) for c in CONDITIONS}
+    said = {
+        c.rule.name: (c.rule.sign, f"{c.rule.in_words()}, {c.rule.title}", c.rule.text)
+        for c in CONDITIONS
+    }
     return said | {EXACT.name: (EXACT.sign, EXACT.in_words(), "")}
 
 
 def open_classes(classes: Classes, by_size: Numbered) -> list[tuple[int, int]]:
     """Pairs of classes that nothing decides, in their new numbers."""
     number = dict(zip(map(int, classes.group), map(int, by_size.group), strict=True))
-    return sorted((min(p), max(p)) for p in ((number[a], number[b]) for a, b in classes.open_groups))
+    return sorted(
+        (min(p), max(p)) for p in ((number[a], number[b]) for a, b in classes.open_groups)
+    )
 
 
 def _renumbered(values: NDArray[np.int32]) -> Numbers:

@@ -1,6 +1,8 @@
-"""A family with sets of dampers to the ground as one HTML page that needs nothing else, be it of thousands of models.
+"""A family with sets of dampers to the ground as one HTML page that needs nothing else, be it of
+thousands of models.
 
-The page holds the classes, not the pairs (see `damper_payload`); its script looks up what a field shows.
+The page holds the classes, not the pairs (see `damper_payload`); its script looks up what a field
+shows.
 """
 
 from collections.abc import Iterator
@@ -12,7 +14,13 @@ from disting.catalogs.dampers import spelled
 from disting.conditions.rule import EXACT
 from disting.conditions.table import RULES
 from disting.model.chain import Chain
-from disting.report.damper_drawing import SharedDrawing, definitions, ground_dampers, height_with_dampers, shared
+from disting.report.damper_drawing import (
+    SharedDrawing,
+    definitions,
+    ground_dampers,
+    height_with_dampers,
+    shared,
+)
 from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
 from disting.report.drawing import draw
 from disting.report.environment import render
@@ -27,7 +35,9 @@ SHOWN_AT_ONCE = 12  # classes; more are folded away
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A class of indistinguishable models: structures, and the sets of ground dampers that each of them has in the class."""
+    """A class of indistinguishable models: structures, and the sets of ground dampers that each
+    of them has in the class.
+    """
 
     number: int
     size: int
@@ -36,7 +46,9 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """A chain with all its sets of ground dampers: into how many classes they fall, and how many pairs of those are open."""
+    """A chain with all its sets of ground dampers: into how many classes they fall, and how
+    many pairs of those are open.
+    """
 
     drawing: SharedDrawing
     classes: int
@@ -56,7 +68,9 @@ class Count:
 
 @dataclass(frozen=True, slots=True)
 class Open:
-    """Two classes that nothing decides: their first models, and how many pairs of models that is."""
+    """Two classes that nothing decides: their first models, and how many pairs of models that
+    is.
+    """
 
     left: str
     right: str
@@ -64,7 +78,9 @@ class Open:
 
 
 def damper_page(found: DamperFamily, *, catalog: bool = True) -> str:
-    """HTML of a family with sets of ground dampers; `catalog`: the pages of the family without them are beside it."""
+    """HTML of a family with sets of ground dampers; `catalog`: the pages of the family without
+    them are beside it.
+    """
     family, by_size, totals = found.family, numbered(found.found), found.found.counts()
     parts, drawings = shared(tuple(family))
     ground = tuple(ground_dampers(family.n_masses))
@@ -97,7 +113,9 @@ def family_title(n_masses: int, damped: bool) -> str:
     return f"{plural(n_masses, 'mass', 'masses')}, {'damped' if damped else 'undamped'}"
 
 
-def structures(found: DamperFamily, by_size: Numbered, drawings: tuple[SharedDrawing, ...]) -> Iterator[Structure]:
+def structures(
+    found: DamperFamily, by_size: Numbered, drawings: tuple[SharedDrawing, ...]
+) -> Iterator[Structure]:
     """The family's chains."""
     rows = by_size.group.reshape(len(found.family), len(found.sets)).tolist()
     undecided = open_classes(found.found, by_size)
@@ -106,17 +124,24 @@ def structures(found: DamperFamily, by_size: Numbered, drawings: tuple[SharedDra
 
 
 def counts(found: DamperFamily) -> list[Count]:
-    """Pairs by deciding rule: those that prove distinguishable, those that prove indistinguishable, the undecided ones."""
+    """Pairs by deciding rule: those that prove distinguishable, those that prove
+    indistinguishable, the undecided ones.
+    """
     number, same = found.found.counts_by_rule(), found.found.counts()[Relation.INDISTINGUISHABLE]
     said, exact = rules(), EXACT.name
     parts = {rule: (decides(RULES[rule]), number.get(rule, 0)) for rule in said if rule != exact}
-    by_exact = same - sum(n for relation, n in parts.values() if relation is Relation.INDISTINGUISHABLE)
+    by_exact = same - sum(
+        n for relation, n in parts.values() if relation is Relation.INDISTINGUISHABLE
+    )
     rows = [(rule, relation, n) for rule, (relation, n) in parts.items()]
     rows += [
         (exact, Relation.DISTINGUISHABLE, number.get(exact, 0) - by_exact),
         (exact, Relation.INDISTINGUISHABLE, by_exact),
     ]
-    told = [Count(said[rule][0], _title(said[rule][1]), said[rule][2], relation, n) for rule, relation, n in rows]
+    told = [
+        Count(said[rule][0], _title(said[rule][1]), said[rule][2], relation, n)
+        for rule, relation, n in rows
+    ]
     return [*told, Count("", "undecided", "nothing decides", Relation.UNDECIDED, number[""])]
 
 

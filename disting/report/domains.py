@@ -1,8 +1,10 @@
-"""What pages say of a catalogue over positive and over complex parameters: counts, groups, and the order by groups.
+"""What pages say of a catalogue over positive and over complex parameters: counts, groups, and the
+order by groups.
 
-Over complex parameters indistinguishable models form classes. Over positive ones a class may fall apart: into smaller groups,
-which are indistinguishable for all positive parameters, and pairs between them that are so for some values only, or that are
-open. Such groups stand beside each other in the order by groups.
+Over complex parameters indistinguishable models form classes. Over positive ones a class may fall
+apart: into smaller groups, which are indistinguishable for all positive parameters, and pairs
+between them that are so for some values only, or that are open. Such groups stand beside each
+other in the order by groups.
 """
 
 from collections.abc import Iterator
@@ -21,7 +23,9 @@ ABLE = (Share.ALWAYS, Share.SOMETIMES)
 
 @dataclass(frozen=True, slots=True)
 class OneSided:
-    """Of a distinguishable pair, models `given` have an equivalent `other` for all or some of their positive parameters."""
+    """Of a distinguishable pair, models `given` have an equivalent `other` for all or some of
+    their positive parameters.
+    """
 
     given: int
     other: int
@@ -30,9 +34,11 @@ class OneSided:
 
 @dataclass(frozen=True, slots=True)
 class Over:
-    """A catalogue over one domain: pairs by relation, groups, pairs that depend on the values, one-sided ones.
+    """A catalogue over one domain: pairs by relation, groups, pairs that depend on the values,
+    one-sided ones.
 
-    `blocks`: the groups and single models that the order by groups puts first, related ones beside each other.
+    `blocks`: the groups and single models that the order by groups puts first, related ones beside
+    each other.
     """
 
     view: View
@@ -53,12 +59,18 @@ def over(catalog: Catalog, view: View) -> Over:
     groups = catalog.classes(view)
     sides = tuple(one_sided(catalog)) if view is View.POSITIVE else ()
     return Over(
-        view, totals(catalog, view), groups, catalog.depending(view), sides, blocks(catalog.classes(View.EXACT), groups)
+        view,
+        totals(catalog, view),
+        groups,
+        catalog.depending(view),
+        sides,
+        blocks(catalog.classes(View.EXACT), groups),
     )
 
 
 def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[Members, ...]:
-    """The groups class by class, the largest first, and the single models of a class that falls apart behind its groups.
+    """The groups class by class, the largest first, and the single models of a class that falls
+    apart behind its groups.
 
     >>> blocks(((1, 4), (2, 3, 5)), ((1, 4), (2, 5)))
     ((2, 5), (3,), (1, 4))
@@ -72,10 +84,15 @@ def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[M
 
 
 def one_sided(catalog: Catalog) -> Iterator[OneSided]:
-    """The distinguishable pairs of which positive models on one side have equivalents on the other."""
+    """The distinguishable pairs of which positive models on one side have equivalents on the
+    other.
+    """
     for left, right, v in catalog.pairs(View.POSITIVE):
         if v.relation is Relation.DISTINGUISHABLE:
-            for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
+            for found, given, other in (
+                (v.left_positive, left, right),
+                (v.right_positive, right, left),
+            ):
                 if found is not None and found.share in ABLE:
                     yield OneSided(given, other, found.share)
 

@@ -1,7 +1,7 @@
 """A chain as an engineer sketches it: wall, masses, springs, dampers, actuator above, sensor below.
 
 ground      force F: a circle on a bar above the masses, arrows push on the masses at its ends
-  |/        sensor y: a box on a bar below, the filled dot is the measured mass, the open dot the reference
+  |/        sensor y: a box on a bar below; filled dot: the measured mass, open dot: the reference
   |/--zz--[m1]  gap  [m2]
 """
 
@@ -11,7 +11,19 @@ from dataclasses import dataclass
 from disting.model.chain import Chain
 from disting.model.structure import Element
 from disting.report.png import png
-from disting.report.scene import Anchor, Circle, Ink, Layer, Path, Point, Rect, Scene, Shape, Text, arrow
+from disting.report.scene import (
+    Anchor,
+    Circle,
+    Ink,
+    Layer,
+    Path,
+    Point,
+    Rect,
+    Scene,
+    Shape,
+    Text,
+    arrow,
+)
 from disting.report.svg import svg
 
 WALL = 15.0  # x of the wall's face
@@ -69,7 +81,10 @@ def draw(chain: Chain) -> Scene:
     at = Layout(chain)
     elements = (Layer(e.parameter, _element(e, at)) for e in chain.structure.elements)
     return Scene(
-        at.width, at.height, (*_ground(at), *elements, _gap(at), _force(at), _sensor(at), *_notes(at)), describe(chain)
+        at.width,
+        at.height,
+        (*_ground(at), *elements, _gap(at), _force(at), _sensor(at), *_notes(at)),
+        describe(chain),
     )
 
 
@@ -83,7 +98,9 @@ def describe(chain: Chain) -> str:
     said = [row + (" with dampers beside the springs" if chain.damped else "")]
     said += [f"no spring between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
     said += [f"force from {_node(chain.act_minus)} on {_node(chain.act_plus)}"]
-    said += [f"{chain.sensor.value} of {_node(chain.meas_plus)} relative to {_node(chain.meas_minus)}"]
+    said += [
+        f"{chain.sensor.value} of {_node(chain.meas_plus)} relative to {_node(chain.meas_minus)}"
+    ]
     said += [f"damper from mass {i} to the ground" for i in chain.ground_dampers]
     said += ["first-order lag of the force"] * chain.lag + ["dead time"] * chain.dead_time
     return "; ".join(said) + "."
@@ -122,7 +139,12 @@ def _damper(x0: float, x1: float, y: float) -> tuple[Shape, ...]:
     """Dashpot: a cup open to the right and a piston in it."""
     left, piston = x0 + 11, x0 + 18
     cup = Path(((x1 - 10, y - 5), (left, y - 5), (left, y + 5), (x1 - 10, y + 5)))
-    return Path(((x0, y), (left, y))), cup, Path(((piston, y - 3), (piston, y + 3)), line=2.5), Path(((piston, y), (x1, y)))
+    return (
+        Path(((x0, y), (left, y))),
+        cup,
+        Path(((piston, y - 3), (piston, y + 3)), line=2.5),
+        Path(((piston, y), (x1, y))),
+    )
 
 
 def _ground_damper(x: float, at: Layout) -> tuple[Shape, ...]:
@@ -145,7 +167,9 @@ def _ground(at: Layout) -> Iterator[Layer]:
     """The hatched wall, as high as what is fixed to it; nothing if nothing is."""
     chain = at.chain
     ports = [-RISE] * (chain.act_minus == 0) + [RISE] * (chain.meas_minus == 0)
-    reach = [y + side for y in ports for side in (-9, 9)] + [-MASS / 2 - 3, MASS / 2 + 3] * (chain.gap > 0)
+    reach = [y + side for y in ports for side in (-9, 9)] + [-MASS / 2 - 3, MASS / 2 + 3] * (
+        chain.gap > 0
+    )
     if reach:
         top, bottom = at.axis + min(reach), at.axis + max(reach)
         strokes = range(round(top) + 8, round(bottom) + 1, 7)
@@ -163,13 +187,20 @@ def _force(at: Layout) -> Layer:
     chain, y = at.chain, at.axis - RISE
     x0, x1 = at.middle(chain.act_minus), at.middle(chain.act_plus)
     centre = (x0 + x1) / 2
-    posts = [_post(at.middle(node), at.axis - MASS / 2, y - 4, Ink.FORCE) for node in (chain.act_minus, chain.act_plus) if node]
+    posts = [
+        _post(at.middle(node), at.axis - MASS / 2, y - 4, Ink.FORCE)
+        for node in (chain.act_minus, chain.act_plus)
+        if node
+    ]
     back = (
         arrow((centre, y), (x0 + 1, y), Ink.FORCE)
         if chain.act_minus
         else (Path(((centre, y), (x0 + 2, y)), Ink.FORCE, line=2),)
     )
-    sign = Circle(centre, y, 9, Ink.PAPER, Ink.FORCE), Text(centre, y, "F", 12, Ink.FORCE, bold=True)
+    sign = (
+        Circle(centre, y, 9, Ink.PAPER, Ink.FORCE),
+        Text(centre, y, "F", 12, Ink.FORCE, bold=True),
+    )
     return Layer("force", (*posts, *back, *arrow((centre, y), (x1 - 1, y), Ink.FORCE), *sign))
 
 
@@ -178,10 +209,22 @@ def _sensor(at: Layout) -> Layer:
     chain, y = at.chain, at.axis + RISE
     x0, x1 = at.middle(chain.meas_minus), at.middle(chain.meas_plus)
     centre = (x0 + x1) / 2
-    posts = [_post(at.middle(node), at.axis + MASS / 2, y, Ink.SENSOR) for node in (chain.meas_minus, chain.meas_plus) if node]
-    bar = [Path(((a, y), (b, y)), Ink.SENSOR, line=2) for a, b in _pieces(x0 + 2 * (not chain.meas_minus), x1, _stems(at))]
-    ends = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(chain.meas_minus) + [Circle(x1, y, 4.5, Ink.SENSOR)]
-    sign = Rect(centre - 8, y - 8, 16, 16, Ink.PAPER, Ink.SENSOR), Text(centre, y - 1, "y", 12, Ink.SENSOR, bold=True)
+    posts = [
+        _post(at.middle(node), at.axis + MASS / 2, y, Ink.SENSOR)
+        for node in (chain.meas_minus, chain.meas_plus)
+        if node
+    ]
+    bar = [
+        Path(((a, y), (b, y)), Ink.SENSOR, line=2)
+        for a, b in _pieces(x0 + 2 * (not chain.meas_minus), x1, _stems(at))
+    ]
+    ends = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(chain.meas_minus) + [
+        Circle(x1, y, 4.5, Ink.SENSOR)
+    ]
+    sign = (
+        Rect(centre - 8, y - 8, 16, 16, Ink.PAPER, Ink.SENSOR),
+        Text(centre, y - 1, "y", 12, Ink.SENSOR, bold=True),
+    )
     return Layer("sensor", (*posts, *bar, *ends, *sign))
 
 

@@ -1,7 +1,8 @@
 """What a field of a verdict matrix looks like in every figure.
 
-Relations differ in colour and in shape: distinguishable is a plain field, indistinguishable has a dark upper corner, what
-depends on the parameters a dark lower one, undecided is crossed out and has no sign.
+Relations differ in colour and in shape: distinguishable is a plain field, indistinguishable has a
+dark upper corner, what depends on the parameters a dark lower one, undecided is crossed out and
+has no sign.
 """
 
 from collections.abc import Iterable, Iterator
@@ -34,19 +35,27 @@ def field(x: float, y: float, relation: Relation, cell: float) -> tuple[Shape, .
     if relation is not Relation.UNDECIDED:
         return (Rect(x, y, side, side, FILLS[relation]),)
     inset = 0.3 * cell
-    cross = Path(((x + inset, y + side - inset), (x + side - inset, y + inset)), Ink.UNDECIDED, line=1)
+    cross = Path(
+        ((x + inset, y + side - inset), (x + side - inset, y + inset)), Ink.UNDECIDED, line=1
+    )
     return Rect(x + 0.5, y + 0.5, side - 1, side - 1, Ink.NONE, Ink.UNDECIDED, line=1), cross
 
 
 def corner(x: float, y: float, relation: Relation, cell: float) -> Path:
     """The dark corner of a field, upper right or lower left."""
     far, leg = cell - 1, 0.28 * cell
-    shape = ((far - leg, 0.0), (far, 0.0), (far, leg)) if CORNERS[relation] else ((0.0, far - leg), (0.0, far), (leg, far))
+    shape = (
+        ((far - leg, 0.0), (far, 0.0), (far, leg))
+        if CORNERS[relation]
+        else ((0.0, far - leg), (0.0, far), (leg, far))
+    )
     return Path(tuple((x + dx, y + dy) for dx, dy in shape), Ink.NONE, LETTERS[relation])
 
 
 def legend(relations: Iterable[Relation], x: float, y: float, k: float = 1.0) -> Iterator[Layer]:
-    """A field of each relation with its name, in a row from x on, its middle at y, `k` times the usual size."""
+    """A field of each relation with its name, in a row from x on, its middle at y, `k` times
+    the usual size.
+    """
     for relation in relations:
         yield legend_entry(relation, x, y, k)
         x += legend_width(relation, k)
@@ -63,4 +72,6 @@ def legend_entry(relation: Relation, x: float, y: float, k: float = 1.0) -> Laye
     dark = (corner(x, y - side / 2, relation, side),) if relation in CORNERS else ()
     sign = (Text(x + side / 2, y, "n", 10.5 * k, LETTERS[relation]),) if relation in LETTERS else ()
     said = Text(x + 24 * k, y, SAID[relation], 12 * k, anchor=Anchor.START)
-    return Layer(f"legend-{relation}", (*field(x, y - side / 2, relation, side), *dark, *sign, said))
+    return Layer(
+        f"legend-{relation}", (*field(x, y - side / 2, relation, side), *dark, *sign, said)
+    )

@@ -1,8 +1,10 @@
-"""A chain's formulas, typeset and as LaTeX: its transfer function, what it determines, and its maps to other chains.
+"""A chain's formulas, typeset and as LaTeX: its transfer function, what it determines, and its
+maps to other chains.
 
-The transfer function of a damped chain is that of the undamped one with every k_ij replaced by κ_ij = k_ij + d_ij s, since a
-spring and the damper beside it act as one dynamic stiffness. Written out in k, d and s, coefficients of 4 masses have a
-hundred terms and more; in κ they stay readable, and nothing is lost.
+The transfer function of a damped chain is that of the undamped one with every k_ij replaced by
+κ_ij = k_ij + d_ij s, since a spring and the damper beside it act as one dynamic stiffness. Written
+out in k, d and s, coefficients of 4 masses have a hundred terms and more; in κ they stay readable,
+and nothing is lost.
 """
 
 from collections.abc import Sequence
@@ -18,10 +20,21 @@ from disting.equivalence.images import images
 from disting.identifiability.parts import Combination
 from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
-from disting.report.mathml import equation, expression, factorised, formula, fraction, math, primed, summands, symbol
+from disting.report.mathml import (
+    equation,
+    expression,
+    factorised,
+    formula,
+    fraction,
+    math,
+    primed,
+    summands,
+    symbol,
+)
 from disting.report.words import LARGEST_SPELLED_OUT
 
-CAUER_UP_TO = 3  # masses of maps by continued fractions; those of 4 masses have thousands of letters
+# masses of maps by continued fractions; those of 4 masses have thousands of letters
+CAUER_UP_TO = 3
 LONGEST_BRACKET = 9  # letters of a sum in parentheses; a browser cannot break it
 G_OF_S = '<mi>G</mi><mo stretchy="false">(</mo><mi>s</mi><mo stretchy="false">)</mo>'
 Coefficient = tuple[int, Polynomial]
@@ -30,7 +43,9 @@ Coefficient = tuple[int, Polynomial]
 
 @dataclass(frozen=True, slots=True)
 class TransferFunction:
-    """`head`: the quotient of polynomials in s; `lines`: (name, terms) of its coefficients; `stiffness`: written in κ."""
+    """`head`: the quotient of polynomials in s; `lines`: (name, terms) of its coefficients;
+    `stiffness`: written in κ.
+    """
 
     head: Markup
     lines: tuple[tuple[Markup, tuple[Markup, ...]], ...]
@@ -62,10 +77,18 @@ def written(chain: Chain) -> TransferFunction:
     names = ("B", "A") if stiffness else ("b", "a")
     sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
     head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
-    flat = [(f"{letter}{power}", _readable(p)) for letter, coefficients in sides for power, p in coefficients]
-    lines = tuple((math(f"{symbol(label)}<mo>=</mo>"), _typeset(shown, stiffness)) for label, shown in flat)
+    flat = [
+        (f"{letter}{power}", _readable(p))
+        for letter, coefficients in sides
+        for power, p in coefficients
+    ]
+    lines = tuple(
+        (math(f"{symbol(label)}<mo>=</mo>"), _typeset(shown, stiffness)) for label, shown in flat
+    )
     text = _latex(sides, flat)
-    return TransferFunction(head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness)
+    return TransferFunction(
+        head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness
+    )
 
 
 def correspondence(given: Chain, other: Chain) -> Correspondence | None:
@@ -81,7 +104,9 @@ def correspondence(given: Chain, other: Chain) -> Correspondence | None:
 
 
 def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:
-    """Determinable combinations of parameters, those too long to read by the name of their coefficient."""
+    """Determinable combinations of parameters, those too long to read by the name of their
+    coefficient.
+    """
     parts = ([symbol(c.name)] if c.is_named else formula(c.formula) for c in basis)
     return tuple(Markup(" ").join(map(math, found)) for found in parts)
 
@@ -99,16 +124,25 @@ def _readable(polynomial: Polynomial) -> RationalFunction | Sum:
 
 def _typeset(shown: RationalFunction | Sum, stiffness: bool) -> tuple[Markup, ...]:
     parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
-    return tuple(math(part.replace("<mi>k</mi>", "<mi>κ</mi>") if stiffness else part) for part in parts)
+    return tuple(
+        math(part.replace("<mi>k</mi>", "<mi>κ</mi>") if stiffness else part) for part in parts
+    )
 
 
 def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
-    return "<mo>+</mo>".join(symbol(f"{letter}{n}") + (symbol("s", n) if n else "") for n, _ in reversed(found))
+    return "<mo>+</mo>".join(
+        symbol(f"{letter}{n}") + (symbol("s", n) if n else "") for n, _ in reversed(found)
+    )
 
 
-def _latex(sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tuple[str, RationalFunction | Sum]]) -> str:
+def _latex(
+    sides: Sequence[tuple[str, Sequence[Coefficient]]],
+    flat: Sequence[tuple[str, RationalFunction | Sum]],
+) -> str:
     top, bottom = (_latex_in_s(*side) for side in sides)
-    rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [f"{latex_symbol(label)} &= {latex(shown)}" for label, shown in flat]
+    rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [
+        f"{latex_symbol(label)} &= {latex(shown)}" for label, shown in flat
+    ]
     return "\\begin{align}\n  " + " \\\\\n  ".join(rows) + "\n\\end{align}"
 
 

@@ -1,8 +1,9 @@
 """The guide: pages of Markdown in the package, rendered as pages of the site.
 
-Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link to another page of the guide
-leads to the rendered page; a link that leads out of the guide has no place in the site and stays as its words. The page named
-"index" lists the others, and their order there is that of the navigation.
+Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
+to another page of the guide leads to the rendered page; a link that leads out of the guide has no
+place in the site and stays as its words. The page named "index" lists the others, and their order
+there is that of the navigation.
 """
 
 import re
@@ -19,7 +20,8 @@ from markupsafe import Markup, escape
 from disting.report.environment import render, source
 
 LISTING = "index"
-LONG = 40  # letters; a table with two such cells in a row is read row by row where the screen is narrow
+# letters; a table with two such cells in a row is read row by row where the screen is narrow
+LONG = 40
 ADDRESS = re.compile(r"([a-z0-9-]+)\.md(#[\w-]+)?")
 Contents = tuple[tuple[str, str], ...]
 """Anchors and titles of a page's sections."""
@@ -27,7 +29,9 @@ Contents = tuple[tuple[str, str], ...]
 
 @dataclass(frozen=True, slots=True)
 class GuidePage:
-    """A page: its name without an ending, its first heading, its sections, and what follows the first heading as HTML."""
+    """A page: its name without an ending, its first heading, its sections, and what follows the
+    first heading as HTML.
+    """
 
     name: str
     title: str
@@ -36,7 +40,9 @@ class GuidePage:
 
 
 def guide_files() -> Iterator[tuple[str, bytes]]:
-    """Address below the site's folder and content of every page of the guide, and of their style sheet."""
+    """Address below the site's folder and content of every page of the guide, and of their
+    style sheet.
+    """
     texts = guide_texts()
     pages = [guide_page(name, text, texts) for name, text in texts.items()]
     for place, page in enumerate(pages):
@@ -45,7 +51,9 @@ def guide_files() -> Iterator[tuple[str, bytes]]:
 
 
 def guide_texts() -> dict[str, str]:
-    """Markdown of every page by its name: the listing first, then the others as it lists them, then any that it does not."""
+    """Markdown of every page by its name: the listing first, then the others as it lists them,
+    then any that it does not.
+    """
     found = {
         path.name.removesuffix(".md"): path.read_text(encoding="utf-8")
         for path in sorted((files("disting") / "guide").iterdir(), key=lambda path: path.name)
@@ -67,9 +75,11 @@ def framed(page: GuidePage, pages: Sequence[GuidePage], place: int) -> str:
 
 
 def guide_page(name: str, text: str, known: Container[str]) -> GuidePage:
-    """A page of Markdown whose first block is its title; `known`: names of the pages that links may lead to.
+    """A page of Markdown whose first block is its title; `known`: names of the pages that links
+    may lead to.
 
-    >>> page = guide_page("a", "# Title\\n\\n## Of *one*\\n\\nSee [b](b.md) and [code](../b.py), <b>.", ["a", "b"])
+    >>> text = "# Title\\n\\n## Of *one*\\n\\nSee [b](b.md) and [code](../b.py), <b>."
+    >>> page = guide_page("a", text, ["a", "b"])
     >>> page.title, page.contents
     ('Title', (('of-one', 'Of one'),))
     >>> print(page.body.splitlines()[1])
@@ -87,12 +97,17 @@ def guide_page(name: str, text: str, known: Container[str]) -> GuidePage:
         if token.children:
             token.children = list(_led(token.children, known))
     title = _words(tokens[1])
-    return GuidePage(name, title, contents, Markup(parser.renderer.render(tokens[3:], parser.options, {})))
+    return GuidePage(
+        name, title, contents, Markup(parser.renderer.render(tokens[3:], parser.options, {}))
+    )
 
 
 def _parser() -> MarkdownIt:
-    """CommonMark with tables, without HTML; what may be wider than a phone scrolls in a box of its own."""
-    parser = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")  # nothing is fetched
+    """CommonMark with tables, without HTML; what may be wider than a phone scrolls in a box of
+    its own.
+    """
+    # nothing is fetched
+    parser = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
     parser.add_render_rule("table_open", _table_open)
     parser.add_render_rule("table_close", lambda *_: "</table>\n</div>\n")
     parser.add_render_rule("code_inline", _code_in_text)
@@ -104,7 +119,10 @@ def _parser() -> MarkdownIt:
 def _table_open(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
     label = escape(f"Table: {tokens[place].meta['under']}")
     kind = "plain wordy" if tokens[place].meta.get("wordy") else "plain"
-    return f'<div class="scroll" tabindex="0" role="group" aria-label="{label}">\n<table class="{kind}">\n'
+    return (
+        f'<div class="scroll" tabindex="0" role="group" aria-label="{label}">\n<table'
+        f' class="{kind}">\n'
+    )
 
 
 def _code(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
@@ -114,12 +132,17 @@ def _code(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
 def _code_in_text(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
     """An option such as --no-cache is not broken at its hyphens."""
     whole = Markup('<span class="nobr">{}</span>')
-    words = (whole.format(word) if "-" in word and len(word) < LONG else word for word in tokens[place].content.split(" "))
+    words = (
+        whole.format(word) if "-" in word and len(word) < LONG else word
+        for word in tokens[place].content.split(" ")
+    )
     return f"<code>{Markup(' ').join(words)}</code>"
 
 
 def _with_anchors(tokens: Sequence[Token]) -> Contents:
-    """Give every heading an anchor, and every table the heading above it; the sections (headings of level 2)."""
+    """Give every heading an anchor, and every table the heading above it; the sections
+    (headings of level 2).
+    """
     seen: Counter[str] = Counter()
     contents, heading = [], ""
     for token, inner in pairwise(tokens):
@@ -135,7 +158,9 @@ def _with_anchors(tokens: Sequence[Token]) -> Contents:
 
 
 def _with_names_of_columns(tokens: Sequence[Token]) -> None:
-    """Give every cell of a wordy table the name of its column, which stands before it where rows are stacked."""
+    """Give every cell of a wordy table the name of its column, which stands before it where
+    rows are stacked.
+    """
     table, names = tokens[0], list[str]()
     cells = list[tuple[Token, Token]]()
     for token, inner in pairwise(tokens):
@@ -147,7 +172,9 @@ def _with_names_of_columns(tokens: Sequence[Token]) -> None:
             cells.append((token, inner))
         elif token.type == "table_close":
             rows = [cells[i : i + len(names)] for i in range(0, len(cells), len(names))]
-            table.meta["wordy"] = any(sum(len(_words(words)) > LONG for _, words in row) > 1 for row in rows)
+            table.meta["wordy"] = any(
+                sum(len(_words(words)) > LONG for _, words in row) > 1 for row in rows
+            )
             for row in rows if table.meta["wordy"] else []:
                 for (cell, _), name in zip(row, names, strict=True):
                     cell.attrSet("data-name", name)
@@ -167,7 +194,9 @@ def _words(inline: Token) -> str:
 
 
 def _led(children: Sequence[Token], known: Container[str]) -> Iterator[Token]:
-    """The same words with links to rendered pages; of a link that leads out of the guide only its words."""
+    """The same words with links to rendered pages; of a link that leads out of the guide only
+    its words.
+    """
     leads = True  # links do not nest
     for token in children:
         if token.type == "link_open":

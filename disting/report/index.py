@@ -27,7 +27,9 @@ Link = tuple[str, str, str]
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """What the index shows of a catalogue, or of a family with ground dampers; groups are those of several models."""
+    """What the index shows of a catalogue, or of a family with ground dampers; groups are those
+    of several models.
+    """
 
     name: str
     title: str
@@ -53,9 +55,15 @@ class Example:
     right: Drawing
 
 
-def index(catalogs: Sequence[Catalog], links: Sequence[Link] = (), dampers: Sequence[DamperFamily] = ()) -> str:
-    """HTML of the index: the catalogues in the order given, families with ground dampers, and further pages."""
-    sizes: dict[str, dict[str, object]] = {c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs}
+def index(
+    catalogs: Sequence[Catalog], links: Sequence[Link] = (), dampers: Sequence[DamperFamily] = ()
+) -> str:
+    """HTML of the index: the catalogues in the order given, families with ground dampers, and
+    further pages.
+    """
+    sizes: dict[str, dict[str, object]] = {
+        c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
+    }
     with_dampers: dict[str, dict[str, object]] = {
         name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
     }
@@ -78,18 +86,29 @@ def index(catalogs: Sequence[Catalog], links: Sequence[Link] = (), dampers: Sequ
 def card(catalog: Catalog) -> Card:
     """Headline and thumbnail of a catalogue."""
     groups = len(catalog.classes())
-    return _card(catalog.name, short_title(catalog), len(catalog.family), groups, totals(catalog), thumbnail(catalog))
+    return _card(
+        catalog.name,
+        short_title(catalog),
+        len(catalog.family),
+        groups,
+        totals(catalog),
+        thumbnail(catalog),
+    )
 
 
 def damper_card(found: DamperFamily) -> Card:
     """Headline of a family with ground dampers, and a thumbnail of its structures."""
     kind = found.family.n_masses, found.family.damped
     groups, counts = len(found.classes()), found.found.counts()
-    return _card(name_of(*kind), family_title(*kind), len(found), groups, counts, damper_thumbnail(found))
+    return _card(
+        name_of(*kind), family_title(*kind), len(found), groups, counts, damper_thumbnail(found)
+    )
 
 
 def example(catalogs: Sequence[Catalog]) -> Example | None:
-    """Two chains that look different and cannot be told apart: of three masses where there are any."""
+    """Two chains that look different and cannot be told apart: of three masses where there are
+    any.
+    """
     found = [c for c in catalogs if c.classes()]
     if not found:
         return None
@@ -99,6 +118,8 @@ def example(catalogs: Sequence[Catalog]) -> Example | None:
     return Example(f"{chosen.name}.html#{low}-{high}", short_title(chosen), *drawings)
 
 
-def _card(name: str, title: str, models: int, groups: int, counts: dict[Relation, int], scene: Scene) -> Card:
+def _card(
+    name: str, title: str, models: int, groups: int, counts: dict[Relation, int], scene: Scene
+) -> Card:
     box = f"0 0 {number(scene.width)} {number(scene.height)}"
     return Card(name, title, models, groups, counts, box, Markup(body(scene, PAGE_PALETTE)))

@@ -1,11 +1,12 @@
-"""What the start page's "Describe your machine" knows: the models' indices, what is not told apart, and the parts of drawings.
+"""What the start page's "Describe your machine" knows: the models' indices, what is not told
+apart, and the parts of drawings.
 
 What is told apart is told over positive parameters.
 
-A description is any chain under (36) and (37), so one that breaks (38) too: the page finds its model by the symmetries that
-(38) breaks (mirrored free part, force and sensor exchanged). Every layer of a drawing depends on the gap, one port, or one
-element and whether there are dampers, never on the number of masses: so each is held once, under a name that the page's
-script can spell.
+A description is any chain under (36) and (37), so one that breaks (38) too: the page finds its
+model by the symmetries that (38) breaks (mirrored free part, force and sensor exchanged). Every
+layer of a drawing depends on the gap, one port, or one element and whether there are dampers,
+never on the number of masses: so each is held once, under a name that the page's script can spell.
 """
 
 from collections.abc import Iterable, Iterator
@@ -47,7 +48,8 @@ def parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
 def part_name(chain: Chain, layer: Layer) -> str:
     """Name of a layer's part: what the layer shows, and what its place depends on.
 
-    >>> [part_name(Chain(2, damped=True), layer) for layer in draw(Chain(2, damped=True)).layers][-4:]
+    >>> two = Chain(2, damped=True)
+    >>> [part_name(two, layer) for layer in draw(two).layers][-4:]
     ['part-d12', 'part-gap-0', 'part-force-0-1', 'part-sensor-0-1']
     """
     depends = {
@@ -56,12 +58,15 @@ def part_name(chain: Chain, layer: Layer) -> str:
         "force": (chain.act_minus, chain.act_plus),
         "sensor": (chain.meas_minus, chain.meas_plus),
     }
-    above = ("damped",) * (chain.damped and layer.name.startswith("k"))  # a spring makes room for the damper below it
+    # a spring makes room for the damper below it
+    above = ("damped",) * (chain.damped and layer.name.startswith("k"))
     return "-".join(map(str, ("part", layer.name, *depends.get(layer.name, ()), *above)))
 
 
 def machines(catalogs: Iterable[Catalog]) -> list[dict[str, object]]:
-    """Of each catalogue: its models' five indices in order, groups, what depends on the values, how many verdicts are open."""
+    """Of each catalogue: its models' five indices in order, groups, what depends on the values,
+    how many verdicts are open.
+    """
     return [_machine(c) for c in catalogs]
 
 
@@ -82,10 +87,15 @@ def _machine(c: Catalog) -> dict[str, object]:
 
 
 def _depending(c: Catalog) -> dict[int, list[int]]:
-    """For each model, those that have equivalents of some of its positive parameters, or the reverse, but not of all."""
+    """For each model, those that have equivalents of some of its positive parameters, or the
+    reverse, but not of all.
+    """
     pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
     pairs += [(one.given, one.other) for one in one_sided(c)]
-    return {number: sorted(other for given, other in pairs if given == number) for number in sorted({p for p, _ in pairs})}
+    return {
+        number: sorted(other for given, other in pairs if given == number)
+        for number in sorted({p for p, _ in pairs})
+    }
 
 
 def _undecided(c: Catalog) -> dict[int, int]:

@@ -1,11 +1,11 @@
 """Mathematics for pages, as MathML Core (W3C), which browsers typeset without a script.
 
-A long sum is a list of terms, each an element of its own: a browser breaks lines between elements, never inside of one.
-Every name is a parameter's or a fixed letter, so nothing has to be escaped.
+A long sum is a list of terms, each an element of its own: a browser breaks lines between elements,
+never inside of one. Every name is a parameter's or a fixed letter, so nothing has to be escaped.
 
-Pages take their LaTeX from SymPy, but not this: its printer writes an expression as one element, and for the 15,500 pieces of
-the shipped pages of models it took 5.9 s instead of 0.6 s (all of these pages take 8.8 s) and 3.2 MB instead of 2.2 MB, with
-indices as identifiers.
+Pages take their LaTeX from SymPy, but not this: its printer writes an expression as one element,
+and for the 15,500 pieces of the shipped pages of models it took 5.9 s instead of 0.6 s (all of
+these pages take 8.8 s) and 3.2 MB instead of 2.2 MB, with indices as identifiers.
 """
 
 from collections.abc import Iterable, Mapping
@@ -81,7 +81,10 @@ def formula(value: Formula) -> list[str]:
         above = {name: e for name, e in exponents if e > 0}
         below = {name: -e for name, e in exponents if e < 0}
         top = product(coefficient, above)
-        parts.append(_sign(coefficient, first=place == 0) + (fraction(top, product(1, below)) if below else top))
+        parts.append(
+            _sign(coefficient, first=place == 0)
+            + (fraction(top, product(1, below)) if below else top)
+        )
     return parts
 
 

@@ -1,7 +1,8 @@
-"""The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, and as a thumbnail.
+"""The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, and as
+a thumbnail.
 
-Row and column of a field are the two models; the number is the condition that decided. How a field shows its relation is told
-in `disting.report.fields`.
+Row and column of a field are the two models; the number is the condition that decided. How a field
+shows its relation is told in `disting.report.fields`.
 """
 
 from collections.abc import Iterator
@@ -34,7 +35,9 @@ class Grid:
     @property
     def pairs(self) -> Iterator[tuple[int, int]]:
         """(column, row) of every field, row after row."""
-        return ((low, high) for high in range(2, len(self.catalog.family) + 1) for low in range(1, high))
+        return (
+            (low, high) for high in range(2, len(self.catalog.family) + 1) for low in range(1, high)
+        )
 
     def at(self, low: int, high: int) -> tuple[float, float]:
         """Upper left corner of a field."""
@@ -62,21 +65,33 @@ def figure(catalog: Catalog) -> Scene:
     cell, k = _cell(size), 1.6 if size > 30 else 1.0
     top, left = TOP * k, MARGIN + 2.2 * cell
     panel = max(size * cell, 150.0) + 3 * cell
-    panels = (_panel(Grid(catalog, view, left + i * panel, top, cell), k) for i, view in enumerate(VIEW_TITLES))
+    panels = (
+        _panel(Grid(catalog, view, left + i * panel, top, cell), k)
+        for i, view in enumerate(VIEW_TITLES)
+    )
     foot = top + size * cell + 26 * k
     width = max(len(VIEW_TITLES) * panel + left - cell, 620.0)
-    layers = (_head(catalog, k), *(layer for layers in panels for layer in layers), *legend(Relation, MARGIN, foot, k))
+    layers = (
+        _head(catalog, k),
+        *(layer for layers in panels for layer in layers),
+        *legend(Relation, MARGIN, foot, k),
+    )
     return Scene(width, foot + 26 * k, layers, f"{title(catalog)}: {headline(catalog)}")
 
 
 def thumbnail(catalog: Catalog, side: float = 168) -> Scene:
-    """The combined triangle without numbers, `side` pixels wide: a blue staircase with the other fields on it."""
+    """The combined triangle without numbers, `side` pixels wide: a blue staircase with the
+    other fields on it.
+    """
     size = len(catalog.family)
     cell = side / max(size - 1, 1)
     steps = [(x * cell, y * cell) for i in range(size - 1) for x, y in ((i, i), (i + 1, i))]
     stairs = Path((*steps, (side, side), (0, side)), Ink.NONE, Ink.DISTINGUISHABLE)
     runs = (run for high in range(2, size + 1) for run in _runs(catalog, high, cell))
-    layers = (Layer("distinguishable", (stairs,)), Layer("others", tuple(sorted(runs, key=lambda run: run.fill))))
+    layers = (
+        Layer("distinguishable", (stairs,)),
+        Layer("others", tuple(sorted(runs, key=lambda run: run.fill))),
+    )
     return Scene(side, side, layers, f"{title(catalog)}: {headline(catalog)}")
 
 
@@ -87,19 +102,31 @@ def _cell(size: int) -> float:
 
 def _head(catalog: Catalog, k: float) -> Layer:
     name = Text(MARGIN, 20 * k, title(catalog), 16 * k, anchor=Anchor.START, bold=True)
-    return Layer("head", (name, Text(MARGIN, 41 * k, headline(catalog), 12 * k, Ink.MUTED, Anchor.START)))
+    return Layer(
+        "head", (name, Text(MARGIN, 41 * k, headline(catalog), 12 * k, Ink.MUTED, Anchor.START))
+    )
 
 
 def _panel(grid: Grid, k: float) -> Iterator[Layer]:
     view, pairs = grid.view, list(grid.pairs)
     relations = {pair: grid.catalog.relation(*pair, view) for pair in pairs}
-    grouped = sorted(pairs, key=lambda pair: list(Relation).index(relations[pair]))  # equal style in a row: a smaller file
+    # equal style in a row: a smaller file
+    grouped = sorted(pairs, key=lambda pair: list(Relation).index(relations[pair]))
     marked = [pair for pair in grouped if relations[pair] in CORNERS]
     numbers = sorted((_number(grid, pair) for pair in pairs), key=lambda text: text.fill)
-    yield Layer(f"{view}-title", (Text(grid.x, grid.y - 14 * k, VIEW_TITLES[view], 13 * k, anchor=Anchor.START, bold=True),))
+    yield Layer(
+        f"{view}-title",
+        (Text(grid.x, grid.y - 14 * k, VIEW_TITLES[view], 13 * k, anchor=Anchor.START, bold=True),),
+    )
     yield Layer(f"{view}-labels", tuple(_labels(grid)))
-    yield Layer(f"{view}-fields", tuple(s for pair in grouped for s in field(*grid.at(*pair), relations[pair], grid.cell)))
-    yield Layer(f"{view}-corners", tuple(corner(*grid.at(*pair), relations[pair], grid.cell) for pair in marked))
+    yield Layer(
+        f"{view}-fields",
+        tuple(s for pair in grouped for s in field(*grid.at(*pair), relations[pair], grid.cell)),
+    )
+    yield Layer(
+        f"{view}-corners",
+        tuple(corner(*grid.at(*pair), relations[pair], grid.cell) for pair in marked),
+    )
     yield Layer(f"{view}-numbers", tuple(text for text in numbers if text.text))
 
 
@@ -128,7 +155,9 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
 
 
 def _runs(catalog: Catalog, high: int, cell: float) -> Iterator[Rect]:
-    """Neighbours of one relation in a row, as one rectangle; the distinguishable ones are left out."""
+    """Neighbours of one relation in a row, as one rectangle; the distinguishable ones are left
+    out.
+    """
     for relation, run in groupby(range(1, high), key=lambda low: catalog.relation(low, high)):
         lows = list(run)
         if relation is not Relation.DISTINGUISHABLE:

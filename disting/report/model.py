@@ -1,6 +1,8 @@
-"""A page about one model: its drawing, what no experiment can tell it from, its transfer function, what can be determined.
+"""A page about one model: its drawing, what no experiment can tell it from, its transfer function,
+what can be determined.
 
-It speaks of positive parameters, those of a machine; what is so over complex ones, as in the paper, is told behind it.
+It speaks of positive parameters, those of a machine; what is so over complex ones, as in the
+paper, is told behind it.
 """
 
 from collections import Counter
@@ -86,8 +88,8 @@ class Model:
 class Twin:
     """A model that some positive parameters, at least, do not tell from this one.
 
-    The pair's deep link, its relation as seen from this one, which of them have equivalents on the other side, and the
-    explicit map to it.
+    The pair's deep link, its relation as seen from this one, which of them have equivalents on the
+    other side, and the explicit map to it.
     """
 
     model: Model
@@ -99,13 +101,18 @@ class Twin:
     @property
     def title(self) -> str:
         """The relation in words."""
-        said = {Relation.INDISTINGUISHABLE: "Indistinguishable", Relation.UNDECIDED: "Undecided over positive parameters"}
+        said = {
+            Relation.INDISTINGUISHABLE: "Indistinguishable",
+            Relation.UNDECIDED: "Undecided over positive parameters",
+        }
         return said.get(self.relation, "It depends on the values")
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The models whose closure holds this one, those that this one's closure holds, and those of which neither is known."""
+    """The models whose closure holds this one, those that this one's closure holds, and those
+    of which neither is known.
+    """
 
     inside: tuple[int, ...]
     holds: tuple[int, ...]
@@ -132,7 +139,11 @@ def model_page(catalog: Catalog, number: int) -> str:
     """HTML of one model; beside it the style sheet of `write_report` is expected."""
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
     seen = {other: standing(number, other, v) for other, v in verdicts.items()}
-    twins = [_twin(catalog, model, other, v) for other, v in verdicts.items() if seen[other] is not Relation.DISTINGUISHABLE]
+    twins = [
+        _twin(catalog, model, other, v)
+        for other, v in verdicts.items()
+        if seen[other] is not Relation.DISTINGUISHABLE
+    ]
     over_complex = {other: catalog.relation(number, other, View.EXACT) for other in verdicts}
     return render(
         "model.html",
@@ -144,13 +155,21 @@ def model_page(catalog: Catalog, number: int) -> str:
         always=[t for t in twins if t.relation is Relation.INDISTINGUISHABLE],
         sometimes=[t for t in twins if t.relation is Relation.SOMETIMES],
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
-        complex_same=[other for other, relation in over_complex.items() if relation is Relation.INDISTINGUISHABLE],
-        complex_open=[other for other, relation in over_complex.items() if relation is Relation.UNDECIDED],
+        complex_same=[
+            other
+            for other, relation in over_complex.items()
+            if relation is Relation.INDISTINGUISHABLE
+        ],
+        complex_open=[
+            other for other, relation in over_complex.items() if relation is Relation.UNDECIDED
+        ],
         drawn=len(twins) <= DRAWN,
         transfer=written(model.row.chain),
         free=catalog.records[number]["free"],
         basis=combinations(model.row.identifiability.basis),
-        told_apart=told_apart({other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}),
+        told_apart=told_apart(
+            {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
+        ),
         limits=limits(number, verdicts),
         last=len(catalog.family),
         plural=plural,
@@ -159,7 +178,9 @@ def model_page(catalog: Catalog, number: int) -> str:
 
 def told_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
     """What tells the model from how many others, the most frequent first."""
-    found = Counter(v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE)
+    found = Counter(
+        v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE
+    )
     return tuple((rule_in_words(rule), count) for rule, count in found.most_common())
 
 
@@ -169,23 +190,37 @@ def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
     def others(larger: bool) -> Iterator[int]:
         """Models that this one lies in (`larger`), or that lie in it."""
         for other, v in verdicts.items():
-            inside = Inclusion.LEFT_IN_RIGHT if (number < other) == larger else Inclusion.RIGHT_IN_LEFT
+            inside = (
+                Inclusion.LEFT_IN_RIGHT if (number < other) == larger else Inclusion.RIGHT_IN_LEFT
+            )
             if v.closure is inside:
                 yield other
 
-    unknown = (o for o, v in verdicts.items() if v.closure is Inclusion.UNKNOWN and v.relation is Relation.DISTINGUISHABLE)
+    unknown = (
+        o
+        for o, v in verdicts.items()
+        if v.closure is Inclusion.UNKNOWN and v.relation is Relation.DISTINGUISHABLE
+    )
     return Limits(tuple(others(True)), tuple(others(False)), tuple(unknown))
 
 
 def standing(number: int, other: int, verdict: Verdict) -> Relation:
-    """The relation as seen from one model; of a distinguishable pair, some positive models of one side may have equivalents."""
+    """The relation as seen from one model; of a distinguishable pair, some positive models of
+    one side may have equivalents.
+    """
     found = _ways(number, other, verdict)[0]
-    if verdict.relation is not Relation.DISTINGUISHABLE or found is None or found.share is Share.NEVER:
+    if (
+        verdict.relation is not Relation.DISTINGUISHABLE
+        or found is None
+        or found.share is Share.NEVER
+    ):
         return verdict.relation
     return Relation.UNDECIDED if found.share is Share.UNKNOWN else Relation.SOMETIMES
 
 
-def _ways(number: int, other: int, verdict: Verdict) -> tuple[PositiveFinding | None, PositiveFinding | None]:
+def _ways(
+    number: int, other: int, verdict: Verdict
+) -> tuple[PositiveFinding | None, PositiveFinding | None]:
     """From this model to the other one, and back."""
     ways = (verdict.left_positive, verdict.right_positive)
     return ways if number < other else ways[::-1]
@@ -203,22 +238,34 @@ def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
     twin, ways = model_of(catalog, other), _ways(here, other, verdict)
     said = _positive(ways, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
     relation = standing(here, other, verdict)
-    return Twin(twin, f"{low}-{high}", relation, said, correspondence(model.row.chain, twin.row.chain))
+    return Twin(
+        twin, f"{low}-{high}", relation, said, correspondence(model.row.chain, twin.row.chain)
+    )
 
 
-def _positive(ways: tuple[PositiveFinding | None, PositiveFinding | None], other: int, *, one_sided: bool) -> str:
-    """Which positive parameters of this model have positive ones of the other, and the reverse where that is not the same."""
+def _positive(
+    ways: tuple[PositiveFinding | None, PositiveFinding | None], other: int, *, one_sided: bool
+) -> str:
+    """Which positive parameters of this model have positive ones of the other, and the reverse
+    where that is not the same.
+    """
     here, there = (Share.UNKNOWN if found is None else found.share for found in ways)
     said = {
-        Share.ALWAYS: f"for all positive parameters here, A{other} has positive ones that do the same",
-        Share.SOMETIMES: f"only for some positive parameters here, A{other} has positive ones that do the same",
+        Share.ALWAYS: (
+            f"for all positive parameters here, A{other} has positive ones that do the same"
+        ),
+        Share.SOMETIMES: (
+            f"only for some positive parameters here, A{other} has positive ones that do the same"
+        ),
         Share.NEVER: f"A{other} needs parameters that are not positive",
         Share.UNKNOWN: f"whether A{other} has positive parameters that do the same is not known",
     }
     if one_sided:
         return f"{said[here]}; generic ones of A{other} have none here"
     back = {Share.ALWAYS: "for all", Share.SOMETIMES: "for some only", Share.UNKNOWN: "not known"}
-    return said[here] + (f"; the reverse {back[there]}" if there is not here and there in back else "")
+    return said[here] + (
+        f"; the reverse {back[there]}" if there is not here and there in back else ""
+    )
 
 
 def _port(plus: int, minus: int) -> str:

@@ -1,7 +1,8 @@
 """A catalogue as one HTML page that needs nothing else.
 
-The verdicts are drawn by the page's script from a compact payload: below the diagonal one view, above it another. What the
-drawing shows is said in text too: by the field under the cursor, by the panel of a pair, and by the table of groups.
+The verdicts are drawn by the page's script from a compact payload: below the diagonal one view,
+above it another. What the drawing shows is said in text too: by the field under the cursor, by the
+panel of a pair, and by the table of groups.
 """
 
 from dataclasses import dataclass
@@ -52,10 +53,15 @@ class Count:
 
 
 def page(catalog: Catalog, *, dampers: str = "") -> str:
-    """HTML of a catalogue; `dampers`: name of the page of the family with ground dampers, where that is beside it."""
+    """HTML of a catalogue; `dampers`: name of the page of the family with ground dampers, where
+    that is beside it.
+    """
     models = [model_of(catalog, row.number) for row in catalog.rows]
     domains = [over(catalog, view) for view in VIEWS]
-    grouped = [Grouped(of, [[models[m - 1].drawing for m in members] for members in of.groups]) for of in domains]
+    grouped = [
+        Grouped(of, [[models[m - 1].drawing for m in members] for members in of.groups])
+        for of in domains
+    ]
     return render(
         "page.html",
         title=title(catalog),
@@ -65,7 +71,10 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         folder=folder_of(catalog),
         domains=grouped,
         compared=sum(domains[0].totals.values()),
-        views=[Shown(view, name, summary(catalog, view), totals(catalog, view)) for view, name in VIEW_TITLES.items()],
+        views=[
+            Shown(view, name, summary(catalog, view), totals(catalog, view))
+            for view, name in VIEW_TITLES.items()
+        ],
         below=BELOW,
         above=ABOVE,
         counts=counts(catalog),
@@ -92,7 +101,11 @@ def summary(catalog: Catalog, view: View) -> str:
     first = iter(["pairs by condition "])
     by_name = [name for name in found if RULES[name].role is not Role.DECISION]
     parts = [f"{found[name]} {next(first, 'by ')}{name}" for name in by_name]
-    parts += [f"{n} by {RULES[name].in_words(view.domain)}" for name, n in found.items() if name not in by_name]
+    parts += [
+        f"{n} by {RULES[name].in_words(view.domain)}"
+        for name, n in found.items()
+        if name not in by_name
+    ]
     return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."
 
 
@@ -102,13 +115,18 @@ def counts(catalog: Catalog) -> list[Count]:
     rows = [(rule.name, rule.sign, rule.title, rule.text, decides(rule)) for rule in RULES.values()]
     rows += [("", "", "undecided", "nothing decides", Relation.UNDECIDED)]
     return [
-        Count(sign, title, text, relation, tuple(f.get(name, 0) for f in found)) for name, sign, title, text, relation in rows
+        Count(sign, title, text, relation, tuple(f.get(name, 0) for f in found))
+        for name, sign, title, text, relation in rows
     ]
 
 
 def undecided(catalog: Catalog) -> list[tuple[int, int]]:
     """The pairs that stay open after the conditions."""
-    return [(low, high) for low, high, v in catalog.pairs(View.COMBINED) if v.relation is Relation.UNDECIDED]
+    return [
+        (low, high)
+        for low, high, v in catalog.pairs(View.COMBINED)
+        if v.relation is Relation.UNDECIDED
+    ]
 
 
 def example(catalog: Catalog) -> Drawing:

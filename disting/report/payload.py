@@ -1,7 +1,9 @@
-"""The data behind the fields: each view's verdicts in a compact form for the page's script, each text once.
+"""The data behind the fields: each view's verdicts in a compact form for the page's script, each
+text once.
 
-Pair (low, high) is entry (high - 1)(high - 2)/2 + low - 1 of a view, that is row after row of the triangle. A sentence
-names the models {L} and {R}, so that pairs decided alike share it. Equal neighbours are counted (`packed`).
+Pair (low, high) is entry (high - 1)(high - 2)/2 + low - 1 of a view, that is row after row of the
+triangle. A sentence names the models {L} and {R}, so that pairs decided alike share it. Equal
+neighbours are counted (`packed`).
 """
 
 import json
@@ -30,12 +32,18 @@ CERTAINTIES = {
 
 SHARES = {
     Share.ALWAYS: "Every generic {0} with positive parameters has a positive equivalent {1}",
-    Share.SOMETIMES: "Some {0} with positive parameters have a positive equivalent {1}, others have none",
+    Share.SOMETIMES: (
+        "Some {0} with positive parameters have a positive equivalent {1}, others have none"
+    ),
     Share.NEVER: "No generic {0} with positive parameters has a positive equivalent {1}",
-    Share.UNKNOWN: "Whether {0} with positive parameters have a positive equivalent {1} is not known",
+    Share.UNKNOWN: (
+        "Whether {0} with positive parameters have a positive equivalent {1} is not known"
+    ),
 }
 Entry = tuple[str, str, str, str, str, str, str, str]
-"""relation, decided_by, representation, certainty in words, domain, why, formula, what decided in words"""
+"""relation, decided_by, representation, certainty in words, domain, why, formula, what decided
+in words
+"""
 
 
 @dataclass(slots=True)
@@ -50,9 +58,14 @@ class Pool:
 
 
 def payload(catalog: Catalog, domains: Sequence[Over], **more: object) -> Markup:
-    """JSON text that is safe inside a script element: the views, groups by domain, and what else the script is to know."""
+    """JSON text that is safe inside a script element: the views, groups by domain, and what
+    else the script is to know.
+    """
     texts, entries = Pool(), Pool()
-    views = {view.value: packed([entries.number(_entry(v)) for v in _triangle(catalog, view)]) for view in VIEW_TITLES}
+    views = {
+        view.value: packed([entries.number(_entry(v)) for v in _triangle(catalog, view)])
+        for view in VIEW_TITLES
+    }
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
     data = more | {
         "masses": catalog.n_masses,
@@ -71,7 +84,8 @@ def payload(catalog: Catalog, domains: Sequence[Over], **more: object) -> Markup
 
 
 def packed(numbers: Sequence[int]) -> list[int]:
-    """Numbers >= 0 with their repetitions as one negative count, so that a matrix of millions of fields stays small.
+    """Numbers >= 0 with their repetitions as one negative count, so that a matrix of millions of
+    fields stays small.
 
     >>> packed([7, 7, 7, 0, 7])
     [7, -2, 0, 7]
@@ -108,17 +122,32 @@ def _entry(verdict: Verdict) -> Entry:
     if verdict.inclusions is not None:
         why = f"{why} Over complex parameters: {verdict.inclusions.sentence('{L}', '{R}')}"
     why = " ".join([why, *_shares(verdict)])
-    graded = (verdict.relation, verdict.decided_by, verdict.representation, certainty, verdict.domain)
+    graded = (
+        verdict.relation,
+        verdict.decided_by,
+        verdict.representation,
+        certainty,
+        verdict.domain,
+    )
     return *graded, why, formula, verdict.rule
 
 
 def _shares(verdict: Verdict) -> Iterator[str]:
-    """Which positive models of each side have positive equivalents, where the evidence does not say so already."""
+    """Which positive models of each side have positive equivalents, where the evidence does not
+    say so already.
+    """
     if verdict.decided_by == ADMISSIBLE.name:
         return
-    for found, given, other in ((verdict.left_positive, "{L}", "{R}"), (verdict.right_positive, "{R}", "{L}")):
+    for found, given, other in (
+        (verdict.left_positive, "{L}", "{R}"),
+        (verdict.right_positive, "{R}", "{L}"),
+    ):
         if found is not None:
-            seen = f" ({found.empirical.sentence})" if found.share is Share.SOMETIMES and found.empirical else ""
+            seen = (
+                f" ({found.empirical.sentence})"
+                if found.share is Share.SOMETIMES and found.empirical
+                else ""
+            )
             yield SHARES[found.share].format(given, other) + seen + "."
 
 

@@ -1,6 +1,7 @@
 """Scene to PNG with Pillow: drawn larger than asked and reduced, which smooths the edges.
 
-The letters are Pillow's own scalable font, so that no font has to be installed; it knows ASCII only.
+The letters are Pillow's own scalable font, so that no font has to be installed; it knows ASCII
+only.
 """
 
 from functools import cache
@@ -8,12 +9,25 @@ from io import BytesIO
 
 from PIL import Image, ImageDraw, ImageFont
 
-from disting.report.scene import FILE_PALETTE, Anchor, Circle, Ink, Palette, Path, Rect, Scene, Shape, Text
+from disting.report.scene import (
+    FILE_PALETTE,
+    Anchor,
+    Circle,
+    Ink,
+    Palette,
+    Path,
+    Rect,
+    Scene,
+    Shape,
+    Text,
+)
 
 ANCHORS = {Anchor.START: "ls", Anchor.MIDDLE: "ms", Anchor.END: "rs"}
 
 
-def png(scene: Scene, palette: Palette = FILE_PALETTE, *, scale: float = 2, oversample: int = 3) -> bytes:
+def png(
+    scene: Scene, palette: Palette = FILE_PALETTE, *, scale: float = 2, oversample: int = 3
+) -> bytes:
     """PNG bytes, `scale` pixels a unit, on a ground of the palette's paper colour."""
     width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
     canvas = Image.new("RGB", (width * oversample, height * oversample), palette[Ink.PAPER])
@@ -34,8 +48,15 @@ def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float) ->
             pen.text((x * k, shape.baseline * k), text, fill, font, anchor, stroke_width=bold)
         case Rect(x, y, width, height):
             half = _half(shape, k)
-            box = (x * k - half, y * k - half, (x + width) * k - 1 + half, (y + height) * k - 1 + half)
-            pen.rounded_rectangle(box, shape.radius * k + half, fill, _colour(palette, shape.stroke), round(2 * half))
+            box = (
+                x * k - half,
+                y * k - half,
+                (x + width) * k - 1 + half,
+                (y + height) * k - 1 + half,
+            )
+            pen.rounded_rectangle(
+                box, shape.radius * k + half, fill, _colour(palette, shape.stroke), round(2 * half)
+            )
         case Circle(x, y, radius):
             reach = radius * k + _half(shape, k)
             box = (x * k - reach, y * k - reach, x * k + reach, y * k + reach)
@@ -44,7 +65,13 @@ def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float) ->
             _draw_path(pen, shape, [(x * k, y * k) for x, y in points], palette, k)
 
 
-def _draw_path(pen: ImageDraw.ImageDraw, path: Path, points: list[tuple[float, float]], palette: Palette, k: float) -> None:
+def _draw_path(
+    pen: ImageDraw.ImageDraw,
+    path: Path,
+    points: list[tuple[float, float]],
+    palette: Palette,
+    k: float,
+) -> None:
     if path.fill != Ink.NONE:
         pen.polygon(points, _colour(palette, path.fill))
         points = [*points, points[0]]
@@ -67,5 +94,6 @@ def _colour(palette: Palette, ink: Ink) -> str | None:
 @cache
 def _font(size: float) -> ImageFont.FreeTypeFont:
     font = ImageFont.load_default(size)
-    assert isinstance(font, ImageFont.FreeTypeFont)  # Pillow was built with FreeType, as all its wheels are
+    # Pillow was built with FreeType, as all its wheels are
+    assert isinstance(font, ImageFont.FreeTypeFont)
     return font

@@ -1,7 +1,8 @@
-"""What a figure consists of: a few frozen shapes in layers. `svg` and `png` turn a scene into a file.
+"""What a figure consists of: a few frozen shapes in layers. `svg` and `png` turn a scene into a
+file.
 
-Colours are roles (`Ink`), so that the same scene serves a page that knows light and dark, and a stand-alone file.
-Coordinates run to the right and downwards, in pixels at scale 1.
+Colours are roles (`Ink`), so that the same scene serves a page that knows light and dark, and a
+stand-alone file. Coordinates run to the right and downwards, in pixels at scale 1.
 """
 
 from collections.abc import Iterator, Mapping
@@ -53,7 +54,10 @@ FILE_PALETTE: Palette = {
 }
 """Explicit colours for stand-alone files."""
 
-PAGE_PALETTE: Palette = {ink: f"var(--{ink})" for ink in Ink} | {Ink.NONE: "none", Ink.LINE: "currentColor"}
+PAGE_PALETTE: Palette = {ink: f"var(--{ink})" for ink in Ink} | {
+    Ink.NONE: "none",
+    Ink.LINE: "currentColor",
+}
 """Colours that the page's style sheet gives, light or dark."""
 
 
@@ -145,7 +149,9 @@ class Scene:
         return (shape for layer in self.layers for shape in layer.shapes)
 
 
-def arrow(start: Point, end: Point, ink: Ink, *, line: float = 2, head: float = 8) -> tuple[Path, ...]:
+def arrow(
+    start: Point, end: Point, ink: Ink, *, line: float = 2, head: float = 8
+) -> tuple[Path, ...]:
     """A straight shaft and a filled head whose tip is `end`."""
     length = hypot(end[0] - start[0], end[1] - start[1])
     ux, uy = (end[0] - start[0]) / length, (end[1] - start[1]) / length
@@ -167,5 +173,7 @@ def extent(shape: Shape) -> tuple[float, float, float, float]:
             return min(xs), min(ys), max(xs), max(ys)
         case Text(x, y, text, size):
             width = 0.62 * size * len(text)
-            left = x - {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}[shape.anchor] * width
+            left = (
+                x - {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}[shape.anchor] * width
+            )
             return left, y - size / 2, left + width, y + size / 2

@@ -1,7 +1,9 @@
-"""Models of several sizes in one triangle of fields: what condition decides, and which smaller models lie in which larger ones.
+"""Models of several sizes in one triangle of fields: what condition decides, and which smaller
+models lie in which larger ones.
 
-A field of two sizes shows ⊂ where the smaller model is, over complex parameters, a limit of the larger one; else the condition
-by which the two are distinguishable. Verdicts are over positive parameters.
+A field of two sizes shows ⊂ where the smaller model is, over complex parameters, a limit of the
+larger one; else the condition by which the two are distinguishable. Verdicts are over positive
+parameters.
 """
 
 from collections import Counter
@@ -25,13 +27,16 @@ from disting.written import write_whole
 CELL = 24.0
 LEFT, TOP = 44.0, 8.0
 LETTER = 11.0
-INSIDE = {Inclusion.LEFT_IN_RIGHT: "⊂", Inclusion.RIGHT_IN_LEFT: "⊃"}  # the column's model in the row's, or the reverse
+# the column's model in the row's, or the reverse
+INSIDE = {Inclusion.LEFT_IN_RIGHT: "⊂", Inclusion.RIGHT_IN_LEFT: "⊃"}
 Pair = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class Between:
-    """Pairs of two sizes: how many smaller models lie in a larger one, how many do not, how many are not known."""
+    """Pairs of two sizes: how many smaller models lie in a larger one, how many do not, how
+    many are not known.
+    """
 
     small: int
     large: int
@@ -55,9 +60,13 @@ def name_of(damped: bool) -> str:
 
 
 def write_sizes(decided: Decisions, out: Path) -> Path:
-    """Write the page of models of several sizes, decided with inclusions, into a folder; returns its path."""
+    """Write the page of models of several sizes, decided with inclusions, into a folder;
+    returns its path.
+    """
     out.mkdir(parents=True, exist_ok=True)
-    return write_whole(out / f"{name_of(decided.subjects[0].chain.damped)}.html", [sizes_page(decided)])
+    return write_whole(
+        out / f"{name_of(decided.subjects[0].chain.damped)}.html", [sizes_page(decided)]
+    )
 
 
 def sizes_page(decided: Decisions) -> str:
@@ -84,7 +93,11 @@ def between(decided: Decisions) -> Iterator[Between]:
     """Counts for every two sizes."""
     sizes = [s.chain.n_masses for s in decided.subjects]
     for small, large in combinations(sorted(set(sizes)), 2):
-        pairs = ((i, j) for i, j in combinations(range(len(sizes)), 2) if (sizes[i], sizes[j]) == (small, large))
+        pairs = (
+            (i, j)
+            for i, j in combinations(range(len(sizes)), 2)
+            if (sizes[i], sizes[j]) == (small, large)
+        )
         count = Counter(decided.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)
         inside, unknown = count[Inclusion.LEFT_IN_RIGHT], count[Inclusion.UNKNOWN]
         yield Between(small, large, inside, count.total() - inside - unknown, unknown)
@@ -99,11 +112,20 @@ def outside(decided: Decisions) -> Iterator[Outside]:
 
 
 def _why(verdict: Verdict, left: str, right: str) -> str:
-    """The finding's reason; models of equal rank have none of their own, because limits with fewer poles have a smaller one."""
+    """The finding's reason; models of equal rank have none of their own, because limits with
+    fewer poles have a smaller one.
+    """
     found = None if verdict.inclusions is None else verdict.inclusions.closure
     if found is None or found.evidence is None:
-        return f"Both have equally many determinable parameters; limits of {right} with fewer poles have fewer."
-    bound = f" (wrong with a probability of at most {probability(f'2^-{found.safety}')})" if found.safety else ""
+        return (
+            f"Both have equally many determinable parameters; limits of {right} with fewer poles"
+            " have fewer."
+        )
+    bound = (
+        f" (wrong with a probability of at most {probability(f'2^-{found.safety}')})"
+        if found.safety
+        else ""
+    )
     return found.evidence.sentence(left, right) + bound
 
 
@@ -112,11 +134,18 @@ def figure(decided: Decisions) -> Scene:
     subjects, n = decided.subjects, len(decided.subjects)
     pairs = [(j, i) for i in range(n) for j in range(i)]
     fields = tuple(s for j, i in pairs for s in field(*_at(j, i), decided.relation(j, i), CELL))
-    corners = tuple(corner(*_at(j, i), r, CELL) for j, i in pairs if (r := decided.relation(j, i)) in CORNERS)
+    corners = tuple(
+        corner(*_at(j, i), r, CELL) for j, i in pairs if (r := decided.relation(j, i)) in CORNERS
+    )
     signs = tuple(_sign(decided, j, i) for j, i in pairs)
     labels = tuple(_labels([s.name for s in subjects]))
     frames = tuple(_frames([s.chain.n_masses for s in subjects]))
-    layers = (Layer("fields", fields), Layer("corners", corners), Layer("signs", signs), Layer("labels", labels))
+    layers = (
+        Layer("fields", fields),
+        Layer("corners", corners),
+        Layer("signs", signs),
+        Layer("labels", labels),
+    )
     said = "Verdicts and inclusions of models of different sizes"
     return Scene(LEFT + n * CELL + 28, TOP + n * CELL + 4, (*layers, Layer("sizes", frames)), said)
 
@@ -137,7 +166,14 @@ def _sign(decided: Decisions, column: int, row: int) -> Text:
     inside = INSIDE.get(decided.inclusion(column, row, Sense.CLOSURE), "")
     half = (CELL - 1) / 2
     ink = LETTERS.get(decided.relation(column, row), Ink.LINE)
-    return Text(x + half, y + half, inside or sign(decided.rule(column, row)), 0.58 * CELL, ink, bold=bool(inside))
+    return Text(
+        x + half,
+        y + half,
+        inside or sign(decided.rule(column, row)),
+        0.58 * CELL,
+        ink,
+        bold=bool(inside),
+    )
 
 
 def _labels(names: list[str]) -> Iterator[Text]:
@@ -150,7 +186,12 @@ def _labels(names: list[str]) -> Iterator[Text]:
 
 def _frames(sizes: list[int]) -> Iterator[Rect]:
     """A frame around the fields of every two sizes."""
-    spans = [(size, [i for i, _ in run]) for size, run in groupby(enumerate(sizes), key=lambda pair: pair[1])]
+    spans = [
+        (size, [i for i, _ in run])
+        for size, run in groupby(enumerate(sizes), key=lambda pair: pair[1])
+    ]
     for (_, columns), (_, rows) in combinations(spans, 2):
         x, y = _at(columns[0], rows[0])
-        yield Rect(x - 1.5, y - 1.5, len(columns) * CELL + 2, len(rows) * CELL + 2, stroke=Ink.LINE, line=2)
+        yield Rect(
+            x - 1.5, y - 1.5, len(columns) * CELL + 2, len(rows) * CELL + 2, stroke=Ink.LINE, line=2
+        )

@@ -1,11 +1,24 @@
-"""Scene to SVG. Neighbours of equal style share one group, which keeps a matrix of thousands of fields small."""
+"""Scene to SVG. Neighbours of equal style share one group, which keeps a matrix of thousands of
+fields small.
+"""
 
 from collections.abc import Iterable
 from itertools import groupby
 
 from markupsafe import escape
 
-from disting.report.scene import FILE_PALETTE, Circle, Ink, Layer, Palette, Path, Rect, Scene, Shape, Text
+from disting.report.scene import (
+    FILE_PALETTE,
+    Circle,
+    Ink,
+    Layer,
+    Palette,
+    Path,
+    Rect,
+    Scene,
+    Shape,
+    Text,
+)
 
 NAMESPACE = "http://www.w3.org/2000/svg"
 FONT = "system-ui, 'Segoe UI', Roboto, 'Liberation Sans', 'DejaVu Sans', Arial, sans-serif"
@@ -15,9 +28,9 @@ def svg(scene: Scene, palette: Palette = FILE_PALETTE) -> str:
     """A stand-alone SVG document on a ground of the palette's paper colour."""
     size = f'width="{number(scene.width)}" height="{number(scene.height)}"'
     return (
-        f'<svg xmlns="{NAMESPACE}" {size} viewBox="0 0 {number(scene.width)} {number(scene.height)}" role="img">'
-        f"<title>{escape(scene.title)}</title>"
-        f'<rect {size} fill="{palette[Ink.PAPER]}"/>{body(scene, palette)}</svg>\n'
+        f'<svg xmlns="{NAMESPACE}" {size} viewBox="0 0 {number(scene.width)}'
+        f' {number(scene.height)}" role="img"><title>{escape(scene.title)}</title><rect {size}'
+        f' fill="{palette[Ink.PAPER]}"/>{body(scene, palette)}</svg>\n'
     )
 
 
@@ -49,8 +62,15 @@ def _styled(shapes: Iterable[Shape], palette: Palette) -> str:
 def _style(shape: Shape, palette: Palette) -> str:
     if isinstance(shape, Text):
         weight = ' font-weight="600"' if shape.bold else ""
-        return f'fill="{palette[shape.fill]}" font-size="{number(shape.size)}" text-anchor="{shape.anchor}"{weight}'
-    stroke = f' stroke="{palette[shape.stroke]}" stroke-width="{number(shape.line)}"' if shape.stroke != Ink.NONE else ""
+        return (
+            f'fill="{palette[shape.fill]}" font-size="{number(shape.size)}"'
+            f' text-anchor="{shape.anchor}"{weight}'
+        )
+    stroke = (
+        f' stroke="{palette[shape.stroke]}" stroke-width="{number(shape.line)}"'
+        if shape.stroke != Ink.NONE
+        else ""
+    )
     return f'fill="{palette[shape.fill]}"{stroke}'
 
 
@@ -58,7 +78,10 @@ def _element(shape: Shape) -> str:
     match shape:
         case Rect(x, y, width, height):
             corner = f' rx="{number(shape.radius)}"' if shape.radius else ""
-            return f'<rect x="{number(x)}" y="{number(y)}" width="{number(width)}" height="{number(height)}"{corner}/>'
+            return (
+                f'<rect x="{number(x)}" y="{number(y)}" width="{number(width)}"'
+                f' height="{number(height)}"{corner}/>'
+            )
         case Circle(x, y, radius):
             return f'<circle cx="{number(x)}" cy="{number(y)}" r="{number(radius)}"/>'
         case Path(points):

@@ -26,19 +26,32 @@ def title(catalog: Catalog) -> str:
 
 def short_title(catalog: Catalog) -> str:
     """Such as "3 masses, damped"."""
-    return f"{plural(catalog.n_masses, 'mass', 'masses')}, {'damped' if catalog.damped else 'undamped'}"
+    return (
+        f"{plural(catalog.n_masses, 'mass', 'masses')},"
+        f" {'damped' if catalog.damped else 'undamped'}"
+    )
 
 
 def headline(catalog: Catalog) -> str:
     """Models, pairs and relations over positive parameters in one sentence.
 
     >>> from disting.catalogs import catalog
-    >>> headline(catalog(3))
-    '11 models, 55 pairs, over positive parameters: 43 distinguishable, 12 indistinguishable, 0 undecided'
+    >>> domain, counts = headline(catalog(3)).split(": ")
+    >>> domain
+    '11 models, 55 pairs, over positive parameters'
+    >>> counts
+    '43 distinguishable, 12 indistinguishable, 0 undecided'
     """
     found = totals(catalog)
-    head = f"{plural(len(catalog.family), 'model')}, {plural(sum(found.values()), 'pair')}, over positive parameters"
-    said = (f"{n} {SAID[relation]}" for relation, n in found.items() if n or relation is not Relation.SOMETIMES)
+    head = (
+        f"{plural(len(catalog.family), 'model')}, {plural(sum(found.values()), 'pair')}, over"
+        " positive parameters"
+    )
+    said = (
+        f"{n} {SAID[relation]}"
+        for relation, n in found.items()
+        if n or relation is not Relation.SOMETIMES
+    )
     return f"{head}: {', '.join(said)}"
 
 
@@ -46,7 +59,9 @@ def totals(catalog: Catalog, view: View = View.POSITIVE) -> dict[Relation, int]:
     """Number of pairs by relation; SOMETIMES only where it can occur."""
     numbers = range(1, len(catalog.family) + 1)
     found = [catalog.relation(low, high, view) for high in numbers for low in range(1, high)]
-    shown = [r for r in Relation if r is not Relation.SOMETIMES or view.domain is not Domain.COMPLEX]
+    shown = [
+        r for r in Relation if r is not Relation.SOMETIMES or view.domain is not Domain.COMPLEX
+    ]
     return {relation: found.count(relation) for relation in shown}
 
 

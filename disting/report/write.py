@@ -1,4 +1,6 @@
-"""Writes the report of some catalogues into a folder: a small site of pages, and figures and data beside them."""
+"""Writes the report of some catalogues into a folder: a small site of pages, and figures and
+data beside them.
+"""
 
 from collections.abc import Container, Iterator, Sequence
 from itertools import product
@@ -27,25 +29,44 @@ GUIDE: Link = (
     "what a verdict says, how to read a fit, how it works, how fast and how reliable it is",
 )
 LINKS: tuple[Link, ...] = (
-    ("sizes-undamped.html", "Different sizes, undamped", "which smaller models are limits of larger ones"),
-    ("sizes-damped.html", "Different sizes, damped", "which smaller models are limits of larger ones"),
-    ("paper/index.html", "The paper, claim by claim", "what the paper prints, and what is found here, side by side"),
+    (
+        "sizes-undamped.html",
+        "Different sizes, undamped",
+        "which smaller models are limits of larger ones",
+    ),
+    (
+        "sizes-damped.html",
+        "Different sizes, damped",
+        "which smaller models are limits of larger ones",
+    ),
+    (
+        "paper/index.html",
+        "The paper, claim by claim",
+        "what the paper prints, and what is found here, side by side",
+    ),
     ("fit.html", "A fit", "which structure a measured frequency response supports"),
     ("fit/index.html", "A fit", "which structure a measured frequency response supports"),
 )
 """Pages that other commands write, listed where they are in the folder already."""
 
 
-def write_report(catalogs: Sequence[Catalog], out: Path, dampers: Sequence[DamperFamily] = ()) -> list[Path]:
-    """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, the guide, and index.html.
+def write_report(
+    catalogs: Sequence[Catalog], out: Path, dampers: Sequence[DamperFamily] = ()
+) -> list[Path]:
+    """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, the
+    guide, and index.html.
 
-    Of families with ground dampers, `dampers`, a page each. The same catalogues give the same bytes. `out` is made if it does
-    not exist; other files in it stay as they are, and the index leads to the pages of shipped catalogues and to other known
-    pages among them too. Returns the paths, in order.
+    Of families with ground dampers, `dampers`, a page each. The same catalogues give the same
+    bytes. `out` is made if it does not exist; other files in it stay as they are, and the index
+    leads to the pages of shipped catalogues and to other known pages among them too. Returns the
+    paths, in order.
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
-    families = sorted([*dampers, *_dampers_beside(dampers, out)], key=lambda f: (f.family.n_masses, f.family.damped))
+    families = sorted(
+        [*dampers, *_dampers_beside(dampers, out)],
+        key=lambda f: (f.family.n_masses, f.family.damped),
+    )
     links = [GUIDE, *(link for link in LINKS if (out / link[0]).is_file())]
     names = {c.name for c in listed}
     with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
@@ -77,7 +98,10 @@ def _dampers_beside(dampers: Sequence[DamperFamily], out: Path) -> Iterator[Damp
 
 def _damper_file(found: DamperFamily, names: Container[str]) -> tuple[str, bytes]:
     kind = found.family.n_masses, found.family.damped
-    return f"{damper_name(*kind)}.html", damper_page(found, catalog=name_of(*kind) in names).encode()
+    return (
+        f"{damper_name(*kind)}.html",
+        damper_page(found, catalog=name_of(*kind) in names).encode(),
+    )
 
 
 def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, bytes]]:

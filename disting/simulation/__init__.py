@@ -1,4 +1,6 @@
-"""Simulated measurements of chains: what a bench would record, with noise, quantisation, friction, dead time and lag."""
+"""Simulated measurements of chains: what a bench would record, with noise, quantisation,
+friction, dead time and lag.
+"""
 
 from disting.simulation.bench import DEMO_BENCH as DEMO_BENCH
 from disting.simulation.bench import DEMO_MODEL as DEMO_MODEL

@@ -1,9 +1,10 @@
 """Simulated measurements: a chain, a periodic test signal, and what a real bench adds.
 
-The force is the continuous band-limited signal through the samples u, not a staircase: no correction for a zero-order hold is
-needed, and G of a record without noise is G of the model. Without Coulomb friction the periodic motion is computed line by
-line, Y_k = G(j omega_k) U_k, with dead time and lag exact and nothing left of a transient; with it, by `stepping`, from the
-motion without it, so that the first periods are a transient.
+The force is the continuous band-limited signal through the samples u, not a staircase: no
+correction for a zero-order hold is needed, and G of a record without noise is G of the model.
+Without Coulomb friction the periodic motion is computed line by line, Y_k = G(j omega_k) U_k, with
+dead time and lag exact and nothing left of a transient; with it, by `stepping`, from the motion
+without it, so that the first periods are a transient.
 """
 
 from collections.abc import Mapping
@@ -18,7 +19,14 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Structure
 from disting.simulation.excitation import Excitation
-from disting.simulation.mechanics import checked, input_filter, matrices, motion, port_vectors, structure_of
+from disting.simulation.mechanics import (
+    checked,
+    input_filter,
+    matrices,
+    motion,
+    port_vectors,
+    structure_of,
+)
 from disting.simulation.stepping import Friction, stepped, with_viscous
 
 SILENT = 1e-9  # share of the largest line of a period below which a line is rounding
@@ -28,9 +36,10 @@ SILENT = 1e-9  # share of the largest line of a period below which a line is rou
 class Bench:
     """How the record is taken.
 
-    `sampling_rate` [Hz]; `samples` of one period; `periods`; standard deviations of white noise `input_noise` and
-    `output_noise` added to the recorded signals [their units]; `quantum` = step of the sensor, to which the output is rounded
-    (an encoder shows positions: use a position sensor) [unit of the output]; `friction` by mass; `seed` of phases and noise.
+    `sampling_rate` [Hz]; `samples` of one period; `periods`; standard deviations of white noise
+    `input_noise` and `output_noise` added to the recorded signals [their units]; `quantum` = step
+    of the sensor, to which the output is rounded (an encoder shows positions: use a position
+    sensor) [unit of the output]; `friction` by mass; `seed` of phases and noise.
     """
 
     sampling_rate: float = 2500.0
@@ -44,8 +53,13 @@ class Bench:
 
     def __post_init__(self) -> None:
         if not 0 < self.sampling_rate < np.inf or self.samples < 16 or self.periods < 1:
-            raise InputError("a bench has a positive sampling rate [Hz], periods of at least 16 samples, at least one period")
-        if not all(0 <= value < np.inf for value in (self.input_noise, self.output_noise, self.quantum)):
+            raise InputError(
+                "a bench has a positive sampling rate [Hz], periods of at least 16 samples, at"
+                " least one period"
+            )
+        if not all(
+            0 <= value < np.inf for value in (self.input_noise, self.output_noise, self.quantum)
+        ):
             raise InputError("noise and quantum are finite and not negative")
         if self.seed < 0:
             raise InputError(f"a seed is a whole number of at least 0, not {self.seed}")
@@ -53,11 +67,16 @@ class Bench:
 
 @np.errstate(over="ignore", invalid="ignore")  # what is not finite then is refused as no record
 def simulate(
-    model: Chain | Structure, parameters: Mapping[str, float], excitation: Excitation | None = None, bench: Bench | None = None
+    model: Chain | Structure,
+    parameters: Mapping[str, float],
+    excitation: Excitation | None = None,
+    bench: Bench | None = None,
 ) -> TimeSeries:
-    """Record of force and sensor of a model; `parameters` by name in one system of units (SI). The same seed, the same record.
+    """Record of force and sensor of a model; `parameters` by name in one system of units (SI). The
+    same seed, the same record.
 
-    Raises InputError for wrong parameters, an excitation beyond half the sampling rate, or one at an undamped resonance.
+    Raises InputError for wrong parameters, an excitation beyond half the sampling rate, or one at
+    an undamped resonance.
 
     >>> truth = {"m1": 0.01}
     >>> G = simulate(Chain(1), truth).response().G
@@ -68,7 +87,9 @@ def simulate(
     values = checked(model, parameters)
     period = excitation.period(bench.samples, bench.sampling_rate, bench.seed)
     output = _output(model, values, period, bench)
-    noise = np.random.default_rng([bench.seed, 1]).standard_normal((2, bench.samples * bench.periods))
+    noise = np.random.default_rng([bench.seed, 1]).standard_normal(
+        (2, bench.samples * bench.periods)
+    )
     recorded = output + bench.output_noise * noise[1]
     return TimeSeries(
         np.tile(period, bench.periods) + bench.input_noise * noise[0],
@@ -81,7 +102,9 @@ def simulate(
     )
 
 
-def _output(model: Chain | Structure, values: Mapping[str, float], period: Real, bench: Bench) -> Real:
+def _output(
+    model: Chain | Structure, values: Mapping[str, float], period: Real, bench: Bench
+) -> Real:
     """The sensor's quantity without noise, shape (samples * periods,)."""
     act, meas = port_vectors(model)
     order = structure_of(model).sensor_order
@@ -90,10 +113,15 @@ def _output(model: Chain | Structure, values: Mapping[str, float], period: Real,
     force = _lines(period) * input_filter(values, omega)
     if any(kind.coulomb for kind in bench.friction.values()):
         seconds = bench.samples / bench.sampling_rate
-        return np.asarray(stepped(m, act, force, seconds, bench.samples, bench.periods, bench.friction)[order] @ meas)
+        return np.asarray(
+            stepped(m, act, force, seconds, bench.samples, bench.periods, bench.friction)[order]
+            @ meas
+        )
     spectrum = np.zeros_like(force)
     used = np.flatnonzero(force)
-    spectrum[used] = (1j * omega[used]) ** order * (motion(m, act, omega[used]) @ meas) * force[used]
+    spectrum[used] = (
+        (1j * omega[used]) ** order * (motion(m, act, omega[used]) @ meas) * force[used]
+    )
     return np.tile(np.fft.irfft(spectrum, bench.samples), bench.periods)
 
 
@@ -115,10 +143,12 @@ DEMO_BENCH = Bench(input_noise=0.02, output_noise=2e-6, quantum=2 * np.pi / 2**2
 
 
 def demo(seed: int = 0) -> TimeSeries:
-    """Record of a two-mass drive of the size of a small bench: motor current to motor angle, encoder of 20 bits, 20 periods.
+    """Record of a two-mass drive of the size of a small bench: motor current to motor angle,
+    encoder of 20 bits, 20 periods.
 
-    Inertias per torque constant 0.0045 and 0.005 A s^2/rad, antiresonance 53 Hz, resonance 77 Hz, dead time 0.3 ms; excited
-    by a Schroeder multisine of 1 A (rms) from 10 to 250 Hz. `demo().response("acceleration")` is what a fit begins with.
+    Inertias per torque constant 0.0045 and 0.005 A s^2/rad, antiresonance 53 Hz, resonance 77 Hz,
+    dead time 0.3 ms; excited by a Schroeder multisine of 1 A (rms) from 10 to 250 Hz.
+    `demo().response("acceleration")` is what a fit begins with.
     """
     series = simulate(DEMO_MODEL, DEMO_PARAMETERS, Excitation(), replace(DEMO_BENCH, seed=seed))
     return replace(series, input=Signal("motor current", "A"), output=Signal("motor angle", "rad"))

@@ -1,4 +1,6 @@
-"""Periodic test signals: multisines with Schroeder or random phases, and a repeated linear chirp."""
+"""Periodic test signals: multisines with Schroeder or random phases, and a repeated linear
+chirp.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,10 +21,12 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Excitation:
-    """Signal between `low` and `high` [Hz] with root mean square `rms` [unit of the input]; `every` = step between its lines.
+    """Signal between `low` and `high` [Hz] with root mean square `rms` [unit of the input];
+    `every` = step between its lines.
 
-    Schroeder multisine: equal amplitudes, phases -pi i (i - 1) / F of lines i = 1..F (Schroeder 1970), low crest factor;
-    random phases: uniform in 0..2 pi; chirp: one sweep of rising frequency a period (`every` has no meaning there).
+    Schroeder multisine: equal amplitudes, phases -pi i (i - 1) / F of lines i = 1..F (Schroeder
+    1970), low crest factor; random phases: uniform in 0..2 pi; chirp: one sweep of rising
+    frequency a period (`every` has no meaning there).
     """
 
     kind: Kind = Kind.SCHROEDER
@@ -37,15 +41,21 @@ class Excitation:
         try:
             object.__setattr__(self, "kind", Kind(self.kind))
         except ValueError:
-            raise InputError(f"the excitation is one of {', '.join(Kind)}, not {shown(self.kind)}") from None
+            raise InputError(
+                f"the excitation is one of {', '.join(Kind)}, not {shown(self.kind)}"
+            ) from None
 
     def lines(self, samples: int, rate: float) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
         """Numbers of the lines within the band, multiples of rate/samples [Hz]."""
         spacing = rate / samples
-        first, last = int(np.ceil(self.low / spacing - 1e-9)), int(np.floor(self.high / spacing + 1e-9))
+        first, last = (
+            int(np.ceil(self.low / spacing - 1e-9)),
+            int(np.floor(self.high / spacing + 1e-9)),
+        )
         if last >= samples / 2 or last < first:
             raise InputError(
-                f"{self.low:g}..{self.high:g} Hz holds no line or passes half the sampling rate; lines lie {spacing:g} Hz apart"
+                f"{self.low:g}..{self.high:g} Hz holds no line or passes half the sampling rate;"
+                f" lines lie {spacing:g} Hz apart"
             )
         return np.arange(max(first, 1), last + 1, self.every)
 
@@ -68,7 +78,9 @@ class Excitation:
 
 
 def _chirp(first: int, last: int, samples: int) -> Real:
-    """From `first` to `last` cycles a period, a whole number of cycles in all, without its mean and its highest line."""
+    """From `first` to `last` cycles a period, a whole number of cycles in all, without its mean
+    and its highest line.
+    """
     share = np.arange(samples) / samples
     last += (last - first) % 2
     spectrum = np.fft.rfft(np.sin(2 * np.pi * (first * share + (last - first) / 2 * share**2)))

@@ -1,7 +1,7 @@
 """A structure as numbers: its matrices and its frequency response.
 
-M x'' + D x' + K x = (e_act+ - e_act-) F. With A(s) = M s^2 + D s + K the response of a sensor of order n = 0, 1, 2 (position,
-velocity, acceleration) is
+M x'' + D x' + K x = (e_act+ - e_act-) F. With A(s) = M s^2 + D s + K the response of a sensor of
+order n = 0, 1, 2 (position, velocity, acceleration) is
 
     G(s) = s^n exp(-s Td) / (1 + s T1) (e_meas+ - e_meas-)' A(s)^-1 (e_act+ - e_act-).
 """
@@ -31,13 +31,20 @@ def structure_of(model: Chain | Structure) -> Structure:
 
 
 def checked(model: Chain | Structure, values: Mapping[str, float]) -> dict[str, float]:
-    """The values of all parameters; raises InputError for missing, unknown or negative ones, and for masses that are zero."""
+    """The values of all parameters; raises InputError for missing, unknown or negative ones,
+    and for masses that are zero.
+    """
     names = structure_of(model).parameters
     if set(names) != set(values):
-        raise InputError(f"parameters {', '.join(names)} are needed, given are {', '.join(values) or 'none'}")
+        raise InputError(
+            f"parameters {', '.join(names)} are needed, given are {', '.join(values) or 'none'}"
+        )
     for name, value in values.items():
         if not 0 <= value < np.inf or (name[0] == "m" and value == 0):
-            raise InputError(f"{name} = {shown(value)} is no {'positive' if name[0] == 'm' else 'non-negative'} number")
+            raise InputError(
+                f"{name} = {shown(value)} is no {'positive' if name[0] == 'm' else 'non-negative'}"
+                " number"
+            )
     return {name: float(values[name]) for name in names}
 
 
@@ -65,12 +72,16 @@ def port_vectors(model: Chain | Structure) -> tuple[Real, Real]:
 
 
 def motion(m: Matrices, force: Real, omega: Real) -> Complex:
-    """Positions of all masses per force, shape (n_f, N), at omega [rad/s], shape (n_f,); raises InputError at a pole."""
+    """Positions of all masses per force, shape (n_f, N), at omega [rad/s], shape (n_f,); raises
+    InputError at a pole.
+    """
     s = 1j * np.asarray(omega)[:, None, None]
     try:
         return np.asarray(np.linalg.solve(m.M * s**2 + m.D * s + m.K, force[None, :, None])[..., 0])
     except np.linalg.LinAlgError:
-        raise InputError("an undamped resonance or 0 Hz is among the frequencies: the response is infinite there") from None
+        raise InputError(
+            "an undamped resonance or 0 Hz is among the frequencies: the response is infinite there"
+        ) from None
 
 
 def input_filter(values: Mapping[str, float], omega: Real) -> Complex:
@@ -79,7 +90,9 @@ def input_filter(values: Mapping[str, float], omega: Real) -> Complex:
     return np.asarray(np.exp(-s * values.get("Td", 0.0)) / (1 + s * values.get("T1", 0.0)))
 
 
-def frequency_response(model: Chain | Structure, values: Mapping[str, float], omega: Real) -> Complex:
+def frequency_response(
+    model: Chain | Structure, values: Mapping[str, float], omega: Real
+) -> Complex:
     """G(j omega), shape (n_f,), of the sensor quantity of the model; `omega` [rad/s]."""
     act, meas = port_vectors(model)
     order = structure_of(model).sensor_order

@@ -1,8 +1,9 @@
 """Motion with Coulomb friction: a fixed-step Runge-Kutta integration of fourth order.
 
-M x'' + D x' + K x = e_act f(t) - c tanh(v / v_s) - b v for each mass with friction, where tanh stands for the sign (v_s = speed
-below which the friction is not fully there), so that the right side is smooth and the integration converges. Dead time and lag
-act on the force alone, before it reaches the masses; the force is a trigonometric polynomial, known at every instant.
+M x'' + D x' + K x = e_act f(t) - c tanh(v / v_s) - b v for each mass with friction, where tanh
+stands for the sign (v_s = speed below which the friction is not fully there), so that the right
+side is smooth and the integration converges. Dead time and lag act on the force alone, before it
+reaches the masses; the force is a trigonometric polynomial, known at every instant.
 """
 
 from collections.abc import Mapping
@@ -22,8 +23,8 @@ MOST_STEPS = 5_000_000
 class Friction:
     """Friction of one mass towards the ground.
 
-    `coulomb` [N or N m], `viscous` [N s/m or N m s/rad], `speed` = v_s [m/s or rad/s], at which tanh(1) = 76 % of the Coulomb
-    friction is reached.
+    `coulomb` [N or N m], `viscous` [N s/m or N m s/rad], `speed` = v_s [m/s or rad/s], at which
+    tanh(1) = 76 % of the Coulomb friction is reached.
     """
 
     coulomb: float = 0.0
@@ -31,12 +32,16 @@ class Friction:
     speed: float = 1e-2
 
     def __post_init__(self) -> None:
-        if not (0 <= self.coulomb < np.inf and 0 <= self.viscous < np.inf and 0 < self.speed < np.inf):
+        if not (
+            0 <= self.coulomb < np.inf and 0 <= self.viscous < np.inf and 0 < self.speed < np.inf
+        ):
             raise InputError("friction has coulomb >= 0, viscous >= 0 and speed > 0")
 
 
 def with_viscous(m: Matrices, friction: Mapping[int, Friction]) -> Matrices:
-    """The matrices with the viscous friction of the masses (from 1) added to D; raises InputError for a mass that is none."""
+    """The matrices with the viscous friction of the masses (from 1) added to D; raises
+    InputError for a mass that is none.
+    """
     if any(not 1 <= mass <= len(m.M) for mass in friction):
         raise InputError(f"friction sits at masses 1 to {len(m.M)}, not at {sorted(friction)}")
     extra = np.zeros(len(m.M))
@@ -46,12 +51,18 @@ def with_viscous(m: Matrices, friction: Mapping[int, Friction]) -> Matrices:
 
 
 def stepped(
-    m: Matrices, act: Real, force: Complex, period: float, samples: int, periods: int, friction: Mapping[int, Friction]
+    m: Matrices,
+    act: Real,
+    force: Complex,
+    period: float,
+    samples: int,
+    periods: int,
+    friction: Mapping[int, Friction],
 ) -> Real:
     """Positions, velocities and accelerations of all masses, shape (3, samples * periods, N).
 
-    `m` with the viscous friction; `force` = spectrum of one period, shape (samples // 2 + 1,), of numpy.fft.rfft; `period` [s].
-    Begins in the periodic motion without Coulomb friction.
+    `m` with the viscous friction; `force` = spectrum of one period, shape (samples // 2 + 1,), of
+    numpy.fft.rfft; `period` [s]. Begins in the periodic motion without Coulomb friction.
     """
     coulomb, speed = np.zeros(len(act)), np.ones(len(act))
     for mass, kind in friction.items():
@@ -60,7 +71,10 @@ def stepped(
     highest = 2 * np.pi * int(np.flatnonzero(force)[-1]) / period
     steps = _steps(m, coulomb / speed, highest, period / samples)
     if steps * samples * periods > MOST_STEPS:
-        raise InputError(f"{steps * samples * periods} steps are too many; raise the speed of the friction, or simulate less")
+        raise InputError(
+            f"{steps * samples * periods} steps are too many; raise the speed of the friction, or"
+            " simulate less"
+        )
     push = np.outer(_oversampled(force, samples, 2 * steps), act)
 
     def acceleration(x: Real, v: Real, f: Real) -> Real:
@@ -88,7 +102,9 @@ def stepped(
 
 
 def _steps(m: Matrices, slope: Real, highest: float, sample: float) -> int:
-    """Steps a sample [s]: from the force [rad/s], the eigenvalues (Gershgorin: rows of |K|, |D|), the slope of the friction."""
+    """Steps a sample [s]: from the force [rad/s], the eigenvalues (Gershgorin: rows of |K|,
+    |D|), the slope of the friction.
+    """
     inverse = 1.0 / np.diag(m.M)
     stiff, damped = (np.max(inverse * np.abs(matrix).sum(axis=1)) for matrix in (m.K, m.D))
     fastest = np.sqrt(stiff) + damped + np.max(inverse * slope) + highest
@@ -102,9 +118,13 @@ def _oversampled(spectrum: Complex, samples: int, factor: int) -> Real:
     return np.asarray(np.fft.irfft(wide, samples * factor))
 
 
-def _start(m: Matrices, act: Real, force: Complex, period: float, samples: int) -> tuple[Real, Real]:
+def _start(
+    m: Matrices, act: Real, force: Complex, period: float, samples: int
+) -> tuple[Real, Real]:
     """Position and velocity at time zero of the periodic motion without Coulomb friction."""
     lines = np.flatnonzero(np.abs(force) > 0)
     omega = np.asarray(2 * np.pi * lines / period, dtype=np.float64)
     moved = motion(m, act, omega) * force[lines, None] * (2 / samples)
-    return np.asarray(moved.sum(axis=0).real), np.asarray((1j * omega[:, None] * moved).sum(axis=0).real)
+    return np.asarray(moved.sum(axis=0).real), np.asarray(
+        (1j * omega[:, None] * moved).sum(axis=0).real
+    )

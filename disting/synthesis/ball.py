@@ -1,8 +1,9 @@
 """Ball arithmetic for branches: what a ball proves, and roots as sharp as the coefficients allow.
 
-A ball holds a number that is not known exactly. It proves that a number is not zero by leaving zero out; it never proves that
-a number is zero. So a branch is killed by a ball, and never accepted by one: a survivor is consistent, no more. Balls that hold
-zero but are wide prove nothing either way and call for more bits.
+A ball holds a number that is not known exactly. It proves that a number is not zero by leaving
+zero out; it never proves that a number is zero. So a branch is killed by a ball, and never
+accepted by one: a survivor is consistent, no more. Balls that hold zero but are wide prove nothing
+either way and call for more bits.
 """
 
 from typing import Any
@@ -12,8 +13,10 @@ from flint import acb, acb_poly, arb, ctx
 Ball = Any  # acb: flint has no usable types
 Poly = Any  # acb_poly
 
-TOLERANCE = 2.0**-40  # widest relative radius of a test ball that may pass as "consistent with zero"
-_ISOLATION = (2.0**-30, 2.0**-90)  # absolute widths tried where the first isolation is too coarse for Newton's method
+# widest relative radius of a test ball that may pass as "consistent with zero"
+TOLERANCE = 2.0**-40
+# absolute widths tried where the first isolation is too coarse for Newton's method
+_ISOLATION = (2.0**-30, 2.0**-90)
 
 _ENCLOSED = 2.0**-40
 
@@ -23,7 +26,8 @@ class Imprecise(Exception):
 
 
 def vanishes(value: Ball, scale: Ball) -> bool:
-    """False: proven non-zero. True: consistent with zero to TOLERANCE relative to |scale|. Raises Imprecise in between.
+    """False: proven non-zero. True: consistent with zero to TOLERANCE relative to |scale|. Raises
+    Imprecise in between.
 
     >>> vanishes(acb(1) - acb(1), acb(1)), vanishes(acb(2) ** -50, acb(1))
     (True, False)
@@ -36,7 +40,9 @@ def vanishes(value: Ball, scale: Ball) -> bool:
 
 
 def is_boundary(value: Ball) -> bool:
-    """Whether an element or a leading coefficient that must not be zero cannot be told from zero."""
+    """Whether an element or a leading coefficient that must not be zero cannot be told from
+    zero.
+    """
     return bool(value.contains(0))
 
 
@@ -55,7 +61,9 @@ def cut(p: Poly, degree: int) -> Poly:
 
 
 def shifted(p: Poly, power: int) -> Poly:
-    """p times x**power; for a negative power the lowest coefficients, zero by theory, are dropped."""
+    """p times x**power; for a negative power the lowest coefficients, zero by theory, are
+    dropped.
+    """
     if power >= 0:
         return acb_poly([0] * power + p.coeffs())
     return acb_poly(p.coeffs()[-power:])
@@ -69,7 +77,8 @@ def product(roots: list[Ball]) -> Poly:
 def roots(p: Poly, degree: int) -> list[Ball]:
     """Balls, each with exactly one root, as narrow as the coefficients allow.
 
-    Raises Imprecise if the leading coefficient or the isolation is not sure: multiple roots look like that at any precision.
+    Raises Imprecise if the leading coefficient or the isolation is not sure: multiple roots look
+    like that at any precision.
     """
     if degree == 0:
         return []
@@ -107,7 +116,9 @@ def _isolated(p: Poly, tolerance: float | None) -> list[Ball]:
 
 
 def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
-    """Newton's method on midpoints, then one interval Newton step on a small box inside z: a proof that the root is there."""
+    """Newton's method on midpoints, then one interval Newton step on a small box inside z: a
+    proof that the root is there.
+    """
     mid = z.mid()
     for _ in range(int(ctx.prec).bit_length() + 1):
         mid = (mid - p(mid) / slope(mid)).mid()

@@ -1,4 +1,6 @@
-"""Candidates multiplied out: the coefficients of the chain's receptance, and their derivatives, as balls."""
+"""Candidates multiplied out: the coefficients of the chain's receptance, and their derivatives,
+as balls.
+"""
 
 from dataclasses import dataclass
 
@@ -13,7 +15,9 @@ from disting.synthesis.target import Exact, Target
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """Parameter values whose receptance agrees with the target within the balls; `width` as in Solution."""
+    """Parameter values whose receptance agrees with the target within the balls; `width` as in
+    Solution.
+    """
 
     values: dict[str, Ball]
     gauges: int
@@ -26,7 +30,9 @@ def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational:
 
 
 def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) -> Checked | Dead:
-    """Compare every coefficient, the denominator made monic; a ball without the given coefficient refutes the candidate."""
+    """Compare every coefficient, the denominator made monic; a ball without the given
+    coefficient refutes the candidate.
+    """
     num, den = plain_receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
     lead = den[den.degree()]
     width = 0.0

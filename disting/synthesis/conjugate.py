@@ -1,17 +1,21 @@
-"""Which zeros of a polynomial over Q are conjugate: of ways to share them out that are conjugate, one speaks for all.
+"""Which zeros of a polynomial over Q are conjugate: of ways to share them out that are conjugate,
+one speaks for all.
 
-Equations with coefficients in Q(z_1, .., z_m), z_i the zeros of N in Q[s], have a complex solution exactly if they have an
-algebraic one, and an automorphism over Q carries the solutions of one way to share out the zeros to those of another. Let N
-be a product of irreducible factors N_1, .., N_r over Q, each one once. If the Galois group of N over Q is the product of the
-symmetric groups of all N_i, it carries each way to every other that puts as many zeros of each N_i in each place: all such
-ways have solutions or none has.
+Equations with coefficients in Q(z_1, .., z_m), z_i the zeros of N in Q[s], have a complex solution
+exactly if they have an algebraic one, and an automorphism over Q carries the solutions of one way
+to share out the zeros to those of another. Let N be a product of irreducible factors N_1, .., N_r
+over Q, each one once. If the Galois group of N over Q is the product of the symmetric groups of
+all N_i, it carries each way to every other that puts as many zeros of each N_i in each place: all
+such ways have solutions or none has.
 
-The group is seen modulo primes. Where N is squarefree modulo a prime that divides no denominator and not the leading
-coefficient, the group holds an element whose cycles are as long as its irreducible factors (Dedekind; B. L. van der Waerden,
-Algebra I, section 61), sorted by the N_i. N_i irreducible makes the group transitive on its zeros; a linear and one other
-factor, doubly transitive. If N_i has one factor of degree 2 and otherwise odd degrees, and all other N_j have odd degrees only,
-an odd power is a transposition of two zeros of N_i that moves nothing else. Its conjugates are all transpositions of zeros of
-N_i, which generate the symmetric group. What is found holds without any chance.
+The group is seen modulo primes. Where N is squarefree modulo a prime that divides no denominator
+and not the leading coefficient, the group holds an element whose cycles are as long as its
+irreducible factors (Dedekind; B. L. van der Waerden, Algebra I, section 61), sorted by the N_i.
+N_i irreducible makes the group transitive on its zeros; a linear and one other factor, doubly
+transitive. If N_i has one factor of degree 2 and otherwise odd degrees, and all other N_j have odd
+degrees only, an odd power is a transposition of two zeros of N_i that moves nothing else. Its
+conjugates are all transpositions of zeros of N_i, which generate the symmetric group. What is
+found holds without any chance.
 """
 
 from functools import cache
@@ -26,7 +30,8 @@ Shown = set[tuple[int, str]]  # number of the factor, and what is known of its z
 
 
 def conjugate_factors(numerator: Any) -> tuple[fmpz_poly, ...]:
-    """The N_i of a polynomial with rational coefficients (fmpq_poly), if the group is proven to be the product; else ().
+    """The N_i of a polynomial with rational coefficients (fmpq_poly), if the group is proven to be
+    the product; else ().
 
     >>> from flint import fmpq_poly
     >>> conjugate_factors(fmpq_poly([-2, 0, 0, 1]))
@@ -52,11 +57,15 @@ _WANTED = ((), (), ("transposition",), ("transitive", "doubly", "transposition")
 
 
 def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Shown:
-    """What the factors modulo a prime show of the group; nothing if one is multiple or a degree falls."""
+    """What the factors modulo a prime show of the group; nothing if one is multiple or a degree
+    falls.
+    """
     reduced = [nmod_poly([int(c) % modulus for c in f.coeffs()], modulus) for f in factors]
     split = [r.factor()[1] for r in reduced]
     all_factors = [f for f, _ in chain.from_iterable(split)]
-    multiple = any(e > 1 for _, e in chain.from_iterable(split)) or len(set(map(str, all_factors))) < len(all_factors)
+    multiple = any(e > 1 for _, e in chain.from_iterable(split)) or len(
+        set(map(str, all_factors))
+    ) < len(all_factors)
     if multiple or any(r.degree() < f.degree() for r, f in zip(reduced, factors, strict=True)):
         return set()
     degrees = [sorted(f.degree() for f, _ in some) for some in split]

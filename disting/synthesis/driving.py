@@ -1,15 +1,27 @@
-"""Force and sensor at one mass of a row with dampers to the ground: 1/H = m_a s^2 + b_a s + W_L + W_R.
+"""Force and sensor at one mass of a row with dampers to the ground: 1/H = m_a s^2 + b_a s + W_L +
+W_R.
 
-The residues of 1/H at the zeros of H are shared out between both sides (see `collocated`). W_R(0) = 0, the right end being
-free, which settles the constants. Far away 1/H = m_a s^2 + beta s + .., and beta = b_a + d_L + d_R, the dampers of the springs
-on both sides. A side that is free and without dampers tells its own growth, W'(0) = 0. Of b_a, d_L and d_R one that is not
-known follows from beta; if more are not, the slopes of the sides are left open, and `friction` finds them.
+The residues of 1/H at the zeros of H are shared out between both sides (see `collocated`). W_R(0)
+= 0, the right end being free, which settles the constants. Far away 1/H = m_a s^2 + beta s + ..,
+and beta = b_a + d_L + d_R, the dampers of the springs on both sides. A side that is free and
+without dampers tells its own growth, W'(0) = 0. Of b_a, d_L and d_R one that is not known follows
+from beta; if more are not, the slopes of the sides are left open, and `friction` finds them.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from disting.synthesis.ball import Ball, Poly, cut, is_boundary, poly, product, roots, shifted, vanishes
+from disting.synthesis.ball import (
+    Ball,
+    Poly,
+    cut,
+    is_boundary,
+    poly,
+    product,
+    roots,
+    shifted,
+    vanishes,
+)
 from disting.synthesis.collocated import Residue, over
 from disting.synthesis.friction import NOTHING, Side, peel, slope
 from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part, combined
@@ -34,29 +46,41 @@ def driving_point(segment: Segment, data: Data) -> Iterator[Leaf]:
     scale = sum((abs(c) for c in whole.coeffs()), NOTHING)
     port = _Port(whole[2], whole[1], segment.a in segment.dampers, scale)
     for chosen in splits(zeros, 2 * (segment.a - 1)):
-        left, right = ([Residue(z, data.denominator(z) / steepness(z)) for z in side] for side in chosen)
+        left, right = (
+            [Residue(z, data.denominator(z) / steepness(z)) for z in side] for side in chosen
+        )
         if segment.elastic and not _is_even_far_away(right):
             yield NONZERO
             continue
         constant = sum((r.value / r.at for r in right), NOTHING)
-        yield from _sides(port, _side(segment, left, whole[0] - constant, True), _side(segment, right, constant, False))
+        yield from _sides(
+            port,
+            _side(segment, left, whole[0] - constant, True),
+            _side(segment, right, constant, False),
+        )
 
 
 def _is_even_far_away(residues: list[Residue]) -> bool:
     """Springs without dampers: W = c - c^2/(m s^2) + .. has no term in 1/s."""
     values = [r.value for r in residues]
-    return vanishes(sum(values, NOTHING), sum((abs(v) for v in values), NOTHING)) if values else True
+    return (
+        vanishes(sum(values, NOTHING), sum((abs(v) for v in values), NOTHING)) if values else True
+    )
 
 
 def _side(segment: Segment, residues: list[Residue], constant: Ball, left: bool) -> Side:
     """W without its growth, or with it where it is known."""
     places = range(segment.a - 1, 0, -1) if left else range(segment.a + 1, segment.nodes + 1)
     dampers = tuple(i in segment.dampers for i in places)
-    side = Side(poly([]), product([r.at for r in residues]), dampers, segment.wall and left, segment.elastic)
+    side = Side(
+        poly([]), product([r.at for r in residues]), dampers, segment.wall and left, segment.elastic
+    )
     known = side.is_loose and not segment.elastic
     growth = sum((r.value / r.at**2 for r in residues), NOTHING) if known else NOTHING
     numerator = cut(over(residues, [constant, growth]), 2 * len(dampers) + known)
-    return replace(side, numerator=_low(numerator, side), slope_open=not segment.elastic and not known)
+    return replace(
+        side, numerator=_low(numerator, side), slope_open=not segment.elastic and not known
+    )
 
 
 def _low(p: Poly, side: Side) -> Poly:
@@ -66,7 +90,9 @@ def _low(p: Poly, side: Side) -> Poly:
 
 def _grown(side: Side, growth: Ball) -> Side:
     """The side with its slope given."""
-    return replace(side, numerator=side.numerator + growth * shifted(side.denominator, 1), slope_open=False)
+    return replace(
+        side, numerator=side.numerator + growth * shifted(side.denominator, 1), slope_open=False
+    )
 
 
 def _growth(side: Side) -> Ball:

@@ -1,15 +1,18 @@
-"""All parameter vectors of a chain that realise a given receptance exactly: inverse network synthesis in ball arithmetic.
+"""All parameter vectors of a chain that realise a given receptance exactly: inverse network
+synthesis in ball arithmetic.
 
-The receptance H of a chain with a gap is R + F: the grounded part between the minus ports, the free part between the plus
-ports. 1. every subset of the poles for R (`poles`);  2. every chain with receptance R and every chain with F (`methods`); 3.
-every pair is multiplied out and compared. Where a ball leaves out a zero that every solution has, a branch is refuted; if all
-are, no solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls double the precision;
-what stays undecided at the last one is a special point.
+The receptance H of a chain with a gap is R + F: the grounded part between the minus ports, the
+free part between the plus ports. 1. every subset of the poles for R (`poles`);  2. every chain
+with receptance R and every chain with F (`methods`); 3. every pair is multiplied out and compared.
+Where a ball leaves out a zero that every solution has, a branch is refuted; if all are, no
+solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls
+double the precision; what stays undecided at the last one is a special point.
 
-Dampers to the ground: `friction`, `driving`, `end`, `inner`. A damper b_1 beside the damped spring from mass 1 to the ground is
-counted to it: only d_01 + b_1 is determined, a family of which half and half is listed. The pole of a lag 1/(1 + T1 s) is one
-of the poles of H, each is tried; without any damper it is the one that makes H even. A dead time is no rational function, and
-H exp(-Td s) determines both factors: it is left out on both sides.
+Dampers to the ground: `friction`, `driving`, `end`, `inner`. A damper b_1 beside the damped spring
+from mass 1 to the ground is counted to it: only d_01 + b_1 is determined, a family of which half
+and half is listed. The pole of a lag 1/(1 + T1 s) is one of the poles of H, each is tried; without
+any damper it is the one that makes H even. A dead time is no rational function, and H exp(-Td s)
+determines both factors: it is left out on both sides.
 """
 
 from collections import Counter
@@ -31,16 +34,23 @@ from disting.synthesis.poles import Split, pole_splits
 from disting.synthesis.result import Exclusions, Fibre, Solution, Status
 from disting.synthesis.segment import Data, Segment
 from disting.synthesis.solutions import listed
-from disting.synthesis.target import Target, degrees_differ, is_regular, poles_at_zero, rests_differently
+from disting.synthesis.target import (
+    Target,
+    degrees_differ,
+    is_regular,
+    poles_at_zero,
+    rests_differently,
+)
 
 PRECISIONS = (192, 384, 768, 1536, 3072, 5000)
 
 
 def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
-    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are proven, see `Status`.
+    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are
+    proven, see `Status`.
 
-    `confirm`: look for a proof that each solution solves a square subsystem, which takes longer than all the rest; without it
-    solutions are told to hold within their balls.
+    `confirm`: look for a proof that each solution solves a square subsystem, which takes longer
+    than all the rest; without it solutions are told to hold within their balls.
     """
     if chain.dead_time:
         return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")
@@ -56,8 +66,12 @@ def segments(chain: Chain) -> tuple[Segment | None, Segment]:
     elastic = q == 2 and not chain.damped
     low, high = sorted((chain.act_plus, chain.meas_plus))
     below, above = sorted((chain.act_minus, chain.meas_minus))
-    outer, inner = (tuple(i for i in chain.ground_dampers if (i <= g) == near) for near in (False, True))
-    free = Segment(chain.n_masses - g, low - g, high - g, False, q, tuple(i - g for i in outer), elastic, not g)
+    outer, inner = (
+        tuple(i for i in chain.ground_dampers if (i <= g) == near) for near in (False, True)
+    )
+    free = Segment(
+        chain.n_masses - g, low - g, high - g, False, q, tuple(i - g for i in outer), elastic, not g
+    )
     return (Segment(g, below, above, True, q, inner, elastic) if g else None), free
 
 
@@ -69,7 +83,9 @@ def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
         found = without_lag(target)
         if found is None:
             return _without_lag_pole(chain, target)
-        return lagged(chain, _canonical_fibre(replace(chain, lag=False), found[0], confirm), found[1])
+        return lagged(
+            chain, _canonical_fibre(replace(chain, lag=False), found[0], confirm), found[1]
+        )
     ruled_out = _ruled_out(chain, target)
     return _searched(chain, target, confirm) if ruled_out is None else ruled_out
 
@@ -136,11 +152,18 @@ def _leaves(data: Data, low: int, grounded: Segment | None, free: Segment) -> It
 
 def _both(split: Split, grounded: Segment, free: Segment) -> Iterator[Leaf]:
     """Every grounded chain with every free one."""
-    return combined(synthesise(grounded, split.grounded), lambda: synthesise(free, split.free), _joined)
+    return combined(
+        synthesise(grounded, split.grounded), lambda: synthesise(free, split.free), _joined
+    )
 
 
 def _joined(a: Part, b: Part) -> Part:
-    return Part(a.masses + b.masses, a.springs + b.springs, a.gauges + b.gauges, a.all_dampers + b.all_dampers)
+    return Part(
+        a.masses + b.masses,
+        a.springs + b.springs,
+        a.gauges + b.gauges,
+        a.all_dampers + b.all_dampers,
+    )
 
 
 def _named(part: Part, chain: Chain) -> dict[str, Ball]:
@@ -150,7 +173,9 @@ def _named(part: Part, chain: Chain) -> dict[str, Ball]:
     values |= {Spring(i).parameter: k[0] for i, k in zip(joints, part.springs, strict=True)}
     if chain.damped:
         values |= {Damper(i).parameter: k[1] for i, k in zip(joints, part.springs, strict=True)}
-    return values | {GroundDamper(i).parameter: part.all_dampers[i - 1] for i in chain.ground_dampers}
+    return values | {
+        GroundDamper(i).parameter: part.all_dampers[i - 1] for i in chain.ground_dampers
+    }
 
 
 def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solution:
@@ -171,11 +196,16 @@ def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], confirm:
 
 def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status, str]:
     if tests.uncovered:
-        return Status.NOT_COVERED, "a branch needs a method for non-collocated chains that is not provided"
+        return (
+            Status.NOT_COVERED,
+            "a branch needs a method for non-collocated chains that is not provided",
+        )
     if any(s.gauges for s in solutions):
         return Status.INFINITE, "a family of solutions; one member per branch is listed"
     if solutions:
-        return Status.COMPLETE, "all other branches are refuted" if not tests.boundary else "but for elements near zero"
+        return Status.COMPLETE, (
+            "all other branches are refuted" if not tests.boundary else "but for elements near zero"
+        )
     if tests.boundary:
         return Status.DEGENERATE, "an element cannot be told from zero"
     return Status.EMPTY, "every branch is refuted"

@@ -1,14 +1,18 @@
-"""A dynamic stiffness taken apart where masses may have dampers to the ground: Z = m s^2 + b s + W'.
+"""A dynamic stiffness taken apart where masses may have dampers to the ground: Z = m s^2 + b s +
+W'.
 
-As in `peel`, W = P/A = k Z/(k + Z), P = k Delta, A = k A' + Delta, Z = Delta/A', k = d (s - z), so that P(z) = 0 and P'(z) =
-d A(z). Far away W' grows like d' s, d' the damper of its first spring, so that Z tells b + d' and no more, and W' is known but
-for a multiple of s: its slope is open. That costs no unknown. If W = W0 + d s, W0 = P0/A bounded, then at the root z of k
+As in `peel`, W = P/A = k Z/(k + Z), P = k Delta, A = k A' + Delta, Z = Delta/A', k = d (s - z), so
+that P(z) = 0 and P'(z) = d A(z). Far away W' grows like d' s, d' the damper of its first spring,
+so that Z tells b + d' and no more, and W' is known but for a multiple of s: its slope is open.
+That costs no unknown. If W = W0 + d s, W0 = P0/A bounded, then at the root z of k
 
-    W0(z) + d z = 0    and    W0'(z) + d = d,    hence    P0'(z) A(z) - P0(z) A'(z) = 0    and    d = -W0(z)/z
+    W0(z) + d z = 0    and    W0'(z) + d = d,    hence    P0'(z) A(z) - P0(z) A'(z) = 0    and    d
+    = -W0(z)/z
 
-4 nu - 2 candidates for z without a test, in place of 2 nu + 1 with one (the leading coefficients cancel twice). The slope is
-known again where the masses behind are free and without dampers, W'(0) = 0 = dW'/ds(0), which gives b = dZ/ds(0). Springs
-without dampers, k = c, leave nothing open: W' is bounded, k = W at infinity, and b is the coefficient of s of Z.
+4 nu - 2 candidates for z without a test, in place of 2 nu + 1 with one (the leading coefficients
+cancel twice). The slope is known again where the masses behind are free and without dampers, W'(0)
+= 0 = dW'/ds(0), which gives b = dZ/ds(0). Springs without dampers, k = c, leave nothing open: W'
+is bounded, k = W at infinity, and b is the coefficient of s of Z.
 """
 
 from collections.abc import Iterator
@@ -27,12 +31,13 @@ NOTHING = acb(0)
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """W = numerator/denominator (monic) of the masses behind a spring, from the port outwards, in s.
+    """W = numerator/denominator (monic) of the masses behind a spring, from the port outwards, in
+    s.
 
     No mass beside a wall has a damper that could be counted to that of its spring (see `fibre`).
 
-    `dampers`: which of these masses have one to the ground; `elastic`: springs without dampers; `slope_open`: W is known but
-    for a multiple of s, and given without growth.
+    `dampers`: which of these masses have one to the ground; `elastic`: springs without dampers;
+    `slope_open`: W is known but for a multiple of s, and given without growth.
     """
 
     numerator: Poly
@@ -50,7 +55,9 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """Z - m s^2 = numerator/denominator (monic) at a mass, `damper`: whether it has one; `dampers` of the masses behind."""
+    """Z - m s^2 = numerator/denominator (monic) at a mass, `damper`: whether it has one;
+    `dampers` of the masses behind.
+    """
 
     numerator: Poly
     denominator: Poly
@@ -66,7 +73,9 @@ def slope(leaf: Part) -> Ball:
 
 
 def peel(w: Side) -> Iterator[Leaf]:
-    """Yield every ladder with this stiffness, masses, springs and dampers from the port outwards."""
+    """Yield every ladder with this stiffness, masses, springs and dampers from the port
+    outwards.
+    """
     if not w.dampers:
         yield _last(w)
     elif w.elastic:
@@ -84,12 +93,22 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     nu = len(node.dampers)
     side = Side(node.numerator, node.denominator, node.dampers, node.wall, node.elastic)
     if not node.damper and not node.elastic:
-        yield from ((NOTHING, leaf) for leaf in peel(replace(side, numerator=_low(node.numerator, side))))
+        yield from (
+            (NOTHING, leaf) for leaf in peel(replace(side, numerator=_low(node.numerator, side)))
+        )
         return
     is_open = node.damper and not node.elastic and not side.is_loose
-    b = node.numerator[1] / node.denominator[0] if node.damper and side.is_loose else node.numerator[2 * nu + 1]
+    b = (
+        node.numerator[1] / node.denominator[0]
+        if node.damper and side.is_loose
+        else node.numerator[2 * nu + 1]
+    )
     rest = node.numerator - b * shifted(node.denominator, 1)
-    side = replace(side, numerator=_low(cut(rest, 2 * nu + (not is_open and not node.elastic)), side), slope_open=is_open)
+    side = replace(
+        side,
+        numerator=_low(cut(rest, 2 * nu + (not is_open and not node.elastic)), side),
+        slope_open=is_open,
+    )
     if not node.damper and not vanishes(b, _size(node.numerator)):
         yield NOTHING, NONZERO
         return
@@ -98,7 +117,9 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
 
 
 def attached(spring: Poly, mass: Ball, b: Ball, damper: bool, leaf: Leaf) -> Leaf:
-    """A ladder with one more mass and spring in front; at the boundary if the damper cannot be told from zero."""
+    """A ladder with one more mass and spring in front; at the boundary if the damper cannot be
+    told from zero.
+    """
     if not isinstance(leaf, Part):
         return leaf
     if damper and is_boundary(b):
@@ -112,12 +133,19 @@ def _last(w: Side) -> Leaf:
     if not w.wall:
         return Part()
     spring = cut(w.numerator, 0 if w.elastic else 1)
-    return BOUNDARY if any(is_boundary(spring[i]) for i in range(2 - w.elastic)) else Part(springs=(spring,))
+    return (
+        BOUNDARY
+        if any(is_boundary(spring[i]) for i in range(2 - w.elastic))
+        else Part(springs=(spring,))
+    )
 
 
 def random(count: int) -> list[Ball]:
     """Distinct positive numbers, exact in binary: free choices."""
-    return [acb(i + (1 + r) / 4096) for i, r in enumerate(residues("synthesis:friction", count, 1 << 12))]
+    return [
+        acb(i + (1 + r) / 4096)
+        for i, r in enumerate(residues("synthesis:friction", count, 1 << 12))
+    ]
 
 
 def _elastic(w: Side) -> Iterator[Leaf]:
@@ -155,7 +183,9 @@ def _open(w: Side) -> Iterator[Leaf]:
             yield BOUNDARY
             continue
         d = -p(z) / (z * a(z))
-        yield from [BOUNDARY] if is_boundary(d) else _behind(w, p + d * shifted(a, 1), poly([-d * z, d]))
+        yield from (
+            [BOUNDARY] if is_boundary(d) else _behind(w, p + d * shifted(a, 1), poly([-d * z, d]))
+        )
 
 
 def _behind(w: Side, numerator: Poly, spring: Poly) -> Iterator[Leaf]:

@@ -1,18 +1,23 @@
 """Damped, force and sensor at neighbours anywhere in the chain: b = a + 1.
 
-The spring between the ports is k = d (s + rho) with a zero -rho of N; the other zeros are shared out, A to the left, B to the
-right. With k to the ground on both sides the chain falls into two: G_d = D + d (s + rho) N = Theta Phi, Phi of degree 2 (n -
-a). The right end is free, so m_b Phi = k B + O(s^2) as s goes to 0, which says
+The spring between the ports is k = d (s + rho) with a zero -rho of N; the other zeros are shared
+out, A to the left, B to the right. With k to the ground on both sides the chain falls into two:
+G_d = D + d (s + rho) N = Theta Phi, Phi of degree 2 (n - a). The right end is free, so m_b Phi = k
+B + O(s^2) as s goes to 0, which says
 
-    Phi'(0)/Phi(0) = 1/rho + B'(0)/B(0) = sigma,    or    sigma + sum of 1/z over the roots z of Phi = 0
+    Phi'(0)/Phi(0) = 1/rho + B'(0)/B(0) = sigma,    or    sigma + sum of 1/z over the roots z of
+    Phi = 0
 
-for one of the subsets of the roots of G_d. The product E(d) of that over all subsets, times G_d(0)^K with K = C(2n-1,
-2(n-a)-1), is a polynomial in d: K subsets hold a given root. Its degree is K - 2, since four factors fall off like d^(-1/2) as
-d grows: those with B, one of the two roots near -rho and one of the two that go to infinity. With a free left end D has a
-double root at 0, so that d^L with L = K - C(2n-2, 2(n-a)-1) is a factor. E is found from its values on a circle; its roots are
-all candidates for d. What depends on d and rho only is computed once for all ways of sharing out the other zeros.
+for one of the subsets of the roots of G_d. The product E(d) of that over all subsets, times
+G_d(0)^K with K = C(2n-1, 2(n-a)-1), is a polynomial in d: K subsets hold a given root. Its degree
+is K - 2, since four factors fall off like d^(-1/2) as d grows: those with B, one of the two roots
+near -rho and one of the two that go to infinity. With a free left end D has a double root at 0, so
+that d^L with L = K - C(2n-2, 2(n-a)-1) is a factor. E is found from its values on a circle; its
+roots are all candidates for d. What depends on d and rho only is computed once for all ways of
+sharing out the other zeros.
 
-Dampers to the ground on the left side alone change nothing but that D has a simple root at 0, so that L = 0.
+Dampers to the ground on the left side alone change nothing but that D has a simple root at 0, so
+that L = 0.
 """
 
 from collections import defaultdict
@@ -26,7 +31,19 @@ from operator import mul
 from flint import acb, acb_mat, acb_poly, ctx, fmpq
 
 from disting.synthesis import friction
-from disting.synthesis.ball import Ball, Imprecise, Poly, cut, enclosed, is_boundary, poly, product, roots, shifted, vanishes
+from disting.synthesis.ball import (
+    Ball,
+    Imprecise,
+    Poly,
+    cut,
+    enclosed,
+    is_boundary,
+    poly,
+    product,
+    roots,
+    shifted,
+    vanishes,
+)
 from disting.synthesis.conjugate import conjugate_factors
 from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part, combined
 from disting.synthesis.peel import Stiffness, grounded_at_zero, peel
@@ -35,7 +52,8 @@ from disting.synthesis.segment import Data, Segment
 DEGREE_LIMIT = 40  # of E(d): the time grows with its square
 ALONE_LIMIT = 60  # where it is done once: the poles need not be shared out between two parts
 QUICK_BITS = 128  # tried first where a candidate for d is to be refuted
-Way = tuple[int, tuple[int, ...], tuple[int, ...]]  # which zero is -rho, which are those of A and of B
+# which zero is -rho, which are those of A and of B
+Way = tuple[int, tuple[int, ...], tuple[int, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +79,9 @@ class Branch:
 
     def grounded(self, d: Ball) -> Poly:
         """G_d, monic of degree 2n."""
-        return cut(self.data.denominator + d * self.spring * self.data.numerator, 2 * self.segment.nodes)
+        return cut(
+            self.data.denominator + d * self.spring * self.data.numerator, 2 * self.segment.nodes
+        )
 
 
 def serves(segment: Segment) -> bool:
@@ -72,17 +92,27 @@ def serves(segment: Segment) -> bool:
 
 def degree_of(segment: Segment) -> int:
     """Degree of E(d), known factors d taken out."""
-    return comb(2 * segment.nodes - (1 if segment.wall or segment.dampers else 2), 2 * (segment.nodes - segment.a) - 1) - 2
+    return (
+        comb(
+            2 * segment.nodes - (1 if segment.wall or segment.dampers else 2),
+            2 * (segment.nodes - segment.a) - 1,
+        )
+        - 2
+    )
 
 
 def inner_neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every damped segment with b = a + 1 and this receptance; a way that is refuted speaks for all its conjugates."""
+    """Yield every damped segment with b = a + 1 and this receptance; a way that is refuted
+    speaks for all its conjugates.
+    """
     zeros, gain = _zeros(data, segment.numerator_degree), data.gain(segment)
     seen: dict[int, list[Seen]] = {}
     for same in _conjugate_ways([kind for kind, _ in zeros], 2 * (segment.a - 1)):
         for way in same:
             (rho,), left, right = ([zeros[i][1] for i in some] for some in ((way[0],), *way[1:]))
-            leaves = list(_branch(Branch(segment, data, -rho, left, right, gain), seen.setdefault(way[0], [])))
+            leaves = list(
+                _branch(Branch(segment, data, -rho, left, right, gain), seen.setdefault(way[0], []))
+            )
             yield from leaves
             if way is same[0] and leaves and all(leaf == NONZERO for leaf in leaves):
                 break
@@ -97,7 +127,9 @@ def _zeros(data: Data, degree: int) -> list[tuple[int, Ball]]:
 
 
 def _conjugate_ways(kinds: list[int], size: int) -> Iterable[list[Way]]:
-    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in each place stand together."""
+    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in
+    each place stand together.
+    """
     found = defaultdict[tuple[int, ...], list[Way]](list)
     for rho in range(len(kinds)):
         others = [i for i in range(len(kinds)) if i != rho]
@@ -120,18 +152,26 @@ def _branch(branch: Branch, seen: list["Seen"]) -> Iterator[Leaf]:
 
 
 def _quickly(branch: Branch, d: Ball) -> Iterable[Leaf]:
-    """With few bits where these refute everything: a ball without zero proves as much as a narrow one."""
+    """With few bits where these refute everything: a ball without zero proves as much as a
+    narrow one.
+    """
     with ctx.workprec(min(QUICK_BITS, ctx.prec)):
         try:
             leaves = list(_with_damper(branch, d, enclosed))
         except Imprecise:
             leaves = []
-    return leaves if leaves and all(leaf == NONZERO for leaf in leaves) else _with_damper(branch, d, roots)
+    return (
+        leaves
+        if leaves and all(leaf == NONZERO for leaf in leaves)
+        else _with_damper(branch, d, roots)
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """What E tells of one d and rho: G_d(0)^K d^-L, and the sum of 1/z for every subset of the roots of G_d."""
+    """What E tells of one d and rho: G_d(0)^K d^-L, and the sum of 1/z for every subset of the
+    roots of G_d.
+    """
 
     factor: Ball
     sums: list[Ball]
@@ -170,11 +210,15 @@ def _subsets(count: int, size: int) -> list[tuple[int, ...]]:
 def _incidence(count: int, size: int) -> acb_mat:
     """Rows: the subsets; 1 for each element."""
     subsets = _subsets(count, size)
-    return acb_mat(len(subsets), count, [int(i in chosen) for chosen in subsets for i in range(count)])
+    return acb_mat(
+        len(subsets), count, [int(i in chosen) for chosen in subsets for i in range(count)]
+    )
 
 
 def _radius(branch: Branch) -> float:
-    """A power of two near the d at which the lowest coefficient of G_d may vanish: where the roots of E are to be expected."""
+    """A power of two near the d at which the lowest coefficient of G_d may vanish: where the
+    roots of E are to be expected.
+    """
     low = 0 if branch.segment.wall else 2 if is_boundary(branch.data.denominator[1]) else 1
     ratio = branch.data.denominator[low] / (branch.spring * branch.data.numerator)[low]
     size = float(ratio.abs_upper())
@@ -196,7 +240,10 @@ def circle(degree: int, radius: float) -> list[Ball]:
 def through(values: list[Ball], radius: float) -> Poly:
     """The polynomial with these values on the `circle`."""
     count, unit = len(values), _unit(len(values))
-    sums = [sum((v * unit[-i * k % count] for k, v in enumerate(values)), acb(0)) / count for i in range(count)]
+    sums = [
+        sum((v * unit[-i * k % count] for k, v in enumerate(values)), acb(0)) / count
+        for i in range(count)
+    ]
     return poly([c / acb(radius) ** i for i, c in enumerate(sums)])
 
 
@@ -205,9 +252,15 @@ def _unit(count: int) -> list[Ball]:
     return [acb.exp_pi_i(acb(fmpq(2 * j, count))) for j in range(count)]
 
 
-def _with_damper(branch: Branch, d: Ball, found_by: Callable[[Poly, int], list[Ball]]) -> Iterator[Leaf]:
+def _with_damper(
+    branch: Branch, d: Ball, found_by: Callable[[Poly, int], list[Ball]]
+) -> Iterator[Leaf]:
     """Every subset of the roots of G_d that may be Phi's; all that are refuted are one leaf."""
-    nodes, size, sigma = branch.segment.nodes, 2 * (branch.segment.nodes - branch.segment.a), branch.sigma
+    nodes, size, sigma = (
+        branch.segment.nodes,
+        2 * (branch.segment.nodes - branch.segment.a),
+        branch.sigma,
+    )
     found = found_by(branch.grounded(d), 2 * nodes)
     inverse, wanted = [1 / z for z in found], -sigma
     sums = subset_sums(inverse, size)
@@ -237,25 +290,39 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
 
     def join(x: Part, y: Part) -> Part:
         """Left side, the two inner masses with their spring, right side."""
-        return Part((*x.masses[::-1], m_a, m_b, *y.masses), (*x.springs[::-1], spring, *y.springs), x.gauges + y.gauges)
+        return Part(
+            (*x.masses[::-1], m_a, m_b, *y.masses),
+            (*x.springs[::-1], spring, *y.springs),
+            x.gauges + y.gauges,
+        )
 
     def join_damped(b: Ball, x: Part, y: Part) -> Leaf:
-        """The same with the dampers to the ground; none at the inner mass is a boundary case where one is meant."""
+        """The same with the dampers to the ground; none at the inner mass is a boundary case
+        where one is meant.
+        """
         plain = join(x, y)
         dampers = (*x.all_dampers[::-1], b, friction.NOTHING, *y.all_dampers)
-        return replace(plain, dampers=dampers) if a not in branch.segment.dampers or not is_boundary(b) else BOUNDARY
+        return (
+            replace(plain, dampers=dampers)
+            if a not in branch.segment.dampers or not is_boundary(b)
+            else BOUNDARY
+        )
 
     if not branch.segment.dampers:
         yield from combined(peel(w_left), lambda: peel(w_right), join)
         return
     dampers = tuple(i in branch.segment.dampers for i in range(a, 0, -1))
-    node = friction.Node(w_left.numerator, w_left.denominator, dampers[0], dampers[1:], w_left.wall, False)
+    node = friction.Node(
+        w_left.numerator, w_left.denominator, dampers[0], dampers[1:], w_left.wall, False
+    )
     for b, leaf in friction.behind(node):
         yield from combined([leaf], lambda: peel(w_right), partial(join_damped, b))
 
 
 def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, segment: Segment | None) -> Stiffness:
-    """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu; `segment` for its left side, with its dampers in W."""
+    """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu; `segment` for its left
+    side, with its dampers in W.
+    """
     wall, known = (segment.wall, segment.poles_at_zero) if segment else (False, 2)
     numerator = cut(whole - mass * shifted(zeros, 2), 2 * nu + 1)
     return Stiffness(numerator if wall else grounded_at_zero(numerator, known), zeros, nu, wall, 2)

@@ -1,7 +1,7 @@
 """A first-order lag: H = H0/(1 + T1 s), so -1/T1 is one of the poles of H, and H0 = H (1 + T1 s).
 
-Without any damper H0 is a function of s^2, and the denominator of H, monic, is (s + 1/T1) E(s^2): its odd part is s E, its even
-part E/T1, which gives T1 as a fraction.
+Without any damper H0 is a function of s^2, and the denominator of H, monic, is (s + 1/T1) E(s^2):
+its odd part is s E, its even part E/T1, which gives T1 as a fraction.
 """
 
 from collections.abc import Iterator

@@ -27,7 +27,8 @@ class Dead:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Masses and springs in a row, k(s) = c + d s (undamped: c). `gauges`: how many free choices were made to get here.
+    """Masses and springs in a row, k(s) = c + d s (undamped: c). `gauges`: how many free choices
+    were made to get here.
 
     `dampers`: from each mass to the ground, 0 where there is none; empty where no mass has one.
     """
@@ -47,8 +48,11 @@ Leaf = Part | Dead
 NONZERO, BOUNDARY, OPEN = (Dead(reason) for reason in Reason)
 
 
-def combined(left: Iterable[Leaf], right: Callable[[], Iterable[Leaf]], join: Callable[[Part, Part], Leaf]) -> Iterator[Leaf]:
-    """All pairs of parts, then what is left open; nothing but proofs if one side is proven impossible.
+def combined(
+    left: Iterable[Leaf], right: Callable[[], Iterable[Leaf]], join: Callable[[Part, Part], Leaf]
+) -> Iterator[Leaf]:
+    """All pairs of parts, then what is left open; nothing but proofs if one side is proven
+    impossible.
 
     `right` is asked only if the left side is not refuted.
     """

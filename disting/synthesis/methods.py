@@ -25,7 +25,9 @@ def synthesise(segment: Segment, data: Data) -> Iterator[Leaf]:
     if method is None:
         yield OPEN
     else:
-        yield from map(mirrored, method(segment.mirrored, data)) if turned else method(segment, data)
+        yield from (
+            map(mirrored, method(segment.mirrored, data)) if turned else method(segment, data)
+        )
 
 
 def is_covered(segment: Segment) -> bool:
@@ -49,7 +51,11 @@ def method_of(segment: Segment) -> Method | None:
     if segment.distance == 0:
         return driving_point if segment.dampers or segment.elastic else collocated
     if segment.elastic:
-        return swinging if segment.distance == 1 and segment.b == segment.nodes and adapts(segment) else None
+        return (
+            swinging
+            if segment.distance == 1 and segment.b == segment.nodes and adapts(segment)
+            else None
+        )
     if segment.q == 2:
         return _damped(segment)
     if segment.b == segment.nodes:
@@ -60,7 +66,9 @@ def method_of(segment: Segment) -> Method | None:
 def _damped(segment: Segment) -> Method | None:
     if segment.distance > 1:
         return None
-    if segment.b == segment.nodes and (segment.nodes not in segment.dampers or is_untested(segment)):
+    if segment.b == segment.nodes and (
+        segment.nodes not in segment.dampers or is_untested(segment)
+    ):
         return next_to_end
     return inner_neighbours if serves(segment) and segment.b < segment.nodes else None
 
@@ -69,4 +77,14 @@ def _rank(segment: Segment) -> int:
     return _ORDER.index(method_of(segment))
 
 
-_ORDER = (collocated, driving_point, swinging, next_to_end, to_end, neighbours, inner_neighbours, None)  # cheapest first
+# cheapest first
+_ORDER = (
+    collocated,
+    driving_point,
+    swinging,
+    next_to_end,
+    to_end,
+    neighbours,
+    inner_neighbours,
+    None,
+)

@@ -1,8 +1,10 @@
-"""A dynamic stiffness taken apart into springs and masses, one after the other, from the port outwards.
+"""A dynamic stiffness taken apart into springs and masses, one after the other, from the port
+outwards.
 
-W = P/A (A monic of degree q nu) is what a port feels of nu masses behind a spring: W = k Z/(k + Z), Z = m s^2 + W'. Then
-P = k Delta and A = k A' + Delta with Z = Delta/A', Delta monic. Undamped (in x = s^2) k = lc P: Cauer's continued fraction,
-without a choice. Damped k = d (s - z) for a root z of P; since A(z) = Delta(z), only roots with d A(z) = P'(z) can serve.
+W = P/A (A monic of degree q nu) is what a port feels of nu masses behind a spring: W = k Z/(k +
+Z), Z = m s^2 + W'. Then P = k Delta and A = k A' + Delta with Z = Delta/A', Delta monic. Undamped
+(in x = s^2) k = lc P: Cauer's continued fraction, without a choice. Damped k = d (s - z) for a
+root z of P; since A(z) = Delta(z), only roots with d A(z) = P'(z) can serve.
 """
 
 from collections.abc import Iterator
@@ -14,7 +16,9 @@ from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part
 
 @dataclass(frozen=True, slots=True)
 class Stiffness:
-    """W = numerator/denominator (monic) of `masses` masses, ending at the wall or free; q = 2 damped, 1 undamped."""
+    """W = numerator/denominator (monic) of `masses` masses, ending at the wall or free; q = 2
+    damped, 1 undamped.
+    """
 
     numerator: Poly
     denominator: Poly
@@ -73,16 +77,24 @@ def _behind(w: Stiffness, spring: Poly) -> Iterator[Leaf]:
     mass: Ball = 1 / rest[q * (nu - 1)]
     inner = Stiffness(_remaining(delta, rest, mass, w), rest * mass, nu - 1, w.wall, q)
     for leaf in peel(inner):
-        yield replace(leaf, masses=(mass, *leaf.masses), springs=(spring, *leaf.springs)) if isinstance(leaf, Part) else leaf
+        yield (
+            replace(leaf, masses=(mass, *leaf.masses), springs=(spring, *leaf.springs))
+            if isinstance(leaf, Part)
+            else leaf
+        )
 
 
 def _remaining(delta: Poly, rest: Poly, mass: Ball, w: Stiffness) -> Poly:
-    """m (Delta - m s^2 A'), of degree 2 (nu-1) + 1 (undamped nu-1); its low coefficients vanish at a free end."""
+    """m (Delta - m s^2 A'), of degree 2 (nu-1) + 1 (undamped nu-1); its low coefficients vanish
+    at a free end.
+    """
     q, nu = w.q, w.masses
     raw = cut(mass * (delta - mass * shifted(rest, q)), 2 * nu - 1 if q == 2 else nu - 1)
     return raw if w.wall else grounded_at_zero(raw, q)
 
 
 def grounded_at_zero(p: Poly, q: int) -> Poly:
-    """p with the coefficients s^0 .. s^(q-1) exactly zero: what a free end feels like in a motion of the whole."""
+    """p with the coefficients s^0 .. s^(q-1) exactly zero: what a free end feels like in a
+    motion of the whole.
+    """
     return shifted(shifted(p, -q), q)

@@ -1,8 +1,9 @@
 """Which poles belong to the grounded part: H = R + F, split by every subset of the non-zero poles.
 
-R has q g of the simple poles z_j of H with H's residues there, F the others and the motion as a whole, s^-q (s^-1 where dampers
-to the ground stop it). Far away R falls off like s^-(2+distance) (undamped x^-(1+distance), in s twice as fast), and so does F:
-sums of r_j z_j^i that must vanish. Damped there is at least one such test; it leaves none or one subset, as a rule.
+R has q g of the simple poles z_j of H with H's residues there, F the others and the motion as a
+whole, s^-q (s^-1 where dampers to the ground stop it). Far away R falls off like s^-(2+distance)
+(undamped x^-(1+distance), in s twice as fast), and so does F: sums of r_j z_j^i that must vanish.
+Damped there is at least one such test; it leaves none or one subset, as a rule.
 """
 
 from collections.abc import Iterator
@@ -35,7 +36,9 @@ class Split:
     free: Data
 
 
-def pole_splits(data: Data, grounded: Segment, free: Segment, at_zero: int | None = None) -> Iterator[Split | Dead]:
+def pole_splits(
+    data: Data, grounded: Segment, free: Segment, at_zero: int | None = None
+) -> Iterator[Split | Dead]:
     """Yield the split of every subset of poles that passes all tests, and what refutes the others.
 
     `at_zero`: multiplicity of the pole at 0, by default q, as it is without dampers to the ground.
@@ -47,12 +50,19 @@ def pole_splits(data: Data, grounded: Segment, free: Segment, at_zero: int | Non
     for mine, others in splits(poles, q * grounded.nodes):
         fits = _decays(mine, [0 * h for h in markov], grounded) and _decays(mine, markov, free)
         d_free = shifted(product([p.at for p in others]), low)
-        yield _exact_order(_split(data, mine, d_free, grounded, free), grounded, free) if fits else NONZERO
+        yield (
+            _exact_order(_split(data, mine, d_free, grounded, free), grounded, free)
+            if fits
+            else NONZERO
+        )
 
 
 def _poles(data: Data, low: int, degree: int) -> list[Pole]:
     slope = data.denominator.derivative()
-    return [Pole(z, data.numerator(z) / slope(z)) for z in roots(shifted(data.denominator, -low), degree - low)]
+    return [
+        Pole(z, data.numerator(z) / slope(z))
+        for z in roots(shifted(data.denominator, -low), degree - low)
+    ]
 
 
 def _markov(data: Data, count: int) -> list[Ball]:
@@ -62,17 +72,23 @@ def _markov(data: Data, count: int) -> list[Ball]:
 
 
 def _decays(mine: list[Pole], targets: list[Ball], segment: Segment) -> bool:
-    """Whether the sums of r z^i agree with the targets for all i that the segment's decay forbids."""
+    """Whether the sums of r z^i agree with the targets for all i that the segment's decay
+    forbids.
+    """
     return all(_agrees([p.moment(i) for p in mine], targets[i]) for i in range(segment.decay))
 
 
 def _agrees(moments: list[Ball], target: Ball) -> bool:
     zero: Ball = 0 * target
-    return vanishes(sum(moments, zero) - target, sum((abs(m) for m in moments), abs(zero) + abs(target)))
+    return vanishes(
+        sum(moments, zero) - target, sum((abs(m) for m in moments), abs(zero) + abs(target))
+    )
 
 
 def _exact_order(split: Split, grounded: Segment, free: Segment) -> Split | Dead:
-    """A part that falls off faster than its chain can would need an infinite mass or a spring without damper."""
+    """A part that falls off faster than its chain can would need an infinite mass or a spring
+    without damper.
+    """
     short = any(_vanishing_gain(d, s) for d, s in ((split.grounded, grounded), (split.free, free)))
     return BOUNDARY if short else split
 

@@ -1,4 +1,6 @@
-"""What the search for a fibre brings: all parameter vectors with one receptance, and how sure that is."""
+"""What the search for a fibre brings: all parameter vectors with one receptance, and how sure
+that is.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,9 +12,9 @@ Ball = Any  # acb or arb
 class Status(StrEnum):
     """COMPLETE: the solutions listed are all there are. EMPTY: proven that there is none.
 
-    INFINITE: a family; one member per branch is listed, for random values of the free choices. DEGENERATE: the point is
-    special, or an element cannot be told from zero: draw another. NOT_COVERED: no method for this structure; the list may be
-    short.
+    INFINITE: a family; one member per branch is listed, for random values of the free choices.
+    DEGENERATE: the point is special, or an element cannot be told from zero: draw another.
+    NOT_COVERED: no method for this structure; the list may be short.
     """
 
     COMPLETE = "complete"
@@ -33,8 +35,9 @@ class Answer(StrEnum):
 class Confirmation(StrEnum):
     """What is proven of a listed solution.
 
-    SUBSYSTEM: a Krawczyk step proves that as many coefficient equations as there are parameters have exactly one common
-    solution in the box; the other equations hold within their balls. BALLS: all equations hold within their balls, no more.
+    SUBSYSTEM: a Krawczyk step proves that as many coefficient equations as there are parameters
+    have exactly one common solution in the box; the other equations hold within their balls.
+    BALLS: all equations hold within their balls, no more.
     """
 
     SUBSYSTEM = "square subsystem"
@@ -43,9 +46,11 @@ class Confirmation(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Parameter values (balls, complex) by name; `width`: largest relative distance of a coefficient from the given one.
+    """Parameter values (balls, complex) by name; `width`: largest relative distance of a
+    coefficient from the given one.
 
-    `real`: YES only says that the solution, if it is one, is real: its conjugate is one too, and no other listed ball meets it.
+    `real`: YES only says that the solution, if it is one, is real: its conjugate is one too, and
+    no other listed ball meets it.
     """
 
     values: dict[str, Ball]
@@ -58,7 +63,9 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Exclusions:
-    """How many branches ended for which reason: refuted (proven), at the boundary (an element near zero), not covered."""
+    """How many branches ended for which reason: refuted (proven), at the boundary (an element
+    near zero), not covered.
+    """
 
     refuted: int = 0
     boundary: int = 0
@@ -67,7 +74,9 @@ class Exclusions:
 
 @dataclass(frozen=True, slots=True)
 class Fibre:
-    """All parameter vectors of a structure with a given receptance; `reason` tells what stands behind the status."""
+    """All parameter vectors of a structure with a given receptance; `reason` tells what stands
+    behind the status.
+    """
 
     status: Status
     solutions: tuple[Solution, ...] = ()
@@ -76,7 +85,9 @@ class Fibre:
     reason: str = ""
 
     def __post_init__(self) -> None:
-        if self.status is Status.EMPTY and (self.solutions or self.tests.boundary or self.tests.uncovered):
+        if self.status is Status.EMPTY and (
+            self.solutions or self.tests.boundary or self.tests.uncovered
+        ):
             raise ValueError("an empty fibre has no solutions and no open branches")
         if self.status in (Status.COMPLETE, Status.INFINITE) and not self.solutions:
             raise ValueError("a fibre that is not empty lists solutions")

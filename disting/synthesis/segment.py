@@ -11,10 +11,12 @@ from disting.synthesis.leaves import Leaf, Part
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """n nodes in a row, left end at the wall or free, right end free; ports a <= b, numbered from 1.
+    """n nodes in a row, left end at the wall or free, right end free; ports a <= b, numbered from
+    1.
 
-    q = 2: in s; q = 1: in x = s^2, neither springs nor nodes are damped. `dampers`: the nodes with a damper to the ground;
-    `elastic`: no dampers beside the springs, though in s; `alone`: the chain has no other part, so its poles are all known.
+    q = 2: in s; q = 1: in x = s^2, neither springs nor nodes are damped. `dampers`: the nodes with
+    a damper to the ground; `elastic`: no dampers beside the springs, though in s; `alone`: the
+    chain has no other part, so its poles are all known.
     """
 
     nodes: int
@@ -33,7 +35,9 @@ class Segment:
 
     @property
     def numerator_degree(self) -> int:
-        """Degree of theta_(a-1) k_a .. k_(b-1) phi_(b+1): q (n - 1) less one (damped) or q (undamped) a spring."""
+        """Degree of theta_(a-1) k_a .. k_(b-1) phi_(b+1): q (n - 1) less one (damped) or q
+        (undamped) a spring.
+        """
         return self.q * (self.nodes - 1) - self.distance * (1 + self.elastic)
 
     @property
@@ -43,7 +47,9 @@ class Segment:
 
     @property
     def poles_at_zero(self) -> int:
-        """Multiplicity of the pole at 0 of a free row: a motion of the whole, stopped by dampers to the ground."""
+        """Multiplicity of the pole at 0 of a free row: a motion of the whole, stopped by
+        dampers to the ground.
+        """
         return 1 if self.dampers else self.q
 
     @property
@@ -55,7 +61,8 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Data:
-    """Receptance of a segment: numerator over monic denominator, in s (damped) or x = s^2 (undamped).
+    """Receptance of a segment: numerator over monic denominator, in s (damped) or x = s^2
+    (undamped).
 
     `exact`: the numerator as fmpq_poly, if the coefficients of both are rational and known.
     """
@@ -71,14 +78,18 @@ class Data:
     @property
     def even(self) -> "Data":
         """In x = s^2, of a function of s^2."""
-        return Data(acb_poly(self.numerator.coeffs()[::2]), acb_poly(self.denominator.coeffs()[::2]))
+        return Data(
+            acb_poly(self.numerator.coeffs()[::2]), acb_poly(self.denominator.coeffs()[::2])
+        )
 
 
 def mirrored(leaf: Leaf) -> Leaf:
     """The same part read from right to left."""
     if not isinstance(leaf, Part):
         return leaf
-    return replace(leaf, masses=leaf.masses[::-1], springs=leaf.springs[::-1], dampers=leaf.dampers[::-1])
+    return replace(
+        leaf, masses=leaf.masses[::-1], springs=leaf.springs[::-1], dampers=leaf.dampers[::-1]
+    )
 
 
 def splits(items: list[Ball], size: int) -> Iterator[tuple[list[Ball], list[Ball]]]:

@@ -14,14 +14,24 @@ from disting.synthesis.target import Target
 Values = dict[str, Ball]
 
 
-def listed(chain: Chain, found: list[Checked], target: Target, *, complete: bool, confirm: bool) -> tuple[Solution, ...]:
-    """Solutions with their properties. A complete list is closed under conjugation; otherwise nothing is known to be real.
+def listed(
+    chain: Chain, found: list[Checked], target: Target, *, complete: bool, confirm: bool
+) -> tuple[Solution, ...]:
+    """Solutions with their properties. A complete list is closed under conjugation; otherwise
+    nothing is known to be real.
 
     `confirm`: whether those that are no members of a family are looked at by `confirmation`.
     """
-    solutions = (_solution(c, [x.values for x in found if x is not c or not complete]) for c in found)
+    solutions = (
+        _solution(c, [x.values for x in found if x is not c or not complete]) for c in found
+    )
     return tuple(
-        replace(s, confirmation=confirmation(chain, s.values, target)) if confirm and not s.gauges else s for s in solutions
+        (
+            replace(s, confirmation=confirmation(chain, s.values, target))
+            if confirm and not s.gauges
+            else s
+        )
+        for s in solutions
     )
 
 
@@ -32,7 +42,9 @@ def _solution(c: Checked, others: list[Values]) -> Solution:
 
 
 def _real(values: Values, others: list[Values]) -> Answer:
-    """NO if an imaginary part leaves zero out; YES if the conjugate, a solution too, can be none of the others."""
+    """NO if an imaginary part leaves zero out; YES if the conjugate, a solution too, can be
+    none of the others.
+    """
     if not all(v.imag.contains(0) for v in values.values()):
         return Answer.NO
     conjugate = {name: v.conjugate() for name, v in values.items()}

@@ -27,7 +27,11 @@ class Target:
 
     def folded(self, q: int) -> "Target":
         """In x = s^2 for q = 1 (only if even), itself for q = 2."""
-        return self if q == 2 else Target(*(fmpq_poly(p.coeffs()[::2]) for p in (self.numerator, self.denominator)))
+        return (
+            self
+            if q == 2
+            else Target(*(fmpq_poly(p.coeffs()[::2]) for p in (self.numerator, self.denominator)))
+        )
 
     @property
     def balls(self) -> Data:
@@ -61,12 +65,17 @@ def fraction(text: str) -> fmpq:
 
 
 def degrees_differ(t: Target, q: int, n_masses: int, whole: Segment | None, lag: int = 0) -> bool:
-    """Exact proof that no parameters fit: more poles than the chain has, or a chain without a gap of another relative degree.
+    """Exact proof that no parameters fit: more poles than the chain has, or a chain without a gap
+    of another relative degree.
 
-    t is folded already; `whole` is the chain itself if it has no gap; `lag` is the number of its poles.
+    t is folded already; `whole` is the chain itself if it has no gap; `lag` is the number of its
+    poles.
     """
     poles, most = t.denominator.degree(), q * n_masses + lag
-    return bool(poles > most or (whole is not None and poles == most and t.numerator.degree() != whole.numerator_degree))
+    return bool(
+        poles > most
+        or (whole is not None and poles == most and t.numerator.degree() != whole.numerator_degree)
+    )
 
 
 def poles_at_zero(t: Target) -> int:
@@ -75,21 +84,26 @@ def poles_at_zero(t: Target) -> int:
 
 
 def rests_differently(t: Target, free: Segment) -> bool:
-    """Exact proof that no parameters fit a target of full degree: another multiplicity of the pole at 0 than the free row has.
+    """Exact proof that no parameters fit a target of full degree: another multiplicity of the pole
+    at 0 than the free row has.
 
-    det A of a free row is s (sum of the b_i) (product of the c_i) + .., so one damper to the ground makes the pole simple, and
-    several do unless their sum is zero.
+    det A of a free row is s (sum of the b_i) (product of the c_i) + .., so one damper to the
+    ground makes the pole simple, and several do unless their sum is zero.
     """
     low = poles_at_zero(t)
     return low < free.poles_at_zero or (len(free.dampers) == 1 and low > 1)
 
 
 def is_regular(t: Target, q: int, n_masses: int, whole: Segment | None, lag: int = 0) -> bool:
-    """Whether the methods apply: q N + lag poles, 1 to q of them zero, the others simple; simple zeros too without a gap."""
+    """Whether the methods apply: q N + lag poles, 1 to q of them zero, the others simple;
+    simple zeros too without a gap.
+    """
     den, low = t.denominator, poles_at_zero(t)
     if den.degree() != q * n_masses + lag or not 1 <= low <= q:
         return False
-    return _squarefree(fmpq_poly(den.coeffs()[low:])) and (whole is None or _squarefree(t.numerator))
+    return _squarefree(fmpq_poly(den.coeffs()[low:])) and (
+        whole is None or _squarefree(t.numerator)
+    )
 
 
 def _squarefree(p: Exact) -> bool:

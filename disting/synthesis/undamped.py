@@ -1,9 +1,10 @@
-"""Undamped chains with the ports apart, in x = s^2: families of dimension b - a, shown by one random member.
+"""Undamped chains with the ports apart, in x = s^2: families of dimension b - a, shown by one
+random member.
 
-Neighbours (b = a + 1): for every k_a = kappa, D + kappa N = Theta Phi splits into the two sides with kappa to the ground.
-Sensor at the free end (b = n): phi_(a+1)/phi_(a+1)(0) = prod (1 + x/tau_i) with arbitrary tau_i turns the problem into the
-collocated one at a with the right zeros prescribed. No test occurs: every receptance of this form has solutions, up to
-vanishing elements.
+Neighbours (b = a + 1): for every k_a = kappa, D + kappa N = Theta Phi splits into the two sides
+with kappa to the ground. Sensor at the free end (b = n): phi_(a+1)/phi_(a+1)(0) = prod (1 +
+x/tau_i) with arbitrary tau_i turns the problem into the collocated one at a with the right zeros
+prescribed. No test occurs: every receptance of this form has solutions, up to vanishing elements.
 """
 
 from collections.abc import Iterator
@@ -19,7 +20,9 @@ from disting.synthesis.segment import Data, Segment, splits
 
 
 def neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every segment with b = a + 1 and this receptance, for one random spring between the ports."""
+    """Yield every segment with b = a + 1 and this receptance, for one random spring between the
+    ports.
+    """
     yield from neighbours_at(segment, data, _random(1)[0])
 
 
@@ -30,11 +33,21 @@ def neighbours_at(segment: Segment, data: Data, spring: Any) -> Iterator[Leaf]:
     zeros = roots(data.numerator, segment.numerator_degree)
     for theta, phi in splits(poles, segment.a):
         for left, right in splits(zeros, segment.a - 1):
-            yield from _sides(segment, (product(theta), product(left)), (product(phi), product(right)), kappa, gain)
+            yield from _sides(
+                segment,
+                (product(theta), product(left)),
+                (product(phi), product(right)),
+                kappa,
+                gain,
+            )
 
 
-def _sides(segment: Segment, left: tuple[Ball, Ball], right: tuple[Ball, Ball], kappa: Ball, gain: Ball) -> Iterator[Leaf]:
-    """Both sides from (Theta, A) and (Phi, B): m_b Phi(0)/B(0) = kappa (free end), m_a m_b = kappa/nu."""
+def _sides(
+    segment: Segment, left: tuple[Ball, Ball], right: tuple[Ball, Ball], kappa: Ball, gain: Ball
+) -> Iterator[Leaf]:
+    """Both sides from (Theta, A) and (Phi, B): m_b Phi(0)/B(0) = kappa (free end), m_a m_b =
+    kappa/nu.
+    """
     if is_boundary(right[0][0]) or is_boundary(right[1][0]):
         yield BOUNDARY
         return
@@ -45,7 +58,9 @@ def _sides(segment: Segment, left: tuple[Ball, Ball], right: tuple[Ball, Ball], 
 
     def join(a: Part, b: Part) -> Part:
         """Left side, the two inner masses with their spring, right side."""
-        return Part((*a.masses[::-1], m_a, m_b, *b.masses), (*a.springs[::-1], poly([kappa]), *b.springs), 1)
+        return Part(
+            (*a.masses[::-1], m_a, m_b, *b.masses), (*a.springs[::-1], poly([kappa]), *b.springs), 1
+        )
 
     yield from combined(peel(w_left), lambda: peel(w_right), join)
 

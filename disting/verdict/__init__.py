@@ -1,4 +1,6 @@
-"""The verdict on a pair: what may decide (`query`), what is found (`result`), and from findings to it (`cascade`)."""
+"""The verdict on a pair: what may decide (`query`), what is found (`result`), and from findings
+to it (`cascade`).
+"""
 
 from disting.verdict.cascade import PROVES as PROVES
 from disting.verdict.cascade import Step as Step

@@ -1,10 +1,12 @@
 """From findings to a verdict: the conditions in order, in each representation, until one decides.
 
-Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then structure (8 and 9). A
-necessary condition that fails decides DISTINGUISHABLE, a sufficient one that holds INDISTINGUISHABLE; otherwise the pair is
-left to the exact decision; what it cannot settle is UNDECIDED. The paper's view ends with the conditions.
-All of it is over the complex numbers: distinguishable models are so over real and positive parameters too (real and positive
-points are Zariski dense), while for indistinguishable ones the admissible values are asked for (see `conditions.admissible`).
+Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then
+structure (8 and 9). A necessary condition that fails decides DISTINGUISHABLE, a sufficient one
+that holds INDISTINGUISHABLE; otherwise the pair is left to the exact decision; what it cannot
+settle is UNDECIDED. The paper's view ends with the conditions. All of it is over the complex
+numbers: distinguishable models are so over real and positive parameters too (real and positive
+points are Zariski dense), while for indistinguishable ones the admissible values are asked for
+(see `conditions.admissible`).
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -23,7 +25,10 @@ from disting.invariants.sample import Representation
 from disting.verdict.query import FIBRE, PARAMETERS, Query
 from disting.verdict.result import Relation, Verdict
 
-_APART, _SAME = {Outcome.FAILS: Relation.DISTINGUISHABLE}, {Outcome.HOLDS: Relation.INDISTINGUISHABLE}
+_APART, _SAME = (
+    {Outcome.FAILS: Relation.DISTINGUISHABLE},
+    {Outcome.HOLDS: Relation.INDISTINGUISHABLE},
+)
 PROVES: dict[Role, dict[Outcome, Relation]] = {
     Role.NECESSARY: _APART,
     Role.SUFFICIENT: _SAME,
@@ -46,7 +51,9 @@ class Step:
 
 
 def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
-    """Yield every condition's finding lazily, in order: representation by representation, condition by condition."""
+    """Yield every condition's finding lazily, in order: representation by representation,
+    condition by condition.
+    """
     count = query.count(left, right)
     for representation in query.view.representations:
         for condition in CONDITIONS:
@@ -57,7 +64,9 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
 
 
 def decide(left: Subject, right: Subject, query: Query) -> Verdict:
-    """Verdict of the first step that decides; indistinguishable over complex parameters, it goes on to admissible ones."""
+    """Verdict of the first step that decides; indistinguishable over complex parameters, it
+    goes on to admissible ones.
+    """
     found, domain = first(left.name, right.name, steps(left, right, query)), query.view.domain
     if query.tells_inclusion:
         found = with_inclusion(found, left.rank == right.rank, lambda: inclusions(left, right))
@@ -66,8 +75,18 @@ def decide(left: Subject, right: Subject, query: Query) -> Verdict:
         return replace(found, domain=domain)
     grade = (found.certainty or Certainty.NUMERICAL, found.safety)
     step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade, found.evidence))
-    open_pair = Verdict(left.name, right.name, Relation.UNDECIDED, domain=domain, notes=(open_note(step.finding.note),))
-    said = open_pair if step.relation is Relation.UNDECIDED else verdict_of(left.name, right.name, step, domain)
+    open_pair = Verdict(
+        left.name,
+        right.name,
+        Relation.UNDECIDED,
+        domain=domain,
+        notes=(open_note(step.finding.note),),
+    )
+    said = (
+        open_pair
+        if step.relation is Relation.UNDECIDED
+        else verdict_of(left.name, right.name, step, domain)
+    )
     said = replace(said, image=found.image, closure=found.closure)
     return replace(said, left_positive=found.left_positive, right_positive=found.right_positive)
 
@@ -78,7 +97,9 @@ def open_note(reason: str) -> str:
 
 
 def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
-    """With the positive equivalents of each side whose generic models are models of the other side, or limits of them."""
+    """With the positive equivalents of each side whose generic models are models of the other
+    side, or limits of them.
+    """
     if left.chain.n_masses != right.chain.n_masses:
         return verdict
     here = verdict.closure in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
@@ -90,8 +111,12 @@ def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
     )
 
 
-def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], Inclusions]) -> Verdict:
-    """The verdict over complex parameters with its inclusion; of unequal rank the finding tells it."""
+def with_inclusion(
+    verdict: Verdict, equal_rank: bool, finding: Callable[[], Inclusions]
+) -> Verdict:
+    """The verdict over complex parameters with its inclusion; of unequal rank the finding tells
+    it.
+    """
     if verdict.relation is Relation.UNDECIDED:
         return verdict
     if verdict.relation is Relation.INDISTINGUISHABLE:
@@ -99,11 +124,15 @@ def with_inclusion(verdict: Verdict, equal_rank: bool, finding: Callable[[], Inc
     if equal_rank:
         return replace(verdict, image=Inclusion.NEITHER, closure=Inclusion.NEITHER)
     found = finding()
-    return replace(verdict, image=found.image.inclusion, closure=found.closure.inclusion, inclusions=found)
+    return replace(
+        verdict, image=found.image.inclusion, closure=found.closure.inclusion, inclusions=found
+    )
 
 
 def first(left: str, right: str, found: Iterable[Step]) -> Verdict:
-    """The verdict over complex parameters of the first step that decides; undecided, it names what was abandoned."""
+    """The verdict over complex parameters of the first step that decides; undecided, it names
+    what was abandoned.
+    """
     notes: list[str] = []
     for step in found:
         if step.relation is not Relation.UNDECIDED:
@@ -115,11 +144,17 @@ def first(left: str, right: str, found: Iterable[Step]) -> Verdict:
 
 def _rule(step: Step) -> str:
     rule = step.finding.rule
-    return rule.in_words() if rule.role is Role.DECISION else f"{rule.in_words()} on {step.representation}"
+    return (
+        rule.in_words()
+        if rule.role is Role.DECISION
+        else f"{rule.in_words()} on {step.representation}"
+    )
 
 
 def audit(left: Subject, right: Subject, query: Query) -> Verdict:
-    """Run every condition in every representation; raise ContradictionError where two decide differently."""
+    """Run every condition in every representation; raise ContradictionError where two decide
+    differently.
+    """
     agreed(left.name, right.name, steps(left, right, query))
     return decide(left, right, query)
 
@@ -128,18 +163,34 @@ def agreed(left: str, right: str, found: Iterable[Step]) -> None:
     """Raise ContradictionError where two steps decide differently."""
     deciding = [step for step in found if step.relation is not Relation.UNDECIDED]
     if len({step.relation for step in deciding}) > 1:
-        told = ", ".join(f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding)
+        told = ", ".join(
+            f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding
+        )
         raise ContradictionError(f"{left} and {right}: {told}")
 
 
 def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLEX) -> Verdict:
     """The verdict that a deciding step gives."""
     f = step.finding
-    return Verdict(left, right, step.relation, f.rule.name, step.representation, f.certainty, f.safety, f.evidence, domain)
+    return Verdict(
+        left,
+        right,
+        step.relation,
+        f.rule.name,
+        step.representation,
+        f.certainty,
+        f.safety,
+        f.evidence,
+        domain,
+    )
 
 
 def _step(
-    condition: Necessary | Sufficient | Structural, left: Subject, right: Subject, representation: str, count: int
+    condition: Necessary | Sufficient | Structural,
+    left: Subject,
+    right: Subject,
+    representation: str,
+    count: int,
 ) -> Iterator[Step]:
     match condition:
         case Structural() if representation == STRUCTURE:
@@ -150,4 +201,7 @@ def _step(
             yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
         case Sufficient() if representation in tuple(Representation):
             r = Representation(representation)
-            yield Step(representation, condition.check(left, right, r, count if r is Representation.MARKOV else 0))
+            yield Step(
+                representation,
+                condition.check(left, right, r, count if r is Representation.MARKOV else 0),
+            )

@@ -1,7 +1,8 @@
-"""What may be used to decide a pair: representations, conditions, Markov parameters, and the values of the parameters.
+"""What may be used to decide a pair: representations, conditions, Markov parameters, and the
+values of the parameters.
 
-Asked without more, it is about positive parameters: masses, springs and dampers of a machine are positive. The paper's views
-speak of generic complex parameters.
+Asked without more, it is about positive parameters: masses, springs and dampers of a machine are
+positive. The paper's views speak of generic complex parameters.
 """
 
 from dataclasses import dataclass
@@ -19,10 +20,12 @@ PARAMETERS = "parameters"  # and of the question whether equivalents have admiss
 
 
 class View(StrEnum):
-    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds the exact decision.
+    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds
+    the exact decision.
 
-    All of them are over complex parameters. `real` and `positive` are `exact`, and then look whether equivalents with such
-    parameters exist; `positive` is what is meant where nothing is said.
+    All of them are over complex parameters. `real` and `positive` are `exact`, and then look
+    whether equivalents with such parameters exist; `positive` is what is meant where nothing is
+    said.
     """
 
     TF = "tf"
@@ -42,15 +45,20 @@ class View(StrEnum):
         """The representations of this view, in order."""
         if self in (View.TF, View.MARKOV):
             return (self.value,)
-        return ("tf", "markov", STRUCTURE) if self is View.COMBINED else ("tf", "markov", STRUCTURE, FIBRE)
+        return (
+            ("tf", "markov", STRUCTURE)
+            if self is View.COMBINED
+            else ("tf", "markov", STRUCTURE, FIBRE)
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """What may be used to decide: the view, the conditions' names, the number of Markov parameters (0 = all).
+    """What may be used to decide: the view, the conditions' names, the number of Markov parameters
+    (0 = all).
 
-    `inclusion`: after the exact decision, say also whose models lie in the other's closure and which positive models have
-    positive equivalents; this is most of the work.
+    `inclusion`: after the exact decision, say also whose models lie in the other's closure and
+    which positive models have positive equivalents; this is most of the work.
     """
 
     view: View = View.POSITIVE
@@ -59,12 +67,17 @@ class Query:
     inclusion: bool = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "conditions", tuple(map(str, self.conditions)))  # numbers do as well as names
+        # numbers do as well as names
+        object.__setattr__(self, "conditions", tuple(map(str, self.conditions)))
         unknown = [name for name in self.conditions if name not in ALL_CONDITIONS]
         if unknown:
-            raise InputError(f"conditions are {', '.join(ALL_CONDITIONS)}, not {', '.join(unknown)}")
+            raise InputError(
+                f"conditions are {', '.join(ALL_CONDITIONS)}, not {', '.join(unknown)}"
+            )
         if self.markov < 0:
-            raise InputError(f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}")
+            raise InputError(
+                f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}"
+            )
 
     def asks(self, rule: Rule) -> bool:
         """Whether this condition may decide."""
@@ -72,9 +85,13 @@ class Query:
 
     @property
     def tells_inclusion(self) -> bool:
-        """Whether verdicts say whose models have equivalents on the other side: not in the paper's views."""
+        """Whether verdicts say whose models have equivalents on the other side: not in the
+        paper's views.
+        """
         return self.inclusion and FIBRE in self.view.representations
 
     def count(self, left: Subject, right: Subject) -> int:
-        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are exhaustive."""
+        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are
+        exhaustive.
+        """
         return self.markov or left.chain.structure.n_states + right.chain.structure.n_states

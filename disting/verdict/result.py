@@ -17,9 +17,10 @@ from disting.inclusion import Inclusion, Inclusions, inclusions_from_dict, inclu
 class Relation(StrEnum):
     """What is known of a pair over a domain of parameters.
 
-    INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other. DISTINGUISHABLE: those of one of
-    them, at least, have none; the verdict's inclusion and its two shares tell of the other one. SOMETIMES: some parameters
-    have an equivalent and others have none, of two models that are indistinguishable over complex parameters.
+    INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other.
+    DISTINGUISHABLE: those of one of them, at least, have none; the verdict's inclusion and its two
+    shares tell of the other one. SOMETIMES: some parameters have an equivalent and others have
+    none, of two models that are indistinguishable over complex parameters.
     """
 
     DISTINGUISHABLE = "distinguishable"
@@ -53,12 +54,14 @@ def error_bound(certainty: str, safety: int) -> str:
 class Verdict:
     """Relation of a pair with its proof.
 
-    `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided; `representation`: "tf", "markov",
-    "structure", "fibre", "parameters" or ""; with certainty BOUNDED the probability of error is at most 2**-safety; `notes`
-    names what was abandoned. `image` tells, over complex parameters, whose generic models have equivalents on the other side,
-    elements finite and not zero; `closure` whose are limits of models there; for models of unequal rank `inclusions` says why.
-    `left_positive`: which positive left models have a positive equivalent on the right, where generic left ones have
-    equivalents there; `right_positive`: the reverse.
+    `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided;
+    `representation`: "tf", "markov", "structure", "fibre", "parameters" or ""; with certainty
+    BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned.
+    `image` tells, over complex parameters, whose generic models have equivalents on the other
+    side, elements finite and not zero; `closure` whose are limits of models there; for models of
+    unequal rank `inclusions` says why. `left_positive`: which positive left models have a positive
+    equivalent on the right, where generic left ones have equivalents there; `right_positive`: the
+    reverse.
     """
 
     left: str
@@ -79,15 +82,21 @@ class Verdict:
 
     def __post_init__(self) -> None:
         decided = self.relation is not Relation.UNDECIDED
-        if decided != bool(self.decided_by and self.representation and self.certainty and self.evidence):
-            raise ValueError("exactly a decided verdict names condition, representation, certainty and evidence")
+        if decided != bool(
+            self.decided_by and self.representation and self.certainty and self.evidence
+        ):
+            raise ValueError(
+                "exactly a decided verdict names condition, representation, certainty and evidence"
+            )
 
     def __bool__(self) -> bool:
         raise TypeError("a verdict is not true or false; look at its relation")
 
     @property
     def error_bound(self) -> str:
-        """Probability that the verdict is wrong, at most; "0" where nothing is left to chance, "" if undecided."""
+        """Probability that the verdict is wrong, at most; "0" where nothing is left to chance,
+        "" if undecided.
+        """
         return error_bound(self.certainty or "", self.safety)
 
     @property
@@ -99,7 +108,10 @@ class Verdict:
             return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
         sometimes = f"are sometimes indistinguishable{over}, depending on their values"
         says = sometimes if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
-        return f"{self.left} and {self.right} {says} ({self.rule}): {self.evidence.sentence(self.left, self.right)}"
+        return (
+            f"{self.left} and {self.right} {says} ({self.rule}):"
+            f" {self.evidence.sentence(self.left, self.right)}"
+        )
 
     @property
     def rule(self) -> str:
@@ -108,7 +120,9 @@ class Verdict:
             return ""
         rule = RULES[self.decided_by]
         if rule.role is not Role.DECISION:
-            where = {"tf": "transfer function", "markov": "Markov parameters"}.get(self.representation, "structure")
+            where = {"tf": "transfer function", "markov": "Markov parameters"}.get(
+                self.representation, "structure"
+            )
             return f"{rule.in_words()}, {where}"
         grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence and rule is EXACT else ""
         return ", ".join(filter(None, [rule.in_words(self.domain).removeprefix("the "), grounds]))

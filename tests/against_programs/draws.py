@@ -1,6 +1,8 @@
-"""How many cases a test draws, and which: the same in every run, or new ones with HYPOTHESIS_PROFILE=default.
+"""How many cases a test draws, and which: the same in every run, or new ones with
+HYPOTHESIS_PROFILE=default.
 
-ORACLE_CASES=1500 is the number of draws of every test; ORACLE_SEED=text repeats a run (every run names its seed).
+ORACLE_CASES=1500 is the number of draws of every test; ORACLE_SEED=text repeats a run (every run
+names its seed).
 """
 
 import os
@@ -9,7 +11,9 @@ from collections.abc import Iterator
 from random import Random, SystemRandom
 
 FRESH = os.environ.get("HYPOTHESIS_PROFILE", "repeatable") != "repeatable"
-SEED = os.environ.get("ORACLE_SEED") or (f"{SystemRandom().randrange(10**9)}" if FRESH else "repeatable")
+SEED = os.environ.get("ORACLE_SEED") or (
+    f"{SystemRandom().randrange(10**9)}" if FRESH else "repeatable"
+)
 
 
 def cases(name: str, number: int) -> Iterator[tuple[str, Random]]:
@@ -34,7 +38,12 @@ class Tally(Counter[str]):
             self.mismatches.append(what)
 
     def report(self, record_property) -> None:
-        """Hand the counts to the summary of the run, then fail on mismatches or where nothing was compared."""
-        record_property("oracle", f"seed {SEED}: " + ", ".join(f"{self[k]} {k}" for k in sorted({"mismatches", *self})))
+        """Hand the counts to the summary of the run, then fail on mismatches or where nothing
+        was compared.
+        """
+        record_property(
+            "oracle",
+            f"seed {SEED}: " + ", ".join(f"{self[k]} {k}" for k in sorted({"mismatches", *self})),
+        )
         assert not self.mismatches, "\n".join(self.mismatches)
         assert self["compared"], self

@@ -1,4 +1,6 @@
-"""Random chains with dampers to the ground, lag, dead time and all ports, against Singular and matrices of its own."""
+"""Random chains with dampers to the ground, lag, dead time and all ports, against Singular and
+matrices of its own.
+"""
 
 from fractions import Fraction
 
@@ -13,7 +15,8 @@ from tests.oracles.singular import PROGRAM
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not PROGRAM, reason="Singular is not installed")]
 RELATION = {True: Relation.INDISTINGUISHABLE, False: Relation.DISTINGUISHABLE}
-ALIKE = ("sensor", "lag", "dead_time")  # what most pairs share, so that they are not told apart by counting
+# what most pairs share, so that they are not told apart by counting
+ALIKE = ("sensor", "lag", "dead_time")
 
 
 def drawn_pair(draw):
@@ -21,12 +24,16 @@ def drawn_pair(draw):
     one, other = (drawn_chain(draw, masses, damped) for _ in range(2))
     if draw.random() < 0.85:
         other |= {name: one[name] for name in ALIKE}
-        other["ground_dampers"] = tuple(sorted(draw.sample(range(1, masses + 1), len(one["ground_dampers"]))))
+        other["ground_dampers"] = tuple(
+            sorted(draw.sample(range(1, masses + 1), len(one["ground_dampers"])))
+        )
     return Chain(**one), Chain(**other)
 
 
 def same(one, other, draw):
-    """The truth; models with and without a dead time differ, and two dead times are one more parameter on both sides."""
+    """The truth; models with and without a dead time differ, and two dead times are one more
+    parameter on both sides.
+    """
     if one.dead_time != other.dead_time:
         return False
     true = by_fibres(plain_chain(one), plain_chain(other), draw)
@@ -50,12 +57,17 @@ def test_verdicts_over_complex_parameters(record_property):
             if verdict.relation is Relation.UNDECIDED:
                 tally["undecided"] += 1
             else:
-                tally.check(verdict.relation is RELATION[true], f"{label}: {left} | {right}: {true}, {verdict.sentence}")
+                tally.check(
+                    verdict.relation is RELATION[true],
+                    f"{label}: {left} | {right}: {true}, {verdict.sentence}",
+                )
     tally.report(record_property)
 
 
 def test_numbers_of_parameter_vectors(record_property):
-    """Rank and number of parameter vectors with one behaviour, against dimension and degree of a fibre at a random point."""
+    """Rank and number of parameter vectors with one behaviour, against dimension and degree of
+    a fibre at a random point.
+    """
     tally = Tally()
     for label, draw in cases("counts", 80):
         arguments = drawn_chain(draw, draw.choice([1, 2, 2, 3]), draw.random() < 0.6)
@@ -66,16 +78,24 @@ def test_numbers_of_parameter_vectors(record_property):
             tally["open in Singular"] += 1
             continue
         found = identifiability(chain)
-        tally.check(found.rank == len(chain.parameters) - true.dimension, f"{label}: {chain}: rank {found.rank}, {true}")
+        tally.check(
+            found.rank == len(chain.parameters) - true.dimension,
+            f"{label}: {chain}: rank {found.rank}, {true}",
+        )
         if true.dimension == 0:
             most = true.count if found.most is None else found.most
-            tally.check(found.least <= true.count <= most, f"{label}: {chain}: {found.least} to {found.most}, {true}")
+            tally.check(
+                found.least <= true.count <= most,
+                f"{label}: {chain}: {found.least} to {found.most}, {true}",
+            )
     tally.report(record_property)
 
 
 @pytest.mark.parametrize("view", [View.REAL, View.POSITIVE])
 def test_verdicts_over_real_and_positive_parameters(view, record_property):
-    """As for general models: "always" and "never" hold at random positive points, and both orders agree."""
+    """As for general models: "always" and "never" hold at random positive points, and both
+    orders agree.
+    """
     tally = Tally()
     for label, draw in cases(f"chains:{view}", 120):
         one, other = drawn_pair(draw)
@@ -83,7 +103,9 @@ def test_verdicts_over_real_and_positive_parameters(view, record_property):
             continue
         verdict, back = (compare(*pair, query=Query(view)) for pair in ((one, other), (other, one)))
         tally[verdict.relation.value] += 1
-        tally.check(verdict.relation is back.relation, f"{label}: {verdict.sentence} {back.sentence}")
+        tally.check(
+            verdict.relation is back.relation, f"{label}: {verdict.sentence} {back.sentence}"
+        )
         for given, searched in ((one, other), (other, one)):
             for _ in range(3 if verdict.relation in RELATION.values() else 0):
                 here, there = plain_chain(given), plain_chain(searched)
@@ -93,5 +115,8 @@ def test_verdicts_over_real_and_positive_parameters(view, record_property):
                     continue
                 exists = bool(true.real if view is View.REAL else true.positive)
                 expected = verdict.relation is Relation.INDISTINGUISHABLE
-                tally.check(exists is expected, f"{label}: {given} in {searched}: {true}, {verdict.sentence}")
+                tally.check(
+                    exists is expected,
+                    f"{label}: {given} in {searched}: {true}, {verdict.sentence}",
+                )
     tally.report(record_property)

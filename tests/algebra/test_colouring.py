@@ -1,4 +1,6 @@
-"""Renamings of variables: planted ones are found again, all of them, and where there are none, none is found."""
+"""Renamings of variables: planted ones are found again, all of them, and where there are none,
+none is found.
+"""
 
 from itertools import permutations
 
@@ -23,7 +25,12 @@ def polynomial(terms):
 def moved(functions, permutation):
     """The functions with variable i called permutation[i]."""
     return [
-        polynomial({tuple(powers[permutation.index(i)] for i in range(4)): int(c) for powers, c in f.to_dict().items()})
+        polynomial(
+            {
+                tuple(powers[permutation.index(i)] for i in range(4)): int(c)
+                for powers, c in f.to_dict().items()
+            }
+        )
         for f in functions
     ]
 
@@ -33,7 +40,9 @@ def columns(functions):
 
     def look(point):
         values = tuple(int(f(*point)) % P for f in functions)
-        return values, [tuple(int(f.derivative(i)(*point)) % P for f in functions) for i in range(4)]
+        return values, [
+            tuple(int(f.derivative(i)(*point)) % P for f in functions) for i in range(4)
+        ]
 
     return look
 
@@ -48,7 +57,9 @@ def all_renamings(left, right):
 
 exponents = st.tuples(*[st.integers(0, 2)] * 4)
 functions = st.lists(
-    st.dictionaries(exponents, st.integers(1, 3), min_size=1, max_size=4).map(polynomial), min_size=1, max_size=3
+    st.dictionaries(exponents, st.integers(1, 3), min_size=1, max_size=4).map(polynomial),
+    min_size=1,
+    max_size=3,
 )
 any_order = st.permutations(range(4)).map(tuple)
 often = settings(max_examples=80, deadline=None)
@@ -71,7 +82,9 @@ def test_nothing_is_found_where_there_is_nothing(left, right):
 @often
 @given(functions, functions, any_order)
 def test_fingerprints_are_equal_for_renamings(left, right, planted):
-    one, other, planted_one = (colouring(columns(f), ("",) * 4).fingerprint for f in (left, right, moved(left, planted)))
+    one, other, planted_one = (
+        colouring(columns(f), ("",) * 4).fingerprint for f in (left, right, moved(left, planted))
+    )
     assert one == planted_one
     if one != other:
         assert all_renamings(left, right) == []
@@ -80,7 +93,10 @@ def test_fingerprints_are_equal_for_renamings(left, right, planted):
 @often
 @given(functions, any_order)
 def test_colours_move_with_the_variables(left, planted):
-    before, after = colouring(columns(left), ("",) * 4), colouring(columns(moved(left, planted)), ("",) * 4)
+    before, after = (
+        colouring(columns(left), ("",) * 4),
+        colouring(columns(moved(left, planted)), ("",) * 4),
+    )
     assert [after.colours[image] for image in planted] == list(before.colours)
 
 

@@ -9,7 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting.algebra.circuits import dependent_flats, search_size
-from disting.algebra.matroid import Component, Matroid, SearchTooLargeError, matroid, rank_in, separating_rows
+from disting.algebra.matroid import (
+    Component,
+    Matroid,
+    SearchTooLargeError,
+    matroid,
+    rank_in,
+    separating_rows,
+)
 
 P = 2**31 - 1
 LIMIT = 10**6
@@ -26,7 +33,9 @@ def rank(rows, chosen, p=P):
 
 
 def subsets(n, sizes=None):
-    return chain.from_iterable(combinations(range(n), k) for k in (range(n + 1) if sizes is None else sizes))
+    return chain.from_iterable(
+        combinations(range(n), k) for k in (range(n + 1) if sizes is None else sizes)
+    )
 
 
 def bases(rows, p=P):
@@ -38,7 +47,8 @@ def form(rows, p=P):
     return matroid(mat(rows, p), LIMIT)
 
 
-# --- matrices with all that can be special ---------------------------------------------------------------------------
+# --- matrices with all that can be special
+# ---------------------------------------------------------------------------
 
 entries = st.integers(-2, 2)
 
@@ -63,8 +73,14 @@ def repeated(draw):
     """Parallel rows, zero rows and sums of rows planted."""
     rows = draw(plain(4, 4))
     pick = st.sampled_from(rows)
-    copies = [[draw(st.sampled_from([-1, 2, 3])) * e for e in draw(pick)] for _ in range(draw(st.integers(0, 2)))]
-    sums = [[a + b for a, b in zip(draw(pick), draw(pick), strict=True)] for _ in range(draw(st.integers(0, 2)))]
+    copies = [
+        [draw(st.sampled_from([-1, 2, 3])) * e for e in draw(pick)]
+        for _ in range(draw(st.integers(0, 2)))
+    ]
+    sums = [
+        [a + b for a, b in zip(draw(pick), draw(pick), strict=True)]
+        for _ in range(draw(st.integers(0, 2)))
+    ]
     zeros = [[0] * len(rows[0])] * draw(st.integers(0, 1))
     return draw(st.permutations(rows + copies + sums + zeros))
 
@@ -72,7 +88,8 @@ def repeated(draw):
 matrices = st.one_of(plain(), blocks(), repeated())
 primes = st.sampled_from([2, 3, 5, 7, P])
 
-# --- ranks and bases -------------------------------------------------------------------------------------------------
+# --- ranks and bases
+# -------------------------------------------------------------------------------------------------
 
 
 @many
@@ -120,7 +137,8 @@ def test_more_columns_without_more_rank_change_nothing(rows):
     assert form([[*row, sum(row), 0] for row in rows]) == form(rows)
 
 
-# --- the parts of the form -------------------------------------------------------------------------------------------
+# --- the parts of the form
+# -------------------------------------------------------------------------------------------
 
 
 @some
@@ -129,7 +147,9 @@ def test_components_partition_what_is_no_loop(rows, p):
     m = form(rows, p)
     inside = [i for c in m.components for i in c.rows]
     assert len(inside) == len(set(inside))
-    assert set(range(len(rows))) - set(inside) == {i for i in range(len(rows)) if rank(rows, (i,), p) == 0}
+    assert set(range(len(rows))) - set(inside) == {
+        i for i in range(len(rows)) if rank(rows, (i,), p) == 0
+    }
     assert sum(c.rank for c in m.components) == m.rank
     assert all(c.rank == rank(rows, c.rows, p) for c in m.components)
     assert all(c.dual == (2 * c.rank > len(c.rows)) for c in m.components)
@@ -156,7 +176,9 @@ def test_dependences_state_the_true_rank(rows, p):
 @many
 @given(matrices, matrices, primes)
 def test_dependences_fix_the_matroid(left, right, p):
-    """If the right rows fulfil all that the left form states, and the left ones all of the right, then they are equal."""
+    """If the right rows fulfil all that the left form states, and the left ones all of the
+    right, then they are equal.
+    """
     size = min(len(left), len(right))
     left, right = left[:size], right[:size]
     one, other = form(left, p), form(right, p)
@@ -190,7 +212,8 @@ def test_relabelled_rows():
     assert m.relabelled({1: 0, 3: 1, 4: 2}) == form([[1, 0], [2, 0], [0, 1]])
 
 
-# --- literal examples ------------------------------------------------------------------------------------------------
+# --- literal examples
+# ------------------------------------------------------------------------------------------------
 
 FANO = [[(i >> b) & 1 for b in range(3)] for i in range(1, 8)]
 LINES = [(0, 1, 2), (0, 3, 4), (0, 5, 6), (1, 3, 5), (1, 4, 6), (2, 3, 6), (2, 4, 5)]
@@ -210,8 +233,12 @@ def test_beyond_two_the_seventh_line_is_none(p):
 def test_the_dual_of_the_fano_plane_is_found_in_the_dual():
     """[I A] of the plane gives rows [-A' I] of its dual, rank 4 of 7."""
     a = [[0, 1, 1, 1], [1, 0, 1, 1], [1, 1, 0, 1]]
-    plane = [[int(i == j) for j in range(3)] for i in range(3)] + [[a[i][j] for i in range(3)] for j in range(4)]
-    dual = [[a[i][j] for j in range(4)] for i in range(3)] + [[int(i == j) for j in range(4)] for i in range(4)]
+    plane = [[int(i == j) for j in range(3)] for i in range(3)] + [
+        [a[i][j] for i in range(3)] for j in range(4)
+    ]
+    dual = [[a[i][j] for j in range(4)] for i in range(3)] + [
+        [int(i == j) for j in range(4)] for i in range(4)
+    ]
     (one,), (other,) = form(plane, 2).components, form(dual, 2).components
     assert (one.rank, one.dual, other.rank, other.dual) == (3, False, 4, True)
     assert one.flats == other.flats
@@ -232,7 +259,15 @@ def test_uniform_matroids_of_large_rank_are_kept_as_duals(n, k):
 
 def test_loops_coloops_and_parallel_rows():
     m = form([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 3, 0], [0, 0, 1]])
-    assert m == Matroid(5, 3, (Component((1,), 1, True, ()), Component((2, 3), 1, False, ()), Component((4,), 1, True, ())))
+    assert m == Matroid(
+        5,
+        3,
+        (
+            Component((1,), 1, True, ()),
+            Component((2, 3), 1, False, ()),
+            Component((4,), 1, True, ()),
+        ),
+    )
     assert form([[0, 0], [0, 0]]) == Matroid(2, 0, ())
 
 
@@ -259,14 +294,17 @@ def test_the_limit_counts_subsets_of_the_smaller_rank(limit, raises):
         assert matroid(mat(rows), limit).rank == 4
 
 
-# --- the flats of circuits -------------------------------------------------------------------------------------------
+# --- the flats of circuits
+# -------------------------------------------------------------------------------------------
 
 
 def circuits(rows, p, longest):
     """All smallest dependent sets of at most `longest` rows."""
     found = []
     for s in subsets(len(rows), range(1, longest + 1)):
-        if rank(rows, s, p) == len(s) - 1 and all(rank(rows, t, p) == len(t) for t in combinations(s, len(s) - 1)):
+        if rank(rows, s, p) == len(s) - 1 and all(
+            rank(rows, t, p) == len(t) for t in combinations(s, len(s) - 1)
+        ):
             found.append(s)
     return found
 

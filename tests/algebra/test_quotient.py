@@ -49,7 +49,9 @@ CASES = [
     pytest.param(x * s + y, z * s**2 + x * s + 3, s**2, id="a power of s"),
     pytest.param(x * s + y, z * s**2 + x * s + 3, s + x * y, id="a factor"),
     pytest.param(x * s + y, z * s**2 + x * s + 3, z * s + x, id="a factor that is not monic"),
-    pytest.param(x * s + y, z * s**2 + x * s + 3, s * (y * s**2 + z * s + 1), id="a factor and a power of s"),
+    pytest.param(
+        x * s + y, z * s**2 + x * s + 3, s * (y * s**2 + z * s + 1), id="a factor and a power of s"
+    ),
     pytest.param(x * y + 0 * s, z * s + y, x * s + z, id="a constant numerator"),
     pytest.param(x * s**2 + y, 0 * s + z, s + x, id="a constant denominator"),
     pytest.param(x + 0 * s, y + 0 * s, s**2 + z, id="all in common"),
@@ -94,6 +96,8 @@ def test_a_fraction_is_found_from_its_residue(top, bottom):
     assert rational(top * pow(bottom, -1, P) % P, P) == str(Fraction(top, bottom))
 
 
-@pytest.mark.parametrize(("residue_", "text"), [(0, "0"), (1, "1"), (P - 1, "-1"), (pow(2, -1, P), "1/2"), (P - 7, "-7")])
+@pytest.mark.parametrize(
+    ("residue_", "text"), [(0, "0"), (1, "1"), (P - 1, "-1"), (pow(2, -1, P), "1/2"), (P - 7, "-7")]
+)
 def test_small_numbers_are_themselves(residue_, text):
     assert rational(residue_, P) == text

@@ -1,4 +1,6 @@
-"""Rational functions are a field, and what is written of them is what is meant, as SymPy reads it."""
+"""Rational functions are a field, and what is written of them is what is meant, as SymPy reads
+it.
+"""
 
 import pytest
 import sympy
@@ -26,11 +28,19 @@ def combined(a, b, sign):
 @settings(max_examples=60, deadline=None)
 @given(trees)
 def test_what_is_written_is_what_is_meant(function: RationalFunction):
-    """The text, read by SymPy, is the expression; and both are num/den, as put into each other term by term."""
+    """The text, read by SymPy, is the expression; and both are num/den, as put into each other
+    term by term.
+    """
     names = {name: sympy.Symbol(name, positive=True) for name in RING}
     value = expression(function)
-    num, den = (sympy.sympify(str(p).replace("^", "**"), locals=names) for p in (function.num, function.den))
-    assert sympy.cancel(sympy.sympify(text(function), locals=names) - value) == 0 == sympy.cancel(value - num / den)
+    num, den = (
+        sympy.sympify(str(p).replace("^", "**"), locals=names) for p in (function.num, function.den)
+    )
+    assert (
+        sympy.cancel(sympy.sympify(text(function), locals=names) - value)
+        == 0
+        == sympy.cancel(value - num / den)
+    )
 
 
 def test_latex():
@@ -47,13 +57,27 @@ def test_sums_keep_their_order_and_numbers_stay_before_sums():
     two = RING["m1"] / RING["m1"] + RING["m1"] / RING["m1"]
     assert text([(1, {"k12": 1, "m1": -1}), (1, {"k12": 1, "m2": -1})]) == "k12/m1 + k12/m2"
     assert text([(-1, {"m10": 1}), (3, {"m2": 2, "T1": -1}), (1, {})]) == "-m10 + 3*m2**2/T1 + 1"
-    assert (text(two * (m1 + m2)), text(-(m1 + m2)), text((m1 - m1) * m2)) == ("2*(m1 + m2)", "-(m1 + m2)", "0")
-    assert (text(m1 / (two * two * m2)), text(-((m1 / m2) ** 2) / two)) == ("m1/(4*m2)", "-m1**2/(2*m2**2)")
-    assert [latex_symbol(name) for name in ("m1", "k9_10", "Td", "s")] == ["m_{1}", "k_{9,10}", "T_{d}", "s"]
+    assert (text(two * (m1 + m2)), text(-(m1 + m2)), text((m1 - m1) * m2)) == (
+        "2*(m1 + m2)",
+        "-(m1 + m2)",
+        "0",
+    )
+    assert (text(m1 / (two * two * m2)), text(-((m1 / m2) ** 2) / two)) == (
+        "m1/(4*m2)",
+        "-m1**2/(2*m2**2)",
+    )
+    assert [latex_symbol(name) for name in ("m1", "k9_10", "Td", "s")] == [
+        "m_{1}",
+        "k_{9,10}",
+        "T_{d}",
+        "s",
+    ]
 
 
 def test_symbols_are_positive_as_parameters_are():
-    assert expression(RING["m1"]).is_positive and sympy.sqrt(expression(RING["m1"] ** 2)) == expression(RING["m1"])
+    assert expression(RING["m1"]).is_positive and sympy.sqrt(
+        expression(RING["m1"] ** 2)
+    ) == expression(RING["m1"])
 
 
 @settings(max_examples=60, deadline=None)
@@ -66,6 +90,10 @@ def test_equal_functions_are_equal_pairs(a: RationalFunction, b: RationalFunctio
 
 def test_no_function_divides_by_zero():
     zero = RING["m1"] - RING["m1"]
-    for divided in (lambda: RING["m1"] / zero, lambda: zero**-1, lambda: (RING["m1"] / RING["m2"]).value({"m1": 1, "m2": 0})):
+    for divided in (
+        lambda: RING["m1"] / zero,
+        lambda: zero**-1,
+        lambda: (RING["m1"] / RING["m2"]).value({"m1": 1, "m2": 0}),
+    ):
         with pytest.raises(ZeroDivisionError):
             divided()

@@ -1,4 +1,6 @@
-"""Random points and primes: fixed by their label for ever, and error bounds that are what the formula says."""
+"""Random points and primes: fixed by their label for ever, and error bounds that are what the
+formula says.
+"""
 
 from collections import Counter
 from fractions import Fraction
@@ -9,7 +11,17 @@ from flint import fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
-from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, about, digest, enough, prime, residues, safety
+from disting.algebra.sampling import (
+    PROOF_BITS,
+    SEARCH_BITS,
+    Size,
+    about,
+    digest,
+    enough,
+    prime,
+    residues,
+    safety,
+)
 from disting.certainty import LEAST_SAFETY
 
 sizes = st.builds(Size, st.integers(1, 10**6), st.integers(1, 10**6))
@@ -70,7 +82,9 @@ def test_safety_falls_with_the_size_and_grows_with_the_points(size, points, more
 
 
 def test_the_number_of_primes_is_a_lower_bound():
-    """At least 3x/(5 ln x) primes from x to 2x (Rosser and Schoenfeld): so counted for smaller x."""
+    """At least 3x/(5 ln x) primes from x to 2x (Rosser and Schoenfeld): so counted for smaller
+    x.
+    """
     for bits in (8, 12, 16):
         x = 2 ** (bits - 1)
         counted = sum(fmpz(n).is_prime() for n in range(x, 2 * x))
@@ -78,7 +92,9 @@ def test_the_number_of_primes_is_a_lower_bound():
 
 
 def test_vanishing_is_as_rare_as_the_bound_says():
-    """x (x - 1) .. (x - 4) vanishes at 4 of the points 1..p-1: Schwartz and Zippel allow degree/(p - 1)."""
+    """x (x - 1) .. (x - 4) vanishes at 4 of the points 1..p-1: Schwartz and Zippel allow
+    degree/(p - 1).
+    """
     p, hits = 101, 0
     for x in residues("vanish", 10_000, p):
         hits += any((x - root) % p == 0 for root in range(5))

@@ -1,4 +1,6 @@
-"""Determinants and adjugates of tridiagonal matrices against SymPy, over the integers and over polynomials."""
+"""Determinants and adjugates of tridiagonal matrices against SymPy, over the integers and over
+polynomials.
+"""
 
 import pytest
 from flint import fmpz_poly
@@ -15,12 +17,16 @@ numbers = st.integers(-5, 5)
 def tridiagonals(draw):
     n = draw(st.integers(1, 5))
     diagonal = draw(st.lists(numbers, min_size=n, max_size=n))
-    return Tridiagonal(tuple(diagonal), tuple(draw(st.lists(numbers, min_size=n - 1, max_size=n - 1))), 1)
+    return Tridiagonal(
+        tuple(diagonal), tuple(draw(st.lists(numbers, min_size=n - 1, max_size=n - 1))), 1
+    )
 
 
 def dense(t):
     n = len(t.diagonal)
-    return Matrix(n, n, lambda i, j: t.diagonal[i] if i == j else -t.off[min(i, j)] if abs(i - j) == 1 else 0)
+    return Matrix(
+        n, n, lambda i, j: t.diagonal[i] if i == j else -t.off[min(i, j)] if abs(i - j) == 1 else 0
+    )
 
 
 @settings(max_examples=60, deadline=None)
@@ -31,7 +37,9 @@ def test_determinant_and_adjugate(t):
     assert t.determinant == a.det()
     assert [t.adjugate_column(j) for j in range(n)] == [list(adjugate[:, j]) for j in range(n)]
     assert [t.adjugate_diagonal(i) for i in range(n)] == [adjugate[i, i] for i in range(n)]
-    assert [t.adjugate_beside(i) for i in range(n - 1)] == [adjugate[i, i + 1] for i in range(n - 1)]
+    assert [t.adjugate_beside(i) for i in range(n - 1)] == [
+        adjugate[i, i + 1] for i in range(n - 1)
+    ]
 
 
 @settings(max_examples=30, deadline=None)

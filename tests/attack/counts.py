@@ -1,6 +1,7 @@
 """What an attack tried and what became of it; told at the end of the run.
 
-DISTING_ATTACK multiplies the numbers of attempts (0.01 for a look, 10 for a night), DISTING_ATTACK_SEED draws others.
+DISTING_ATTACK multiplies the numbers of attempts (0.01 for a look, 10 for a night),
+DISTING_ATTACK_SEED draws others.
 """
 
 import os
@@ -27,4 +28,6 @@ class Counts(Counter):
 
     def __str__(self):
         own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
-        return ", ".join(f"{name} {number}" for name, number in (dict(self) | {"peak memory [MB]": own}).items())
+        return ", ".join(
+            f"{name} {number}" for name, number in (dict(self) | {"peak memory [MB]": own}).items()
+        )

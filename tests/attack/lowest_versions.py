@@ -1,9 +1,12 @@
-"""The suite in a fresh environment with the lowest versions that pyproject.toml promises, or with the newest.
+"""The suite in a fresh environment with the lowest versions that pyproject.toml promises, or with
+the newest.
 
-    python tests/attack/lowest_versions.py [--python PYTHON] [--newest] [--keep FOLDER] [PYTEST ARGUMENTS]
+    python tests/attack/lowest_versions.py [--python PYTHON] [--newest] [--keep FOLDER] [PYTEST
+    ARGUMENTS]
 
-Every lower bound is pinned with ==, so a bound that cannot be installed together with the others fails here. Without arguments
-for pytest all default tests run. PYTHON is an interpreter; the lowest versions need one that their wheels were built for.
+Every lower bound is pinned with ==, so a bound that cannot be installed together with the others
+fails here. Without arguments for pytest all default tests run. PYTHON is an interpreter; the
+lowest versions need one that their wheels were built for.
 """
 
 import argparse
@@ -24,7 +27,12 @@ def pins() -> list[str]:
     Raises ValueError for a requirement without a lower bound.
     """
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    extras = [r for name, group in project["optional-dependencies"].items() if name != "dev" for r in group]
+    extras = [
+        r
+        for name, group in project["optional-dependencies"].items()
+        if name != "dev"
+        for r in group
+    ]
     return sorted(set(map(_pinned, (*project["dependencies"], *extras))))
 
 
@@ -44,9 +52,14 @@ def environment(folder: Path, python: str, newest: bool) -> Path:
     inside = folder / ("Scripts" if sys.platform == "win32" else "bin") / "python"
     chosen = [] if newest else pins()
     package = f"{ROOT}[control,dask,hdf5,swarm,uff,test]"
-    subprocess.run([inside, "-m", "pip", "install", "-q", "--prefer-binary", package, *chosen], check=True)
-    alone = {"DISTING_CACHE": str(folder / "cache.sqlite3")}  # away from the checkout: the wheel's own files
-    subprocess.run([inside, "-m", "disting", "compare", "3:2", "3:5"], check=True, cwd=folder, env=alone)
+    subprocess.run(
+        [inside, "-m", "pip", "install", "-q", "--prefer-binary", package, *chosen], check=True
+    )
+    # away from the checkout: the wheel's own files
+    alone = {"DISTING_CACHE": str(folder / "cache.sqlite3")}
+    subprocess.run(
+        [inside, "-m", "disting", "compare", "3:2", "3:5"], check=True, cwd=folder, env=alone
+    )
     return inside
 
 
@@ -60,10 +73,16 @@ def run(python: str, newest: bool, keep: Path | None, arguments: list[str]) -> i
 
 def main() -> int:
     """Install, run, and give pytest's exit status."""
-    parser = argparse.ArgumentParser(description="Run the tests with the lowest versions that are promised.")
+    parser = argparse.ArgumentParser(
+        description="Run the tests with the lowest versions that are promised."
+    )
     parser.add_argument("--python", default=sys.executable, help="interpreter (default: this one)")
-    parser.add_argument("--newest", action="store_true", help="newest versions instead of the lowest")
-    parser.add_argument("--keep", type=Path, help="folder for the environment (default: one that is removed)")
+    parser.add_argument(
+        "--newest", action="store_true", help="newest versions instead of the lowest"
+    )
+    parser.add_argument(
+        "--keep", type=Path, help="folder for the environment (default: one that is removed)"
+    )
     options, arguments = parser.parse_known_args()
     return run(options.python, options.newest, options.keep, arguments)
 

@@ -1,7 +1,7 @@
 """Files with known numbers, small damage, and what the damaged file says by an independent reading.
 
-A reading gives pairs (frequency, response) or None where the damaged file says no numbers; it knows one form of file only and
-is strict, while the readers under attack know many and guess.
+A reading gives pairs (frequency, response) or None where the damaged file says no numbers; it
+knows one form of file only and is strict, while the readers under attack know many and guess.
 """
 
 import io
@@ -18,7 +18,13 @@ FREQUENCY = np.round(np.geomspace(1.25, 80, LINES), 4)
 RESPONSE = np.round(900 / (FREQUENCY + 2), 5) - 1j * np.round(40 / FREQUENCY + 3, 5)
 NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eEdD][+-]?[0-9]+)?")
 DIALECTS = ((",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (" ", "."))
-HEADERS = (("f [Hz]", 2 * math.pi), ("f_kHz", 2e3 * math.pi), ("omega", 1.0), ("frequency/Hz", 2 * math.pi), ("w [rad/s]", 1.0))
+HEADERS = (
+    ("f [Hz]", 2 * math.pi),
+    ("f_kHz", 2e3 * math.pi),
+    ("omega", 1.0),
+    ("frequency/Hz", 2 * math.pi),
+    ("w [rad/s]", 1.0),
+)
 CELLS = (
     "", "x", "-", "+", ".", "e5", "1e", "1..2", "1.2.3", "--1", "+-1", "0x10", "1_000", "1 2", "nan", "inf", "-inf", "1e400",
     "1d3", "2.5D-1", "1e+2", ".5", "5.", "#", "1,5", "1.5", "1;5", '"7.25"', "'7'", "1e-400", "-0", "0", "True", "=1+1", "1j",
@@ -27,7 +33,11 @@ CELLS = (
 
 
 TYPES_OF_4 = {0: "<f8", 10: "<f4", 20: "<i4", 30: "<i2", 40: "<u2", 50: "<u1"}
-TYPES_OF_5 = dict(enumerate(("i1", "u1", "i2", "u2", "i4", "u4", "f4"), 1)) | {9: "f8", 12: "i8", 13: "u8"}
+TYPES_OF_5 = dict(enumerate(("i1", "u1", "i2", "u2", "i4", "u4", "f4"), 1)) | {
+    9: "f8",
+    12: "i8",
+    13: "u8",
+}
 
 
 class Text:
@@ -39,7 +49,10 @@ class Text:
         self.delimiter, self.decimal = draw.choice(DIALECTS)
         word, self.unit = draw.choice(HEADERS)
         word = word.replace(" ", "_") if self.delimiter == " " else word
-        rows = [[f"{x:.{draw.choice((5, 9))}g}" for x in (f, g.real, g.imag)] for f, g in zip(FREQUENCY, RESPONSE, strict=True)]
+        rows = [
+            [f"{x:.{draw.choice((5, 9))}g}" for x in (f, g.real, g.imag)]
+            for f, g in zip(FREQUENCY, RESPONSE, strict=True)
+        ]
         table = [[cell.replace(".", self.decimal) for cell in row] for row in rows]
         self.lines = [[word, "Re", "Im"], *table]
 
@@ -49,7 +62,22 @@ class Text:
     def damage(self, draw):
         """One small damage below the header; the content."""
         at = draw.randrange(1, len(self.lines))
-        kind = draw.choice(("cell", "cell", "cell", "drop", "double", "move", "short", "long", "byte", "byte", "byte", "cut"))
+        kind = draw.choice(
+            (
+                "cell",
+                "cell",
+                "cell",
+                "drop",
+                "double",
+                "move",
+                "short",
+                "long",
+                "byte",
+                "byte",
+                "byte",
+                "cut",
+            )
+        )
         if kind == "cell":
             self.lines[at][draw.randrange(3)] = draw.choice(CELLS)
         elif kind == "drop":
@@ -66,7 +94,11 @@ class Text:
         start = content.index(b"\n") + 1
         if kind == "cut":
             return content[: draw.randrange(start, len(content))]
-        return with_bytes_changed(draw, content, start, b'0123456789.,;+-eE \t\n#"x\r\x00\xe4') if kind == "byte" else content
+        return (
+            with_bytes_changed(draw, content, start, b'0123456789.,;+-eE \t\n#"x\r\x00\xe4')
+            if kind == "byte"
+            else content
+        )
 
     def said(self, content):
         try:
@@ -75,12 +107,20 @@ class Text:
             text = content.decode("latin-1")
         lines = [line.strip("\n\r ") for line in re.split("\r\n|\n|\r", text)][1:]
         rows = [self._row(line) for line in lines if line and line[0] not in "#%"]
-        if "\0" in text or len(rows) < 8 or not all(rows) or not all(math.isfinite(x) for row in rows for x in row):
+        if (
+            "\0" in text
+            or len(rows) < 8
+            or not all(rows)
+            or not all(math.isfinite(x) for row in rows for x in row)
+        ):
             return None
         return [(f * self.unit, complex(re, im)) for f, re, im in rows]
 
     def _row(self, line):
-        cells = [cell.strip().strip('"') for cell in (line.split() if self.delimiter == " " else line.split(self.delimiter))]
+        cells = [
+            cell.strip().strip('"')
+            for cell in (line.split() if self.delimiter == " " else line.split(self.delimiter))
+        ]
         cells = cells[:-1] if len(cells) == 4 and not cells[-1] else cells
         plain = [cell.replace(",", ".") if self.decimal == "," else cell for cell in cells]
         good = len(plain) == 3 and all(map(NUMBER.fullmatch, plain))
@@ -88,12 +128,16 @@ class Text:
 
 
 class Matlab:
-    """Variables f and G as SciPy writes them: version 5, plain or compressed, or 4; read by the definitions of the formats."""
+    """Variables f and G as SciPy writes them: version 5, plain or compressed, or 4; read by the
+    definitions of the formats.
+    """
 
     suffix = ".mat"
 
     def __init__(self, draw):
-        self.format, compressed = draw.choice((("4", False), ("5", False), ("5", False), ("5", True)))
+        self.format, compressed = draw.choice(
+            (("4", False), ("5", False), ("5", False), ("5", True))
+        )
         self.options = {"format": self.format, "do_compression": compressed}
 
     def content(self):
@@ -110,7 +154,12 @@ class Matlab:
         except (ValueError, KeyError, IndexError, struct.error, zlib.error):
             return None
         f = next(
-            (found[name] * unit for name, unit in ((b"f", 2 * math.pi), (b"F", 2 * math.pi), (b"w", 1.0)) if name in found), ()
+            (
+                found[name] * unit
+                for name, unit in ((b"f", 2 * math.pi), (b"F", 2 * math.pi), (b"w", 1.0))
+                if name in found
+            ),
+            (),
         )
         g = next((found[name] for name in (b"G", b"H") if name in found), ())
         return (
@@ -135,7 +184,9 @@ class Hdf5(Matlab):
         return stream.getvalue()
 
     def said(self, content):
-        """By the places where the numbers stand; what is changed elsewhere must change no number."""
+        """By the places where the numbers stand; what is changed elsewhere must change no
+        number.
+        """
         good = self.content()
         blocks = [FREQUENCY.tobytes(), RESPONSE.tobytes()]
         pieces = [content[good.index(block) :][: len(block)] for block in blocks]
@@ -146,7 +197,9 @@ class Hdf5(Matlab):
 
 
 class Universal:
-    """A data set 58 in text, of equidistant frequencies; read by the columns of the format's definition."""
+    """A data set 58 in text, of equidistant frequencies; read by the columns of the format's
+    definition.
+    """
 
     suffix = ".uff"
 
@@ -164,23 +217,37 @@ class Universal:
             "        13    0    0    0 NONE                 N",
             "         0    0    0    0 NONE                 NONE",
         ]  # fmt: skip
-        numbers = [n for f, g in zip(x, RESPONSE, strict=True) for n in ([f] * (self.spacing == 0) + [g.real, g.imag])]
+        numbers = [
+            n
+            for f, g in zip(x, RESPONSE, strict=True)
+            for n in [f] * (self.spacing == 0) + [g.real, g.imag]
+        ]
         width = 6
-        data = ["".join(f"{n:13.5e}" for n in numbers[i : i + width]) for i in range(0, len(numbers), width)]
+        data = [
+            "".join(f"{n:13.5e}" for n in numbers[i : i + width])
+            for i in range(0, len(numbers), width)
+        ]
         return "\n".join([*head, *data, "    -1", ""]).encode()
 
     def damage(self, draw):
         content = self.content()
         end = content.rindex(b"    -1")
         start = end - content[:end].count(b"e") // 6 * 79
-        return with_bytes_changed(draw, content[:end], max(0, start), b"0123456789.+-eE \nx") + content[end:]
+        return (
+            with_bytes_changed(draw, content[:end], max(0, start), b"0123456789.+-eE \nx")
+            + content[end:]
+        )
 
     def said(self, content):
         lines = content.decode("latin-1").split("\n")
         try:
             count, x0, step = int(lines[8][10:20]), float(lines[8][32:45]), float(lines[8][45:58])
             body = lines[13 : lines.index("    -1", 1)]
-            numbers = [float(line[i : i + 13]) for line in body for i in range(0, min(len(line.rstrip()), 78), 13)]
+            numbers = [
+                float(line[i : i + 13])
+                for line in body
+                for i in range(0, min(len(line.rstrip()), 78), 13)
+            ]
         except ValueError:
             return None
         wide = 3 if self.spacing == 0 else 2
@@ -207,16 +274,24 @@ def version_4(content):
         kind, rows, columns, imaginary, length = struct.unpack_from("<5i", content, at)
         if kind not in TYPES_OF_4:
             raise ValueError("another kind")
-        name, at, size = content[at + 20 : at + 20 + length].rstrip(b"\0"), at + 20 + length, rows * columns
+        name, at, size = (
+            content[at + 20 : at + 20 + length].rstrip(b"\0"),
+            at + 20 + length,
+            rows * columns,
+        )
         type_ = np.dtype(TYPES_OF_4[kind])
-        parts = np.frombuffer(content[at : at + type_.itemsize * size * (1 + (imaginary == 1))], type_)
+        parts = np.frombuffer(
+            content[at : at + type_.itemsize * size * (1 + (imaginary == 1))], type_
+        )
         found[name] = parts[:size] + 1j * parts[size:] if imaginary == 1 else parts
         at += type_.itemsize * len(parts)
     return found
 
 
 def version_5(content):
-    """Variables of a file: elements of type and size, a matrix being flags, dimensions, name, real part, imaginary part."""
+    """Variables of a file: elements of type and size, a matrix being flags, dimensions, name,
+    real part, imaginary part.
+    """
     order, at, found = "<" if content[126:128] == b"IM" else ">", 128, {}
     while at + 8 <= len(content):
         kind, size = struct.unpack_from(order + "2I", content, at)

@@ -1,4 +1,6 @@
-"""Thousands of command lines, half of them damaged: one sentence and status 2, or a result and status 0; never a traceback."""
+"""Thousands of command lines, half of them damaged: one sentence and status 2, or a result and
+status 0; never a traceback.
+"""
 
 import contextlib
 import faulthandler
@@ -32,12 +34,19 @@ def place(tmp_path, monkeypatch):
     folder = tmp_path / "a" / "b" / "c" / "d"
     (folder / "sub").mkdir(parents=True)
     f = np.linspace(10, 100, 30)
-    np.savetxt(folder / "good.csv", np.c_[f, 5 / f, 1 / f], delimiter=",", header="f [Hz],Re,Im", comments="")
+    np.savetxt(
+        folder / "good.csv",
+        np.c_[f, 5 / f, 1 / f],
+        delimiter=",",
+        header="f [Hz],Re,Im",
+        comments="",
+    )
     (folder / "bad.csv").write_text("f,re,im\n1,2,x\n2,3\n")
     scipy.io.savemat(folder / "good.mat", {"f": f, "G": 5 / f + 1j / f})
     monkeypatch.chdir(folder)
     monkeypatch.setenv("DISTING_CACHE", str(tmp_path / "cache.sqlite3"))
-    assert main(["fit", "--demo", "--masses", "1", "--json", "a.csv"]) == 0  # an import that Ctrl-C ends is not tried again
+    # an import that Ctrl-C ends is not tried again
+    assert main(["fit", "--demo", "--masses", "1", "--json", "a.csv"]) == 0
     before = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, before[1]))
     yield folder
@@ -47,7 +56,8 @@ def place(tmp_path, monkeypatch):
 def carried_out(words):
     """Status, output and error of one line in this process, interrupted after a second."""
     out, error = io.StringIO(), io.StringIO()
-    before = signal.signal(signal.SIGPROF, signal.default_int_handler)  # a background job would ignore SIGINT itself
+    # a background job would ignore SIGINT itself
+    before = signal.signal(signal.SIGPROF, signal.default_int_handler)
     faulthandler.dump_traceback_later(HUNG, exit=True)
     signal.setitimer(signal.ITIMER_PROF, PATIENCE, AGAIN)
     try:
@@ -70,7 +80,9 @@ def wrong_with(status, out, error):
         return "the error is no short sentence"
     if len(out) > MOST:
         return "the output is too long"
-    odd = {c for c in out + error if unicodedata.category(c) in ("Cc", "Cf", "Cs") and c not in "\n\t"}
+    odd = {
+        c for c in out + error if unicodedata.category(c) in ("Cc", "Cf", "Cs") and c not in "\n\t"
+    }
     return f"unprintable characters {odd}" if odd else ""
 
 
@@ -85,7 +97,11 @@ def test_in_this_process(place, counts):
             reason = wrong_with(status, out, error)
         except BaseException as escaped:
             status, reason = "escaped", repr(escaped)[:300]
-        counts[{0: "accepted rightly", 2: "refused rightly", INTERRUPTED: "interrupted"}.get(status, f"status {status}")] += 1
+        counts[
+            {0: "accepted rightly", 2: "refused rightly", INTERRUPTED: "interrupted"}.get(
+                status, f"status {status}"
+            )
+        ] += 1
         if reason:
             counts["wrong"] += 1
             wrong.append((reason, [w[:80] for w in words]))

@@ -1,4 +1,6 @@
-"""Damaged caches and catalogues: the true result, or a refusal; and what is exported reads back as it was."""
+"""Damaged caches and catalogues: the true result, or a refusal; and what is exported reads back
+as it was.
+"""
 
 import csv
 import io
@@ -30,7 +32,9 @@ def damaged(draw, content):
     kinds = (
         lambda: with_bytes_changed(draw, content, 0, BYTES),
         lambda: content[:at],
-        lambda: content[:at] + draw.randbytes(min(length, len(content) - at)) + content[at + length :],
+        lambda: (
+            content[:at] + draw.randbytes(min(length, len(content) - at)) + content[at + length :]
+        ),
         lambda: content[:at] + content[at + length :],
     )
     return draw.choice(kinds)()
@@ -60,14 +64,22 @@ def told(folder, damped):
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_catalogues(tmp_path, counts, damped):
-    """A catalogue of one's own has no digest: changed letters may change what it says, 'catalog verify' tells; nothing else."""
+    """A catalogue of one's own has no digest: changed letters may change what it says, 'catalog
+    verify' tells; nothing else.
+    """
     name = f"chains-2-{'damped' if damped else 'undamped'}.jsonl"
-    draw, content, reference = chance(name), (shipped_folder() / name).read_bytes(), told(None, damped)
+    draw, content, reference = (
+        chance(name),
+        (shipped_folder() / name).read_bytes(),
+        told(None, damped),
+    )
     for _ in range(times(1000)):
         (tmp_path / name).write_bytes(damaged(draw, content))
         counts["damaged catalogues"] += 1
         try:
-            counts["accepted, same" if told(tmp_path, damped) == reference else "accepted, other"] += 1
+            counts[
+                "accepted, same" if told(tmp_path, damped) == reference else "accepted, other"
+            ] += 1
         except CatalogError:
             counts["refused"] += 1
 
@@ -98,7 +110,9 @@ def test_verdicts_as_csv_and_json_say_the_same(tmp_path, counts, domain):
     table = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text(encoding="utf-8"))))
     plain = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["verdicts"]
     shared = [name for name in table[0] if name in plain[0] and name not in ("image", "closure")]
-    assert [[row[n] for n in shared] for row in table] == [[plainly(v[n]) for n in shared] for v in plain]
+    assert [[row[n] for n in shared] for row in table] == [
+        [plainly(v[n]) for n in shared] for v in plain
+    ]
     assert {"left", "right", "relation", "decided_by", "domain"} <= set(shared)
     counts["pairs read back"] += len(table)
 
@@ -111,6 +125,10 @@ def test_catalogues_as_csv_and_json_say_the_same(counts, n, damped):
     plain = json.loads(found.to_json())["verdicts"]
     told = [(i, j, v.relation, v.decided_by) for i, j, v in found.pairs()]
     names = ("left", "right", "relation", "decided_by")
-    assert [tuple(str(v[name] or "") for name in names) for v in plain] == [tuple(map(str, row)) for row in told]
-    assert [tuple(row[name] for name in names) for row in table] == [tuple(map(str, row)) for row in told]
+    assert [tuple(str(v[name] or "") for name in names) for v in plain] == [
+        tuple(map(str, row)) for row in told
+    ]
+    assert [tuple(row[name] for name in names) for row in table] == [
+        tuple(map(str, row)) for row in told
+    ]
     counts["pairs read back"] += len(told)

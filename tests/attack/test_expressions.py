@@ -1,4 +1,6 @@
-"""Thousands of texts as entries of a model: the value that Python gives them with exact fractions, or one sentence."""
+"""Thousands of texts as entries of a model: the value that Python gives them with exact
+fractions, or one sentence.
+"""
 
 import ast
 import faulthandler
@@ -21,7 +23,13 @@ HOSTILE = (
     "-" * 5000 + "a", "+".join(["a"] * 3000), "a" * 10**6, "1/0", "0/0", "a/(b-b)", "1e999999999", "0x10", "1_0", "1j", "True",
     "None", "a@b", "a//b", "yield a", "await a", "*a", "a=1", "exec('1')", "a;b", "\ud800", "１", "ｓ",
 )  # fmt: skip
-OPERATORS = {ast.Add: op.add, ast.Sub: op.sub, ast.Mult: op.mul, ast.Div: op.truediv, ast.Pow: op.pow}
+OPERATORS = {
+    ast.Add: op.add,
+    ast.Sub: op.sub,
+    ast.Mult: op.mul,
+    ast.Div: op.truediv,
+    ast.Pow: op.pow,
+}
 HUNG = 300  # seconds
 DEEPEST = 2000  # characters: longer sums are read by disting, but not by the reading here
 LONGEST = 2000  # characters of an error
@@ -30,7 +38,9 @@ LONGEST = 2000  # characters of an error
 def drawn(draw, depth):
     """A text and what Python takes it for."""
     if depth == 0 or draw.random() < 0.2:
-        return draw.choice([*NAMES, str(draw.randrange(20)), f"{draw.randrange(1, 9)}.{draw.randrange(10)}"])
+        return draw.choice(
+            [*NAMES, str(draw.randrange(20)), f"{draw.randrange(1, 9)}.{draw.randrange(10)}"]
+        )
     left, right = drawn(draw, depth - 1), drawn(draw, depth - 1)
     return draw.choice(
         (
@@ -96,7 +106,9 @@ def test_texts(counts):
             faulthandler.cancel_dump_traceback_later()
         counts["accepted"] += 1
         if set(model.parameters) <= set(NAMES) and len(whole) < DEEPEST:
-            found = at(model.numerator_terms, model.parameters) / at(model.denominator_terms, model.parameters)
+            found = at(model.numerator_terms, model.parameters) / at(
+                model.denominator_terms, model.parameters
+            )
             counts["compared"] += 1
             counts["wrong"] += found != exactly(whole)
     assert counts["accepted"] and not counts["wrong"] + counts["long sentences"]

@@ -1,4 +1,6 @@
-"""Commands killed at every moment of their run, on one cache: no result differs, no file is half written, no worker stays."""
+"""Commands killed at every moment of their run, on one cache: no result differs, no file is
+half written, no worker stays.
+"""
 
 import contextlib
 import os
@@ -13,7 +15,10 @@ import pytest
 from tests.attack.counts import chance, times
 from tests.cli.process import COMMAND, disting, heed_signals, marked
 
-pytestmark = [pytest.mark.attack, pytest.mark.skipif(os.name != "posix", reason="signals are of POSIX")]
+pytestmark = [
+    pytest.mark.attack,
+    pytest.mark.skipif(os.name != "posix", reason="signals are of POSIX"),
+]
 ROUND = 10  # kills on one cache, then a run to the end; then a new cache
 ORPHANED = 5.0  # seconds after which no worker may be alive
 HUNG = 300  # seconds
@@ -36,7 +41,12 @@ GROUP = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
     path = tmp_path_factory.mktemp("data") / "drive.csv"
-    assert disting("simulate", "--samples", 500, "--rate", 500, "--high", 100, "--csv", path).returncode == 0
+    assert (
+        disting(
+            "simulate", "--samples", 500, "--rate", 500, "--high", 100, "--csv", path
+        ).returncode
+        == 0
+    )
     return path
 
 
@@ -54,7 +64,9 @@ def started(command, cache, folder, **options):
 
 def written(folder):
     """The files that a command made, but those that a kill left unfinished and named so."""
-    files = {p.relative_to(folder): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+    files = {
+        p.relative_to(folder): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()
+    }
     return {str(name): content for name, content in files.items() if name.suffix != ".partial"}
 
 
@@ -77,7 +89,9 @@ def run(command, data, cache, folder):
 
 
 def stopped(command, data, cache, folder, delay, by):
-    """A run that gets a signal after some seconds: its status and what it said; None where it had ended before."""
+    """A run that gets a signal after some seconds: its status and what it said; None where it
+    had ended before.
+    """
     process = started([w.format(folder=folder, data=data) for w in command], cache, folder)
     with contextlib.suppress(subprocess.TimeoutExpired):
         process.wait(delay)
@@ -91,7 +105,9 @@ def stopped(command, data, cache, folder, delay, by):
     return process.returncode, error.decode()
 
 
-@pytest.mark.parametrize(("command", "number", "start"), KILLS, ids=[f"{' '.join(c[:2])}-{n}" for c, n, _ in KILLS])
+@pytest.mark.parametrize(
+    ("command", "number", "start"), KILLS, ids=[f"{' '.join(c[:2])}-{n}" for c, n, _ in KILLS]
+)
 def test_killed(tmp_path, data, counts, command, number, start):
     reference, seconds = run(command, data, "off", tmp_path / "reference")
     counts["kills"] = counts["orphans"] = counts["half-written"] = counts["lost"] = 0
@@ -102,7 +118,9 @@ def test_killed(tmp_path, data, counts, command, number, start):
             moment = start + (1 - start) * ((i % ROUND + 0.5) / ROUND)
             killed = stopped(command, data, cache, folder, moment * seconds, signal.SIGKILL)
             counts["kills" if killed else "ended before"] += 1
-            counts["half-written"] += sum(reference.get(name) != content for name, content in written(folder).items())
+            counts["half-written"] += sum(
+                reference.get(name) != content for name, content in written(folder).items()
+            )
         counts["orphans"] += orphans(folder)
         counts["lost"] += run(command, data, cache, folder)[0] != reference
     assert counts["kills"] and not counts["orphans"] + counts["half-written"] + counts["lost"]

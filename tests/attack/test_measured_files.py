@@ -1,4 +1,6 @@
-"""Thousands of slightly damaged measurement files: refused, or read with exactly the numbers that stand in them."""
+"""Thousands of slightly damaged measurement files: refused, or read with exactly the numbers
+that stand in them.
+"""
 
 import faulthandler
 
@@ -27,7 +29,9 @@ def same(found, said):
     return bool(np.all(abs(left - right) <= NEAR * abs(right)))
 
 
-@pytest.mark.parametrize(("kind", "number"), [(Text, 6000), (Matlab, 2500), (Universal, 1000), (Hdf5, 500)])
+@pytest.mark.parametrize(
+    ("kind", "number"), [(Text, 6000), (Matlab, 2500), (Universal, 1000), (Hdf5, 500)]
+)
 def test_files(tmp_path, counts, kind, number):
     draw, wrong = chance(kind.__name__), []
     pytest.importorskip({Hdf5: "h5py", Universal: "pyuff"}.get(kind, "numpy"))

@@ -1,4 +1,6 @@
-"""Names that strangers give (headers, units, files) in pages, figures and tables: shown, never obeyed."""
+"""Names that strangers give (headers, units, files) in pages, figures and tables: shown, never
+obeyed.
+"""
 
 import csv
 import html.parser
@@ -34,17 +36,35 @@ class Tags(html.parser.HTMLParser):
     def handle_starttag(self, tag, attrs):
         """Scripts by their words, everything else by its name, and what it would do."""
         self.found |= {tag} | {(tag, name) for name, _ in attrs if name.startswith("on")}
-        self.found |= {(tag, name) for name, value in attrs if (value or "").startswith("javascript:")}
+        self.found |= {
+            (tag, name) for name, value in attrs if (value or "").startswith("javascript:")
+        }
 
 
 def fitted(folder, name, words):
     """The files of a fit of data whose signals and file bear hostile names."""
     folder.mkdir()
     signals = Signal(words[0], words[1]), Signal(words[2], words[3])
-    response = FrequencyResponse(OMEGA, 5 - 0.4j / OMEGA, None, None, "acceleration", *signals, words[0], (words[1],))
+    response = FrequencyResponse(
+        OMEGA, 5 - 0.4j / OMEGA, None, None, "acceleration", *signals, words[0], (words[1],)
+    )
     data = folder / f"{name}.csv"
     data.write_bytes(csv_text(response).encode(errors="replace"))
-    assert main(["fit", str(data), "--masses", "1", "--json", str(folder / "f.json"), "--out", str(folder / "out")]) == 0
+    assert (
+        main(
+            [
+                "fit",
+                str(data),
+                "--masses",
+                "1",
+                "--json",
+                str(folder / "f.json"),
+                "--out",
+                str(folder / "out"),
+            ]
+        )
+        == 0
+    )
     return folder / "out"
 
 
@@ -57,14 +77,25 @@ def test_pages_figures_and_tables_of_a_fit(tmp_path, counts, capsys):
     tame = tags(fitted(tmp_path / "tame", "tame", ["torque", "Nm", "angle", "rad/s²"]))
     for turn in range(times(8)):
         words = draw.sample([w for w in HOSTILE if "\0" not in w], 4)
-        name = draw.choice(["=cmd", "<b onclick=x>", "a$\\frac{$", "{{x}}", "\udcff", "\x1b[2J", "+1"])
+        name = draw.choice(
+            ["=cmd", "<b onclick=x>", "a$\\frac{$", "{{x}}", "\udcff", "\x1b[2J", "+1"]
+        )
         folder = fitted(tmp_path / str(turn), name, words)
         counts["fits"] += 1
         assert tags(folder) <= tame, words
         for figure in folder.glob("*.svg"):
-            assert not {e.tag.rpartition("}")[2] for e in ET.parse(figure).iter()} & {"script", "foreignObject", "image"}
+            assert not {e.tag.rpartition("}")[2] for e in ET.parse(figure).iter()} & {
+                "script",
+                "foreignObject",
+                "image",
+            }
         for table in folder.glob("*.csv"):
-            assert not [c for row in csv.reader(table.open(encoding="utf-8")) for c in row if FORMULA.match(c)]
+            assert not [
+                c
+                for row in csv.reader(table.open(encoding="utf-8"))
+                for c in row
+                if FORMULA.match(c)
+            ]
         said = "".join(capsys.readouterr())
         assert not set(said) & set("\x1b\x9b\u202e\x00\ud800"), words
         counts["files"] += len(list(folder.iterdir()))
@@ -77,7 +108,12 @@ def test_written_responses_hold_no_formula_and_read_back(tmp_path, counts):
         words = [re.sub("[\x00\ud800\x1c-\x1f\x85\u2028\u2029]", "", w).strip() for w in words]
         signals = Signal(words[0], words[1]), Signal(words[2], words[3])
         response = FrequencyResponse(
-            OMEGA, 5 - 4j / OMEGA, sensor="velocity", input=signals[0], output=signals[1], origin=words[4]
+            OMEGA,
+            5 - 4j / OMEGA,
+            sensor="velocity",
+            input=signals[0],
+            output=signals[1],
+            origin=words[4],
         )
         write_csv(response, tmp_path / "a.csv")
         found = read(tmp_path / "a.csv")

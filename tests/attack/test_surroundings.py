@@ -1,4 +1,6 @@
-"""Readers that go away, places that may not be written, locks left behind, disks that are full: a result or one sentence."""
+"""Readers that go away, places that may not be written, locks left behind, disks that are full:
+a result or one sentence.
+"""
 
 import os
 import shutil
@@ -9,7 +11,10 @@ import pytest
 from tests.attack.counts import times
 from tests.cli.process import COMMAND, disting
 
-pytestmark = [pytest.mark.attack, pytest.mark.skipif(os.name != "posix", reason="pipes, mounts and limits are of POSIX")]
+pytestmark = [
+    pytest.mark.attack,
+    pytest.mark.skipif(os.name != "posix", reason="pipes, mounts and limits are of POSIX"),
+]
 ASK = ("verdicts", "2", "--damped", "--json", "-")
 LONG = (
     "verdicts 3 --csv -",
@@ -28,7 +33,13 @@ def test_readers_that_go_away(tmp_path, counts, arguments):
         command = f"set -o pipefail; {' '.join(COMMAND)} {arguments} {redirected}"
         environment = os.environ | {"DISTING_CACHE": str(tmp_path / "cache.sqlite3")}
         for _ in range(times(1)):
-            done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, env=environment)
+            done = subprocess.run(
+                ["bash", "-c", command],
+                capture_output=True,
+                text=True,
+                check=False,
+                env=environment,
+            )
             counts["tried"] += 1
             odd = done.returncode != 0 or "Traceback" in done.stderr or "Exception" in done.stderr
             counts["wrong"] += odd
@@ -41,7 +52,11 @@ def frozen():
     kept = []
 
     def freeze(path):
-        done = subprocess.run(["chattr", "+i", str(path)], capture_output=True, check=False) if shutil.which("chattr") else None
+        done = (
+            subprocess.run(["chattr", "+i", str(path)], capture_output=True, check=False)
+            if shutil.which("chattr")
+            else None
+        )
         if done is None or done.returncode:
             pytest.skip("this file system has no unchangeable files, or not for this user")
         kept.append(path)
@@ -63,7 +78,10 @@ def test_caches_that_may_not_be_written(tmp_path, counts, frozen, which):
     done = disting(*ASK, cache=cache)
     counts["tried"] += 1
     assert (done.returncode, done.stdout) == (0, reference) and "Traceback" not in done.stderr
-    assert cache.read_bytes() == before and sorted(p.name for p in place.iterdir() if "damaged" in p.name) == []
+    assert (
+        cache.read_bytes() == before
+        and sorted(p.name for p in place.iterdir() if "damaged" in p.name) == []
+    )
 
 
 @pytest.mark.parametrize("content", [b"", b"12345\n", b"\xff" * 9000])
@@ -73,7 +91,10 @@ def test_locks_left_behind(tmp_path, counts, content):
         cache.with_name(cache.name + name).write_bytes(content)
     done = disting(*ASK, cache=cache)
     counts["tried"] += 1
-    assert (done.returncode, done.stdout) == (0, disting(*ASK).stdout) and "Traceback" not in done.stderr
+    assert (done.returncode, done.stdout) == (
+        0,
+        disting(*ASK).stdout,
+    ) and "Traceback" not in done.stderr
 
 
 @pytest.fixture

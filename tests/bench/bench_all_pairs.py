@@ -1,4 +1,6 @@
-"""What do conditions 1 to 5 on all pairs cost, and what would listing all sets of rows cost? Cold, one core, a process each."""
+"""What do conditions 1 to 5 on all pairs cost, and what would listing all sets of rows cost?
+Cold, one core, a process each.
+"""
 
 import json
 from math import comb
@@ -27,14 +29,19 @@ print(json.dumps([time.perf_counter() - start, peak_mebibytes(), sum(counts.valu
 
 
 def listing(n: int, damped: bool) -> float:
-    """Seconds that the ranks of all binomial(N_MI, N_R) sets of rows would take: their exact number, each symmetric model
-    counted once, times the mean time of a set, from 300 random sets of a dozen models weighted by their numbers of sets."""
+    """Seconds that the ranks of all binomial(N_MI, N_R) sets of rows would take: their exact
+    number, each symmetric model counted once, times the mean time of a set, from 300 random sets
+    of a dozen models weighted by their numbers of sets.
+    """
     engine = Engine()
     chains = sorted({canonical(c).chain for c in Family(n, damped)}, key=repr)
     profiles = {c: engine.subject("", c).profile(Representation.TF, 0) for c in chains}
     sets = {c: comb(len(p.form), p.rank) for c, p in profiles.items()}
     timed = chains[:: max(1, len(chains) // 12)]
-    spent = sum(_each(c, [i for i, f in enumerate(profiles[c].free) if f], profiles[c].rank) * sets[c] for c in timed)
+    spent = sum(
+        _each(c, [i for i, f in enumerate(profiles[c].free) if f], profiles[c].rank) * sets[c]
+        for c in timed
+    )
     return spent / sum(sets[c] for c in timed) * sum(sets.values())
 
 
@@ -57,6 +64,22 @@ def test_all_pairs(benchmark) -> None:
         time, memory, pairs = json.loads(in_fresh_process(CODE.format(n=n, damped=damped)))
         subsets = listing(n, damped)
         name = f"{n} masses, {'damped' if damped else 'undamped'}"
-        rows.append((name, str(pairs), f"{time:.2f} s", f"{memory:.0f} MiB", f"{subsets:.2g} s", f"{subsets / time:.2g}"))
-    heads = ("class", "pairs", "time", "peak memory", "listing all row sets (extrapolated)", "ratio")
+        rows.append(
+            (
+                name,
+                str(pairs),
+                f"{time:.2f} s",
+                f"{memory:.0f} MiB",
+                f"{subsets:.2g} s",
+                f"{subsets / time:.2g}",
+            )
+        )
+    heads = (
+        "class",
+        "pairs",
+        "time",
+        "peak memory",
+        "listing all row sets (extrapolated)",
+        "ratio",
+    )
     table("Conditions 1 to 5 on transfer-function coefficients, all pairs, cold", heads, rows)

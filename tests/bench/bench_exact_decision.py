@@ -1,9 +1,11 @@
 """What does the exact decision cost, against Groebner bases of the fibres?
 
-The other ways get the fibre as one would write it down: the coefficient equations of the searched model at a random point of
-the given one, denominators cleared, masses not zero, modulo a prime of 29 bits; one pair at a time, in one direction, in a
-process that is stopped after LIMIT seconds. Setting the systems up is not counted. A pair that meets the limit counts as the
-limit, so the sums are lower bounds wherever a pair was stopped. disting decides over the rationals, with evidence."""
+The other ways get the fibre as one would write it down: the coefficient equations of the searched
+model at a random point of the given one, denominators cleared, masses not zero, modulo a prime of
+29 bits; one pair at a time, in one direction, in a process that is stopped after LIMIT seconds.
+Setting the systems up is not counted. A pair that meets the limit counts as the limit, so the sums
+are lower bounds wherever a pair was stopped. disting decides over the rationals, with evidence.
+"""
 
 import json
 import random
@@ -63,7 +65,9 @@ print(json.dumps([time.perf_counter() - start, sum(open_pairs.values())]))
 
 @dataclass(frozen=True)
 class Fibre:
-    """Equations for the parameters of the searched model; the first name makes the masses invertible."""
+    """Equations for the parameters of the searched model; the first name makes the masses
+    invertible.
+    """
 
     names: tuple[str, ...]
     equations: tuple[str, ...]
@@ -99,7 +103,9 @@ def system(given: Chain, searched: Chain) -> Fibre:
 
 
 def _residue(entry, point: dict[str, int]) -> int:
-    numerator, denominator = (int(part.as_expr().subs(point)) for part in (entry.numer, entry.denom))
+    numerator, denominator = (
+        int(part.as_expr().subs(point)) for part in (entry.numer, entry.denom)
+    )
     return numerator * pow(denominator, -1, PRIME) % PRIME
 
 
@@ -123,17 +129,25 @@ def by_msolve(fibre: Fibre, folder: Path) -> Run:
     out.unlink(missing_ok=True)
     command = [str(PROGRAMS["msolve"]), "-g", "2", "-t", "1", "-f", str(given), "-o", str(out)]
     try:
-        time = seconds(lambda: subprocess.run(command, capture_output=True, timeout=LIMIT, check=True))
+        time = seconds(
+            lambda: subprocess.run(command, capture_output=True, timeout=LIMIT, check=True)
+        )
     except subprocess.TimeoutExpired:
         return STOPPED
-    lines = [line for line in out.read_text(encoding="utf-8").splitlines() if line and line[0] != "#"]
+    lines = [
+        line for line in out.read_text(encoding="utf-8").splitlines() if line and line[0] != "#"
+    ]
     return Run(time, "".join(lines).startswith("[1]"))
 
 
 def _timed(command: list[str], text: str, unit: float) -> Run:
-    """Run a program that prints its time and whether the basis is 1; its start may take a few seconds more."""
+    """Run a program that prints its time and whether the basis is 1; its start may take a few
+    seconds more.
+    """
     try:
-        ran = subprocess.run(command, input=text, capture_output=True, text=True, timeout=LIMIT + 5, check=True)
+        ran = subprocess.run(
+            command, input=text, capture_output=True, text=True, timeout=LIMIT + 5, check=True
+        )
     except subprocess.TimeoutExpired:
         return STOPPED
     time, empty = ran.stdout.split()[-2:]
@@ -149,26 +163,37 @@ WAYS: dict[str, Callable[[Fibre, Path], Run]] = {"SymPy": by_sympy} | {
 def whole_class(n: int, damped: bool, view: View) -> Engine:
     """Every pair of a class by a fresh engine; returned with what it remembers."""
     engine = Engine()
-    engine.decisions([engine.subject(str(i), c) for i, c in enumerate(Family(n, damped))], Query(view))
+    engine.decisions(
+        [engine.subject(str(i), c) for i, c in enumerate(Family(n, damped))], Query(view)
+    )
     return engine
 
 
 def pairs(n: int, damped: bool) -> dict[str, list[tuple[Chain, Chain, Relation]]]:
-    """Pairs that conditions 1 to 9 leave open, and pairs of equal degrees and rank, which is all that a fibre can decide."""
+    """Pairs that conditions 1 to 9 leave open, and pairs of equal degrees and rank, which is
+    all that a fibre can decide.
+    """
     engine = whole_class(n, damped, View.COMBINED)
     subjects = [engine.subject(str(i), c) for i, c in enumerate(Family(n, damped))]
     found: dict[str, list[tuple[Chain, Chain, Relation]]] = {"open": [], "equal rank": []}
-    conditions, exact = (engine.decisions(subjects, Query(view)) for view in (View.COMBINED, View.EXACT))
+    conditions, exact = (
+        engine.decisions(subjects, Query(view)) for view in (View.COMBINED, View.EXACT)
+    )
     for i, j in combinations(range(len(subjects)), 2):
         pair = (subjects[i].chain, subjects[j].chain, exact.relation(i, j))
         if conditions.relation(i, j) is Relation.UNDECIDED:
             found["open"].append(pair)
-        if subjects[i].rank == subjects[j].rank and conditions.verdict(i, j).decided_by not in ("1", "2"):
+        if subjects[i].rank == subjects[j].rank and conditions.verdict(i, j).decided_by not in (
+            "1",
+            "2",
+        ):
             found["equal rank"].append(pair)
     return found
 
 
-def measured(way: Callable[[Fibre, Path], Run], chosen: list[tuple[Chain, Chain, Relation]], folder: Path) -> list[Run]:
+def measured(
+    way: Callable[[Fibre, Path], Run], chosen: list[tuple[Chain, Chain, Relation]], folder: Path
+) -> list[Run]:
     """One run a pair; what a fibre says must be what disting says."""
     runs = [way(system(a, b), folder) for a, b, _ in chosen]
     for (a, b, relation), run in zip(chosen, runs, strict=True):
@@ -177,7 +202,9 @@ def measured(way: Callable[[Fibre, Path], Run], chosen: list[tuple[Chain, Chain,
 
 
 def by_disting(chosen: list[tuple[Chain, Chain, Relation]]) -> float:
-    """The exact decision alone as an engine asks for it: symmetric models are one, so each problem is solved once."""
+    """The exact decision alone as an engine asks for it: symmetric models are one, so each
+    problem is solved once.
+    """
 
     def run() -> None:
         canonical.cache_clear()
@@ -200,7 +227,17 @@ def test_against_groebner_bases(benchmark, tmp_path: Path, n: int, damped: bool)
     name, rows = f"{n} masses, {'damped' if damped else 'undamped'}", []
     for group, chosen in groups.items():
         ours = by_disting(chosen)
-        rows.append(("disting, these pairs one by one", group, str(len(chosen)), "0", f"{ours:.3f} s", "1", ""))
+        rows.append(
+            (
+                "disting, these pairs one by one",
+                group,
+                str(len(chosen)),
+                "0",
+                f"{ours:.3f} s",
+                "1",
+                "",
+            )
+        )
         for way, run in WAYS.items():
             if group == "equal rank" and way != "msolve":
                 continue
@@ -208,11 +245,23 @@ def test_against_groebner_bases(benchmark, tmp_path: Path, n: int, damped: bool)
             time, stopped = sum(r.time for r in runs), sum(r.empty is None for r in runs)
             least = "at least " if stopped else ""
             ratios = [f"{least}{time / ours:.2g}", f"{least}{time / whole:.2g}"]
-            rows.append((way, group, str(len(chosen)), str(stopped), f"{least}{time:.3g} s", *ratios))
+            rows.append(
+                (way, group, str(len(chosen)), str(stopped), f"{least}{time:.3g} s", *ratios)
+            )
     number = len(Family(n, damped))
     all_pairs = str(number * (number - 1) // 2)
-    rows.append(("disting, whole class with conditions", "all", all_pairs, "0", f"{whole:.2f} s", "", "1"))
-    heads = ("way", "pairs", "number", f"stopped at {LIMIT:.0f} s", "time", "ratio to these pairs", "ratio to whole class")
+    rows.append(
+        ("disting, whole class with conditions", "all", all_pairs, "0", f"{whole:.2f} s", "", "1")
+    )
+    heads = (
+        "way",
+        "pairs",
+        "number",
+        f"stopped at {LIMIT:.0f} s",
+        "time",
+        "ratio to these pairs",
+        "ratio to whole class",
+    )
     table(f"Fibres of the class of {name}", heads, rows)
 
 
@@ -220,12 +269,19 @@ def test_against_groebner_bases(benchmark, tmp_path: Path, n: int, damped: bool)
     ("name", "classes"),
     [
         ("3 masses, damped", [(3, True)]),
-        ("all six classes of 3, 4 and 5 masses", [(n, damped) for n in (3, 4, 5) for damped in (False, True)]),
+        (
+            "all six classes of 3, 4 and 5 masses",
+            [(n, damped) for n in (3, 4, 5) for damped in (False, True)],
+        ),
         ("6 masses, undamped", [(6, False)]),
         ("6 masses, damped", [(6, True)]),
     ],
 )
 def test_whole_classes(benchmark, name: str, classes: list[tuple[int, bool]]) -> None:
-    """All pairs with conditions, all Markov parameters and the exact decision, cold, a process of its own, one core."""
-    time, left = json.loads(benchmark.pedantic(lambda: in_fresh_process(WHOLE.format(classes=classes)), rounds=1))
+    """All pairs with conditions, all Markov parameters and the exact decision, cold, a process
+    of its own, one core.
+    """
+    time, left = json.loads(
+        benchmark.pedantic(lambda: in_fresh_process(WHOLE.format(classes=classes)), rounds=1)
+    )
     table(f"All verdicts cold: {name}", ("time", "pairs left open"), [(f"{time:.2f} s", str(left))])

@@ -1,5 +1,6 @@
-"""How much faster than SymPy? 4-mass damped class, one process, one core: transfer functions, 12 Markov parameters, ranks,
-conditions 1 to 5 on all 406 pairs, everything cold."""
+"""How much faster than SymPy? 4-mass damped class, one process, one core: transfer functions, 12
+Markov parameters, ranks, conditions 1 to 5 on all 406 pairs, everything cold.
+"""
 
 from collections import Counter
 
@@ -25,16 +26,29 @@ def ours(points: int = 3) -> None:
 
 def twin() -> None:
     for representation, count in (("tf", 0), ("markov", 12)):
-        found = Counter(n if n < 6 else 0 for n in sympy_twin.decide_family(CHAINS, representation, count).values())
+        found = Counter(
+            n if n < 6 else 0
+            for n in sympy_twin.decide_family(CHAINS, representation, count).values()
+        )
         assert found == COUNTS[representation]
 
 
 def test_against_sympy(benchmark) -> None:
-    fast = alternating({"disting": ours, "disting, one point": lambda: ours(1), "SymPy, tuned by hand": sympy_best.run}, 5)
+    fast = alternating(
+        {
+            "disting": ours,
+            "disting, one point": lambda: ours(1),
+            "SymPy, tuned by hand": sympy_best.run,
+        },
+        5,
+    )
     slow = {"SymPy, plain (the oracle of the tests)": seconds(twin)}
     textbook = "SymPy, textbook inverse, transfer functions only"
     slow[textbook] = seconds(lambda: [sympy_twin.transfer_function_textbook(c) for c in CHAINS])
     benchmark.pedantic(ours, rounds=3)
     benchmark.extra_info |= {name: time / fast["disting"] for name, time in (fast | slow).items()}
-    rows = [(name, f"{time:.2f} s", f"{time / fast['disting']:.1f}") for name, time in (fast | slow).items()]
+    rows = [
+        (name, f"{time:.2f} s", f"{time / fast['disting']:.1f}")
+        for name, time in (fast | slow).items()
+    ]
     table("4-mass damped class, conditions 1 to 5", ("way", "time", "ratio to disting"), rows)

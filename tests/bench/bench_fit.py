@@ -1,6 +1,8 @@
-"""How much faster, and how much better, are structured starts than swarms and evolution? Measured side by side, one core.
+"""How much faster, and how much better, are structured starts than swarms and evolution? Measured
+side by side, one core.
 
-Third-party data of a motor bench where it is beside the checkout, else the simulated demonstration drive.
+Third-party data of a motor bench where it is beside the checkout, else the simulated demonstration
+drive.
 """
 
 import time
@@ -29,11 +31,16 @@ TRIED = [
     Chain(2, damped=True, ground_dampers=(2,), dead_time=True),
     Chain(3, damped=True, dead_time=True),
 ]
-LARGER = Chain(4, damped=True, ground_dampers=(1,), dead_time=True)  # against evolution and CMA-ES only: a swarm takes too long
+# against evolution and CMA-ES only: a swarm takes too long
+LARGER = Chain(4, damped=True, ground_dampers=(1,), dead_time=True)
 
 
 def measured() -> tuple[FrequencyResponse, FrequencyResponse]:
-    return (bench("A"), bench("B")) if DATA.exists() else (demo(0).response("acceleration"), demo(1).response("acceleration"))
+    return (
+        (bench("A"), bench("B"))
+        if DATA.exists()
+        else (demo(0).response("acceleration"), demo(1).response("acceleration"))
+    )
 
 
 def evolved(chain: Chain, task: Task) -> float:
@@ -47,7 +54,11 @@ def evolved(chain: Chain, task: Task) -> float:
         return task.cost.total(plant.response(np.exp(x.T)))
 
     bounds = list(zip(low, high, strict=True))
-    return float(differential_evolution(cost, bounds, seed=1, vectorized=True, updating="deferred", polish=False).fun)
+    return float(
+        differential_evolution(
+            cost, bounds, seed=1, vectorized=True, updating="deferred", polish=False
+        ).fun
+    )
 
 
 def adapted(chain: Chain, task: Task) -> float:
@@ -59,7 +70,13 @@ def adapted(chain: Chain, task: Task) -> float:
     options = {"bounds": [low, high], "seed": 1, "verbose": -9}
     if len(low) < 2:
         return float("nan")
-    found = cma.fmin2(lambda x: float(task.cost.total(plant.response(np.exp(x)))), (low + high) / 2, 2.0, options, restarts=2)
+    found = cma.fmin2(
+        lambda x: float(task.cost.total(plant.response(np.exp(x)))),
+        (low + high) / 2,
+        2.0,
+        options,
+        restarts=2,
+    )
     return float(found[1].result.fbest)
 
 
@@ -76,14 +93,30 @@ def test_against_swarm_evolution_and_cma(benchmark) -> None:
         others = {"evolution": evolved(chain, task), "CMA-ES": adapted(chain, task), "swarm": swarm}
         assert all(not ours > j * (1 + 1e-6) for j in others.values())
         ratios.append(swarm_time / ours_time)
-        costs = [f"{ours:.4f}", *(f"{others[name]:.4f}" for name in ("swarm", "evolution", "CMA-ES"))]
+        costs = [
+            f"{ours:.4f}",
+            *(f"{others[name]:.4f}" for name in ("swarm", "evolution", "CMA-ES")),
+        ]
         name = f"{chain.n_masses} masses, {len(chain.parameters)} parameters"
-        rows.append((name, f"{ours_time:.2f} s", f"{swarm_time:.0f} s", f"{ratios[-1]:.0f}", *costs))
+        rows.append(
+            (name, f"{ours_time:.2f} s", f"{swarm_time:.0f} s", f"{ratios[-1]:.0f}", *costs)
+        )
     ours = estimates([LARGER], task)[LARGER].j
     others = [evolved(LARGER, task), adapted(LARGER, task)]
     assert ours <= min(others)
-    rows.append(("4 masses, 12 parameters", "", "", "", f"{ours:.4f}", "", *(f"{j:.4f}" for j in others)))
-    heads = ["candidate", "starts", "swarm", "ratio", "J starts", "J swarm", "J evolution", "J CMA-ES"]
+    rows.append(
+        ("4 masses, 12 parameters", "", "", "", f"{ours:.4f}", "", *(f"{j:.4f}" for j in others))
+    )
+    heads = [
+        "candidate",
+        "starts",
+        "swarm",
+        "ratio",
+        "J starts",
+        "J swarm",
+        "J evolution",
+        "J CMA-ES",
+    ]
     table("One candidate and what leads to it, one core", heads, rows)
     assert min(ratios) > 100
 
@@ -93,17 +126,29 @@ def test_all_candidates(benchmark) -> None:
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         list(pool.map(abs, range(2)))
         start = time.perf_counter()
-        found = benchmark.pedantic(lambda: select(train, figure_1(), test=test, executor=pool), rounds=1)
+        found = benchmark.pedantic(
+            lambda: select(train, figure_1(), test=test, executor=pool), rounds=1
+        )
         taken = time.perf_counter() - start
     task = Task(Cost(train))
     swarm = {n: seconds(lambda n=n: by_swarm(Chain(n, damped=True), task, {})) for n in (1, 2)}
-    rows = [("120 candidates, train and test, 2 workers", f"{taken:.1f} s", str(found.selected.chain))]
-    rows.append(("swarm, 1 and 2 masses without extras, one candidate each", f"{swarm[1]:.1f} s, {swarm[2]:.1f} s", ""))
+    rows = [
+        ("120 candidates, train and test, 2 workers", f"{taken:.1f} s", str(found.selected.chain))
+    ]
+    rows.append(
+        (
+            "swarm, 1 and 2 masses without extras, one candidate each",
+            f"{swarm[1]:.1f} s, {swarm[2]:.1f} s",
+            "",
+        )
+    )
     table("Selection", ["what", "time", "selected"], rows)
 
 
 def test_optima_of_all_candidates() -> None:
-    """Processor time of the 120 fits, and how far they are above the best of 20 independent searches."""
+    """Processor time of the 120 fits, and how far they are above the best of 20 independent
+    searches.
+    """
     task = Task(Cost(bench("A")))
     start = time.process_time()
     found = estimates(figure_1(), task)
@@ -111,8 +156,20 @@ def test_optima_of_all_candidates() -> None:
     known = best_known()
     excess = [fit.j / known[name(chain)][0] - 1 for chain, fit in found.items()]
     starts = sum(len(fit.costs) for fit in found.values())
-    row = (f"{taken:.1f} s", str(starts), str(sum(e > 1e-3 for e in excess)), f"{max(excess):.1e}", f"{min(excess):.1e}")
-    heads = ["processor time", "starts", "above the best known by 0.1 %", "largest excess", "smallest excess"]
+    row = (
+        f"{taken:.1f} s",
+        str(starts),
+        str(sum(e > 1e-3 for e in excess)),
+        f"{max(excess):.1e}",
+        f"{min(excess):.1e}",
+    )
+    heads = [
+        "processor time",
+        "starts",
+        "above the best known by 0.1 %",
+        "largest excess",
+        "smallest excess",
+    ]
     table("120 candidates on the bench", heads, [row])
     assert max(excess) < 1e-3
 
@@ -121,17 +178,23 @@ def test_one_residual_and_jacobian(benchmark) -> None:
     """A 4-mass model at 240 lines, against the same by a dense solve and central differences."""
     omega = 2 * np.pi * np.linspace(11, 250, 240)
     chain = Chain(4, damped=True, ground_dampers=(1, 2, 3, 4), lag=True, dead_time=True)
-    p = np.array([{"m": 1.0, "k": 1e5, "d": 5.0, "b": 5.0, "T": 1e-3}[name[0]] for name in chain.parameters])
+    p = np.array(
+        [{"m": 1.0, "k": 1e5, "d": 5.0, "b": 5.0, "T": 1e-3}[name[0]] for name in chain.parameters]
+    )
     task = Task(Cost(FrequencyResponse(omega, np.ones(240, complex))))
     plant = task.plant(chain)
 
     def differences() -> None:
         for i in range(len(p)):
             step = 1e-6 * p[i] * (np.arange(len(p)) == i)
-            task.cost.residual(plant.response(p + step)) - task.cost.residual(plant.response(p - step))
+            task.cost.residual(plant.response(p + step)) - task.cost.residual(
+                plant.response(p - step)
+            )
 
     benchmark(lambda: task.cost.of(plant, p))
-    taken = alternating({"analytic": lambda: task.cost.of(plant, p), "differences": differences}, 200)
+    taken = alternating(
+        {"analytic": lambda: task.cost.of(plant, p), "differences": differences}, 200
+    )
     micro = {name: f"{1e6 * t:.0f} µs" for name, t in taken.items()}
     ratio = f"{taken['differences'] / taken['analytic']:.1f}"
     table(

@@ -1,4 +1,6 @@
-"""How does one model's cost grow with its size? Transfer function, Jacobian and rank modulo one prime, damped."""
+"""How does one model's cost grow with its size? Transfer function, Jacobian and rank modulo one
+prime, damped.
+"""
 
 import statistics
 
@@ -24,12 +26,20 @@ def chains(n: int) -> list[Chain]:
 def milliseconds(chain: Chain) -> float:
     structure = chain.structure
     point = residues(str(chain), len(chain.parameters), PRIME)
-    return 1e3 * seconds(lambda: sample(structure, Representation.TF, 0, point, PRIME).jacobian.rank())
+    return 1e3 * seconds(
+        lambda: sample(structure, Representation.TF, 0, point, PRIME).jacobian.rank()
+    )
 
 
 def test_growth(benchmark) -> None:
     benchmark.pedantic(lambda: [milliseconds(c) for c in chains(8)], rounds=3)
     sizes = (3, 4, 5, 6, 7, 8, 10, 12, 15, 20)
-    found = {n: statistics.median(milliseconds(c) for _ in range(15) for c in chains(n)) for n in sizes}
+    found = {
+        n: statistics.median(milliseconds(c) for _ in range(15) for c in chains(n)) for n in sizes
+    }
     rows = [(str(n), f"{ms:.2f} ms", f"{ms / found[3]:.1f}") for n, ms in found.items()]
-    table("One model: transfer function, Jacobian, rank", ("masses", "time", "ratio to 3 masses"), rows)
+    table(
+        "One model: transfer function, Jacobian, rank",
+        ("masses", "time", "ratio to 3 masses"),
+        rows,
+    )

@@ -15,7 +15,9 @@ PAIR = (10, 20)
 
 
 def process(*arguments: str) -> float:
-    return seconds(lambda: subprocess.run([sys.executable, *arguments], check=True, capture_output=True))
+    return seconds(
+        lambda: subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
+    )
 
 
 def test_look_up(benchmark, tmp_path: Path) -> None:
@@ -32,20 +34,37 @@ def test_look_up(benchmark, tmp_path: Path) -> None:
     found = alternating(
         {
             "shipped catalogue": lambda: [shipped.verdict(*PAIR) for _ in range(100)],
-            "shipped catalogue, exact": lambda: [shipped.verdict(*PAIR, View.EXACT) for _ in range(100)],
+            "shipped catalogue, exact": lambda: [
+                shipped.verdict(*PAIR, View.EXACT) for _ in range(100)
+            ],
             "SQLite cache": lambda: [kept.verdict(*stored, Query()) for _ in range(100)],
             "computed": lambda: [cold() for _ in range(3)],
         },
         5,
     )
     each = {name: time / (3 if name == "computed" else 100) for name, time in found.items()}
-    rows = [(name, f"{1e3 * time:.3f} ms", f"{each['computed'] / time:.0f}") for name, time in each.items()]
-    table("One verdict of the 5-mass damped class", ("from", "time", "times faster than computed"), rows)
-    bare, loaded = (statistics.median(process("-c", code) for _ in range(7)) for code in ("pass", "import disting"))
-    whole = statistics.median(process("-m", "disting", "compare", "5:10", "5:20", "--damped") for _ in range(5))
+    rows = [
+        (name, f"{1e3 * time:.3f} ms", f"{each['computed'] / time:.0f}")
+        for name, time in each.items()
+    ]
+    table(
+        "One verdict of the 5-mass damped class",
+        ("from", "time", "times faster than computed"),
+        rows,
+    )
+    bare, loaded = (
+        statistics.median(process("-c", code) for _ in range(7))
+        for code in ("pass", "import disting")
+    )
+    whole = statistics.median(
+        process("-m", "disting", "compare", "5:10", "5:20", "--damped") for _ in range(5)
+    )
     heads = ("whole process", "time")
     table(
         "Start-up",
         heads,
-        [("import disting, less bare Python", f"{loaded - bare:.2f} s"), ("disting compare", f"{whole:.2f} s")],
+        [
+            ("import disting, less bare Python", f"{loaded - bare:.2f} s"),
+            ("disting compare", f"{whole:.2f} s"),
+        ],
     )

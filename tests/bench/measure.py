@@ -33,7 +33,9 @@ def table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> No
 
 def in_fresh_process(code: str) -> str:
     """Standard output of a fresh interpreter that runs the code."""
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout
 
 
 def peak_mebibytes() -> float:

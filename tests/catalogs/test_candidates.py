@@ -1,4 +1,6 @@
-"""The shipped verdicts on the candidates of a fit: current to the byte, as compare says, and used by the fit."""
+"""The shipped verdicts on the candidates of a fit: current to the byte, as compare says, and
+used by the fit.
+"""
 
 import json
 from dataclasses import replace
@@ -7,7 +9,17 @@ from random import Random
 
 import pytest
 
-from disting import CatalogError, Certainty, Chain, Engine, Family, InputError, Relation, Sensor, compare
+from disting import (
+    CatalogError,
+    Certainty,
+    Chain,
+    Engine,
+    Family,
+    InputError,
+    Relation,
+    Sensor,
+    compare,
+)
 from disting.catalogs import candidates as stored
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
@@ -50,7 +62,11 @@ def test_a_part_of_the_matrix_is_as_computed_now():
     found, known = stored.matrix(part), stored.shipped()
     for i, left in enumerate(part):
         for right in part[i + 1 :]:
-            for column in (stored.Matrix.relation, stored.Matrix.decided_by, stored.Matrix.certainty):
+            for column in (
+                stored.Matrix.relation,
+                stored.Matrix.decided_by,
+                stored.Matrix.certainty,
+            ):
                 assert column(found, left, right) == column(known, right, left)
 
 
@@ -79,7 +95,11 @@ def test_a_matrix_with_all_relations_survives_its_file(tmp_path):
     stored.write(found, tmp_path)
     again = stored.read(tmp_path)
     assert again == found
-    assert [again.relation(chains[i], chains[j]) for i, j in ((0, 1), (0, 2), (1, 2))] == [APART, SAME, APART]
+    assert [again.relation(chains[i], chains[j]) for i, j in ((0, 1), (0, 2), (1, 2))] == [
+        APART,
+        SAME,
+        APART,
+    ]
     assert again.decided_by(chains[0], chains[2]) == "exact"
 
 
@@ -100,14 +120,21 @@ def test_other_candidates_are_computed():
 
 
 def test_pairs_that_are_not_there_are_refused():
-    for pair in ((FIRST, FIRST), (FIRST, Chain(2)), (FIRST, Chain(3, damped=True, sensor="position"))):
+    for pair in (
+        (FIRST, FIRST),
+        (FIRST, Chain(2)),
+        (FIRST, Chain(3, damped=True, sensor="position")),
+    ):
         with pytest.raises(InputError, match="two of its models"):
             stored.shipped().relation(*pair)
     with pytest.raises(InputError, match="one sensor"):
         stored.matrix([FIRST, Chain(2, sensor="velocity")])
 
 
-@pytest.mark.parametrize("text", ["", "{}\n", "no json\n", '{"schema": 1, "models": 2}\n', '{"schema": 9, "models": 0}\n'])
+@pytest.mark.parametrize(
+    "text",
+    ["", "{}\n", "no json\n", '{"schema": 1, "models": 2}\n', '{"schema": 9, "models": 0}\n'],
+)
 def test_damaged_files_are_refused_with_the_remedy(tmp_path, text):
     (tmp_path / stored.FILE).write_text(text)
     with pytest.raises(CatalogError, match="disting catalog candidates"):

@@ -20,13 +20,20 @@ def three(request):
 
 
 def test_forty_four_models_of_one_to_four_masses():
-    assert [name for name, _ in combined_family((1, 2, 3, 4))][::14] == ["1:1", "3:11", "4:14", "4:28"]
+    assert [name for name, _ in combined_family((1, 2, 3, 4))][::14] == [
+        "1:1",
+        "3:11",
+        "4:14",
+        "4:28",
+    ]
     assert len(combined_family((4, 2, 1, 3, 3))) == 44
 
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_models_of_different_sizes_are_distinguishable_by_their_degrees(damped):
-    """All pairs of 1 to 4 masses: by condition 1, and by 2 where equally many coefficients are distributed differently."""
+    """All pairs of 1 to 4 masses: by condition 1, and by 2 where equally many coefficients are
+    distributed differently.
+    """
     found = combined((1, 2, 3, 4), damped=damped, query=Query(inclusion=False), engine=ENGINE)
     n = [s.chain.n_masses for s in found.subjects]
     pairs = [(i, j) for i in range(len(n)) for j in range(i + 1, len(n)) if n[i] != n[j]]
@@ -54,9 +61,14 @@ def test_one_sided_inclusion_is_shown(three):
         sizes = tuple(found.subjects[k].chain.n_masses for k in (i, j))
         if sizes[0] != sizes[1]:
             between[sizes, finding.closure.inclusion] += 1
-    assert between[(1, 2), Inclusion.LEFT_IN_RIGHT] == 3 and between[(1, 3), Inclusion.LEFT_IN_RIGHT] == 11
+    assert (
+        between[(1, 2), Inclusion.LEFT_IN_RIGHT] == 3
+        and between[(1, 3), Inclusion.LEFT_IN_RIGHT] == 11
+    )
     assert between[(2, 3), Inclusion.LEFT_IN_RIGHT] == (33 if damped else 31)
-    assert not {Inclusion.RIGHT_IN_LEFT, Inclusion.UNKNOWN} & {inclusion for _, inclusion in between}
+    assert not {Inclusion.RIGHT_IN_LEFT, Inclusion.UNKNOWN} & {
+        inclusion for _, inclusion in between
+    }
     assert found.verdict(places["2:1"], places["3:1"]).closure is Inclusion.LEFT_IN_RIGHT
 
 
@@ -74,13 +86,20 @@ def test_models_of_one_to_four_masses(damped, inside, outside):
 def test_csv_with_names(capsys):
     assert main(["verdicts", "1-2", "--damped", "--csv", "-", "--no-cache"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
-    assert [(r["left"], r["right"]) for r in rows][:3] == [("1:1", "2:1"), ("1:1", "2:2"), ("1:1", "2:3")]
+    assert [(r["left"], r["right"]) for r in rows][:3] == [
+        ("1:1", "2:1"),
+        ("1:1", "2:2"),
+        ("1:1", "2:3"),
+    ]
     assert [r["closure"] for r in rows][:3] == ["left-in-right"] * 3
 
 
 def test_summary_of_the_command(capsys):
     assert main(["verdicts", "1-3", "--no-cache"]) == 0
-    assert "over complex parameters: 45 smaller models are limits of larger ones" in capsys.readouterr().out
+    assert (
+        "over complex parameters: 45 smaller models are limits of larger ones"
+        in capsys.readouterr().out
+    )
     assert main(["verdicts", "3", "--no-cache"]) == 0
     assert "limits of larger" not in capsys.readouterr().out
 

@@ -1,4 +1,6 @@
-"""The shipped classes of families with all sets of ground dampers: current, whole, and as compare says."""
+"""The shipped classes of families with all sets of ground dampers: current, whole, and as
+compare says.
+"""
 
 import json
 from random import Random
@@ -7,7 +9,14 @@ import pytest
 
 from disting import CatalogError, Engine, InputError, Query, Relation, View, catalog, compare
 from disting.catalogs.damper_family import damper_family
-from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, name_of, read, text_of, write
+from disting.catalogs.damper_files import (
+    SHIPPED_SIZES,
+    damper_catalog,
+    name_of,
+    read,
+    text_of,
+    write,
+)
 from disting.catalogs.damper_settled import read_settled
 from disting.catalogs.damper_verify import verify_dampers
 from disting.catalogs.files import shipped_folder
@@ -45,9 +54,13 @@ def test_three_masses_are_current_to_the_byte(damped):
 @pytest.mark.slow
 @pytest.mark.parametrize(("n", "damped"), [(4, False), (4, True), (5, True)])
 def test_larger_families_are_current_to_the_byte(n, damped):
-    """Two to five minutes each with two workers; the undamped family of 5 masses, made with --patient, takes an hour."""
+    """Two to five minutes each with two workers; the undamped family of 5 masses, made with
+    --patient, takes an hour.
+    """
     with executor(2) as pool:
-        assert text_of(damper_family(n, damped=damped, executor=pool), Settings()) == shipped_text(n, damped)
+        assert text_of(damper_family(n, damped=damped, executor=pool), Settings()) == shipped_text(
+            n, damped
+        )
 
 
 @pytest.mark.parametrize(("n", "damped"), ALL)
@@ -64,14 +77,26 @@ def test_at_random_as_compare_says(n):
         i, j = random.sample(range(len(found)), 2)
         relation, rule = found.found.look_up(i, j)
         if rule != "exact":
-            assert compare(found.found.chains[i], found.found.chains[j], query=Query(View.EXACT)).relation is relation
+            assert (
+                compare(
+                    found.found.chains[i], found.found.chains[j], query=Query(View.EXACT)
+                ).relation
+                is relation
+            )
 
 
 @pytest.mark.parametrize(("n", "damped"), ALL)
 def test_what_the_exact_decision_settled_at_random_as_one_fibre_says(n, damped):
-    """Pairs of one bucket, asked anew: distinguishable ones have an empty fibre, or a rank of 1/G that differs."""
+    """Pairs of one bucket, asked anew: distinguishable ones have an empty fibre, or a rank of
+    1/G that differs.
+    """
     found, random = damper_catalog(n, damped=damped).found, Random(n)
-    pairs = [(i, j) for i in random.sample(range(len(found)), 25) for j in random.sample(range(len(found)), 60) if i != j]
+    pairs = [
+        (i, j)
+        for i in random.sample(range(len(found)), 25)
+        for j in random.sample(range(len(found)), 60)
+        if i != j
+    ]
     exact = [(i, j) for i, j in pairs if found.look_up(i, j)[1] == "exact"][:12]
     told = []
     for i, j in exact:
@@ -122,8 +147,14 @@ def test_the_command_writes_the_files(tmp_path, capsys):
     over = "12 models, 66 pairs, over complex parameters"
     together = "all of it together is wrong with a probability of at most 2^-94"
     assert capsys.readouterr().out.splitlines() == [
-        f"{tmp_path}/dampers-2-undamped.jsonl: {over}: 62 distinguishable, 4 indistinguishable, 0 undecided; {together}",
-        f"{tmp_path}/dampers-2-damped.jsonl: {over}: 59 distinguishable, 7 indistinguishable, 0 undecided; {together}",
+        (
+            f"{tmp_path}/dampers-2-undamped.jsonl: {over}: 62 distinguishable, 4 indistinguishable,"
+            f" 0 undecided; {together}"
+        ),
+        (
+            f"{tmp_path}/dampers-2-damped.jsonl: {over}: 59 distinguishable, 7 indistinguishable, 0"
+            f" undecided; {together}"
+        ),
     ]
 
 
@@ -131,7 +162,8 @@ def test_the_command_answers_from_the_shipped_file(tmp_path, capsys):
     target = tmp_path / "pairs.csv"
     assert main(["dampers", "3", "--damped", "--sets", "all", "--csv", str(target)]) == 0
     assert capsys.readouterr().out.startswith(
-        "88 models, 3828 pairs, over complex parameters: 3678 distinguishable, 150 indistinguishable"
+        "88 models, 3828 pairs, over complex parameters: 3678 distinguishable, 150"
+        " indistinguishable"
     )
     lines = target.read_text(encoding="utf-8").splitlines()
     assert len(lines) == 3829 and lines[1] == "3:1,3:1+b1,distinguishable,1,complex"
@@ -149,7 +181,9 @@ def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
     (tmp_path / name).write_text(text, encoding="utf-8")
     engine = Engine()
     assert verify_dampers(3, damped=damped, folder=tmp_path, engine=engine) == []
-    (tmp_path / name).write_text(text.replace('"undecided":[]', '"undecided":[[0,1]]'), encoding="utf-8")
+    (tmp_path / name).write_text(
+        text.replace('"undecided":[]', '"undecided":[[0,1]]'), encoding="utf-8"
+    )
     assert verify_dampers(3, damped=damped, folder=tmp_path, engine=engine) == [
         f"{name_of(3, damped)} is not what is computed now"
     ]
@@ -170,6 +204,9 @@ def test_what_was_settled_once_holds():
 
 
 def assert_settled(known, pairs):
-    chains = {str(canonical(c).chain): canonical(c).chain for c in damper_catalog(5, damped=True).found.chains}
+    chains = {
+        str(canonical(c).chain): canonical(c).chain
+        for c in damper_catalog(5, damped=True).found.chains
+    }
     for names in pairs:
         assert Witness().confirms(known[names].evidence, "fibre", *(chains[n] for n in names))

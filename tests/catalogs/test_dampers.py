@@ -1,4 +1,6 @@
-"""Ground dampers of one model: Fig. 14 of the paper, literally, and against a plain SymPy oracle."""
+"""Ground dampers of one model: Fig. 14 of the paper, literally, and against a plain SymPy
+oracle.
+"""
 
 import csv
 import io
@@ -24,7 +26,16 @@ def table(number, which=DamperSets.SINGLE, n=3, damped=True, domain=Domain.COMPL
 
 def test_sets_in_the_order_of_size_then_masses():
     assert [spelled(s) for s in DamperSets.SINGLE.of(3)] == ["0", "1", "2", "3"]
-    assert [spelled(s) for s in DamperSets.ALL.of(3)] == ["0", "1", "2", "3", "1+2", "1+3", "2+3", "1+2+3"]
+    assert [spelled(s) for s in DamperSets.ALL.of(3)] == [
+        "0",
+        "1",
+        "2",
+        "3",
+        "1+2",
+        "1+3",
+        "2+3",
+        "1+2+3",
+    ]
 
 
 # Printed: "the set of candidate models was chosen appropriately with distinguishable models only".
@@ -33,7 +44,8 @@ def test_force_and_sensor_at_mass_1_every_two_sets_are_distinguishable(n):
     assert {relation for *_, relation, _ in table(1, DamperSets.ALL, n).rows()} == {APART}
 
 
-# Printed: "for other system, e.g. A3 it would not be possible to determine the correct positions of dampers".
+# Printed: "for other system, e.g. A3 it would not be possible to determine the correct positions of
+# dampers".
 def test_a3_tells_that_there_is_a_damper_but_not_where():
     assert table(3).classes() == (((),), ((1,), (2,), (3,)))
     everything = table(3, DamperSets.ALL)
@@ -72,7 +84,9 @@ def test_as_compare_says(number, domain):
 
 
 def fraction(chain, p):
-    """Receptance (num, den) as polynomials in s, from the matrix written down entry by entry and SymPy's own inverse."""
+    """Receptance (num, den) as polynomials in s, from the matrix written down entry by entry
+    and SymPy's own inverse.
+    """
     s, n = sp.Symbol("s"), chain.n_masses
     a = sp.zeros(n, n)
     for i in range(1, n + 1):
@@ -86,7 +100,9 @@ def fraction(chain, p):
 
 
 def has_equivalent(given, other):
-    """Whether fixed rational parameters of the one chain have an equivalent with non-zero elements in the other."""
+    """Whether fixed rational parameters of the one chain have an equivalent with non-zero
+    elements in the other.
+    """
     values = {name: sp.Integer(3 * i * i + 5 * i + 2) for i, name in enumerate(given.parameters)}
     unknown, extra = {name: sp.Symbol(name) for name in other.parameters}, sp.Symbol("inverse")
     (n1, d1), (n2, d2) = fraction(given, values), fraction(other, unknown)
@@ -98,7 +114,12 @@ def has_equivalent(given, other):
 
 @pytest.mark.parametrize("sensor", [1, 2])
 def test_against_sympy(sensor):
-    found = dampers(Chain(2, meas_plus=sensor, damped=True), DamperSets.ALL, domain=Domain.COMPLEX, engine=ENGINE)
+    found = dampers(
+        Chain(2, meas_plus=sensor, damped=True),
+        DamperSets.ALL,
+        domain=Domain.COMPLEX,
+        engine=ENGINE,
+    )
     for left, right in combinations(found.sets, 2):
         one, other = (replace(found.chain, ground_dampers=s) for s in (left, right))
         both = has_equivalent(one, other) and has_equivalent(other, one)
@@ -126,28 +147,50 @@ def test_csv_of_the_command(capsys):
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
     assert list(rows[0]) == ["left", "right", "relation", "decided_by", "domain"]
     assert [(r["left"], r["right"]) for r in rows] == list(combinations("0123", 2))
-    assert [r["relation"] for r in rows] == ["distinguishable"] * 3 + ["undecided", "indistinguishable", "undecided"]
+    assert [r["relation"] for r in rows] == ["distinguishable"] * 3 + [
+        "undecided",
+        "indistinguishable",
+        "undecided",
+    ]
     assert {r["domain"] for r in rows} == {"positive"}
 
 
 def test_table_of_the_command(capsys, tmp_path):
-    asked = ["dampers", "3:3", "--damped", "--sets", "all", "--domain", "complex", "--csv", str(tmp_path / "a3.csv")]
+    asked = [
+        "dampers",
+        "3:3",
+        "--damped",
+        "--sets",
+        "all",
+        "--domain",
+        "complex",
+        "--csv",
+        str(tmp_path / "a3.csv"),
+    ]
     assert main(asked) == 0
     shown = capsys.readouterr().out
-    assert "8 sets, 28 pairs, over complex parameters: 7 distinguishable, 21 indistinguishable, 0 undecided" in shown
+    assert (
+        "8 sets, 28 pairs, over complex parameters: 7 distinguishable, 21 indistinguishable, 0"
+        " undecided" in shown
+    )
     assert "indistinguishable over complex parameters: 1 2 3 1+2 1+3 2+3 1+2+3" in shown
     lines = (tmp_path / "a3.csv").read_text().splitlines()
     assert lines[7:9] == ["0,1+2+3,distinguishable,1,complex", "1,2,indistinguishable,7,complex"]
 
 
 def test_the_table_speaks_of_positive_parameters_and_says_what_is_known_of_complex_ones(capsys):
-    """Dampers at masses 1 and 3 of A3 are exchanged by a symmetry; for the others only complex equivalents are known."""
+    """Dampers at masses 1 and 3 of A3 are exchanged by a symmetry; for the others only complex
+    equivalents are known.
+    """
     assert main(["dampers", "3:3", "--damped"]) == 0
     shown = capsys.readouterr().out
     assert shown.splitlines()[3:7] == ["0 \\ . . .", "1 . \\ c =", "2 . c \\ c", "3 . = c \\"]
     assert "over positive parameters: . distinguishable, = indistinguishable" in shown
     assert "c undecided, but indistinguishable over complex ones" in shown
-    assert "over positive parameters: 3 distinguishable, 1 indistinguishable, 2 undecided (2 of them " in shown
+    assert (
+        "over positive parameters: 3 distinguishable, 1 indistinguishable, 2 undecided (2 of them "
+        in shown
+    )
     assert "indistinguishable over positive parameters: 1 3\n" in shown
 
 
@@ -169,9 +212,28 @@ def test_bad_input_of_the_command(wrong, capsys):
 
 
 def test_the_command_for_a_whole_family(capsys, tmp_path):
-    assert main(["dampers", "2", "--damped", "--sets", "all", "--csv", str(tmp_path / "two.csv"), "--no-cache"]) == 0
+    assert (
+        main(
+            [
+                "dampers",
+                "2",
+                "--damped",
+                "--sets",
+                "all",
+                "--csv",
+                str(tmp_path / "two.csv"),
+                "--no-cache",
+            ]
+        )
+        == 0
+    )
     shown = capsys.readouterr().out
-    assert shown.startswith("12 models, 66 pairs, over complex parameters: ") and "0 undecided" in shown
+    assert (
+        shown.startswith("12 models, 66 pairs, over complex parameters: ")
+        and "0 undecided" in shown
+    )
     rows = list(csv.DictReader((tmp_path / "two.csv").open()))
     assert len(rows) == 66 and rows[0]["left"] == "2:1" and rows[-1]["right"] == "2:3+b1+b2"
-    assert sum(r["relation"] == "indistinguishable" for r in rows) == int(shown.split(" indistinguishable")[0].split()[-1])
+    assert sum(r["relation"] == "indistinguishable" for r in rows) == int(
+        shown.split(" indistinguishable")[0].split()[-1]
+    )

@@ -24,7 +24,9 @@ def test_a_damaged_file_is_named_with_a_remedy(tmp_path):
     source = random.Random(7)
     for _ in range(50):
         damaged(tmp_path, source)
-        with pytest.raises(CatalogError, match=r"chains-3-undamped.jsonl is damaged: .*; install disting anew"):
+        with pytest.raises(
+            CatalogError, match=r"chains-3-undamped.jsonl is damaged: .*; install disting anew"
+        ):
             catalog(3, folder=tmp_path)
 
 

@@ -31,7 +31,10 @@ def test_both_senses_are_told(records):
         assert (v.inclusions is not None) == (stored.rows[i - 1].rank != stored.rows[j - 1].rank)
     header, *rows = stored.to_csv().splitlines()
     assert header.split(",")[8:10] == ["image", "closure"]
-    told = [["" if x == "unknown" else x.value for x in (v.image, v.closure)] for _, _, v in stored.pairs()]
+    told = [
+        ["" if x == "unknown" else x.value for x in (v.image, v.closure)]
+        for _, _, v in stored.pairs()
+    ]
     assert [row.split(",")[8:10] for row in rows] == told
     assert not list(false_evidence(stored))
 

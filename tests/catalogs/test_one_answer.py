@@ -1,4 +1,6 @@
-"""One answer wherever it is asked: catalogue, `compare`, `verdicts` and page give the same verdict on every pair."""
+"""One answer wherever it is asked: catalogue, `compare`, `verdicts` and page give the same
+verdict on every pair.
+"""
 
 import csv
 import io
@@ -28,23 +30,36 @@ def by_verdicts(shipped, query) -> dict[tuple[int, int], Answer]:
     """The table that `disting verdicts` writes."""
     subjects = [ENGINE.subject(f"A{i}", chain) for i, chain in enumerate(shipped.family, 1)]
     rows = csv.DictReader(io.StringIO(decisions_csv(ENGINE.decisions(subjects, query))))
-    return {(int(r["left"]), int(r["right"])): (r["relation"], r["decided_by"], r["domain"]) for r in rows}
+    return {
+        (int(r["left"]), int(r["right"])): (r["relation"], r["decided_by"], r["domain"])
+        for r in rows
+    }
 
 
 def by_page(shipped, view) -> dict[tuple[int, int], Answer]:
-    """The view that a page's script reads, unpacked: a negative number repeats what is before it."""
-    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page(shipped), re.DOTALL)
+    """The view that a page's script reads, unpacked: a negative number repeats what is before
+    it.
+    """
+    found = re.search(
+        r'<script type="application/json" id="data">(.*?)</script>', page(shipped), re.DOTALL
+    )
     assert found
     data, numbers = json.loads(found[1]), []
     for number in data["views"][view]:
         numbers += [number] if number >= 0 else [numbers[-1]] * -number
     fields = [[data["texts"][n] for n in data["entries"][number]] for number in numbers]
     pairs = [(low, high) for high in range(2, len(shipped.family) + 1) for low in range(1, high)]
-    return {pair: (relation, by, domain) for pair, (relation, by, _, _, domain, *_) in zip(pairs, fields, strict=True)}
+    return {
+        pair: (relation, by, domain)
+        for pair, (relation, by, _, _, domain, *_) in zip(pairs, fields, strict=True)
+    }
 
 
 def by_compare(shipped, pairs, **query) -> dict[tuple[int, int], Answer]:
-    return {(i, j): answer(compare(shipped.family[i], shipped.family[j], engine=ENGINE, **query)) for i, j in pairs}
+    return {
+        (i, j): answer(compare(shipped.family[i], shipped.family[j], engine=ENGINE, **query))
+        for i, j in pairs
+    }
 
 
 @pytest.mark.parametrize(("n", "damped"), SMALL[:4])
@@ -96,14 +111,19 @@ def test_five_masses_at_some_pairs(damped):
     pairs = [*shipped.depending(), *list(combinations(range(1, 74), 2))[::50]]
     assert by_compare(shipped, pairs) == {pair: answer(shipped.verdict(*pair)) for pair in pairs}
     drawn = by_page(shipped, "positive")
-    assert {pair: drawn[pair] for pair in pairs} == {pair: answer(shipped.verdict(*pair)) for pair in pairs}
+    assert {pair: drawn[pair] for pair in pairs} == {
+        pair: answer(shipped.verdict(*pair)) for pair in pairs
+    }
 
 
 @pytest.mark.parametrize(
-    ("n", "damped", "sometimes"), [(3, False, 0), (4, False, 1), (4, True, 0), (5, False, 13), (5, True, 0)]
+    ("n", "damped", "sometimes"),
+    [(3, False, 0), (4, False, 1), (4, True, 0), (5, False, 13), (5, True, 0)],
 )
 def test_what_depends_on_the_values_is_in_no_group_for_that(n, damped, sometimes):
-    """Over complex parameters these pairs are indistinguishable; over positive ones they are named on their own."""
+    """Over complex parameters these pairs are indistinguishable; over positive ones they are
+    named on their own.
+    """
     shipped = catalog(n, damped=damped)
     assert len(shipped.depending()) == sometimes and shipped.depending(View.EXACT) == ()
     for low, high in shipped.depending():

@@ -14,7 +14,10 @@ from disting.conditions.verify import Witness
 from disting.errors import InputError
 
 SMALL = [(n, damped) for n in (1, 2, 3) for damped in (False, True)]
-LARGE = [pytest.param(n, damped, marks=pytest.mark.slow) for n in (4, 5) for damped in (False, True)]  # seconds to minutes
+# seconds to minutes
+LARGE = [
+    pytest.param(n, damped, marks=pytest.mark.slow) for n in (4, 5) for damped in (False, True)
+]
 
 
 def stored_text(n, damped):
@@ -69,7 +72,10 @@ def test_verify_finds_one_altered_evidence(tmp_path):
     assert any("evidence of condition" in sentence for sentence in wrong)
 
 
-@pytest.mark.parametrize("text", ["", "{}\n", "no json\n", '{"schema": 99, "models": 0}\n', '{"schema": 1, "models": 11}\n'])
+@pytest.mark.parametrize(
+    "text",
+    ["", "{}\n", "no json\n", '{"schema": 99, "models": 0}\n', '{"schema": 1, "models": 11}\n'],
+)
 def test_damaged_files_are_refused_with_the_remedy(tmp_path, text):
     (tmp_path / "chains-3-undamped.jsonl").write_text(text)
     with pytest.raises(CatalogError, match="disting catalog build"):
@@ -91,14 +97,20 @@ def test_damaged_pairs_are_named_with_the_remedy(tmp_path, sound, damaged):
     pairs = [text.replace(sound, damaged) for text in records[11:]]
     assert pairs != records[11:]
     (tmp_path / "chains-3-damped.jsonl").write_text("\n".join([header, *records[:11], *pairs, ""]))
-    with pytest.raises(CatalogError, match=r"chains-3-damped, \d+:\d+ cannot be read .* 'disting catalog build'"):
+    with pytest.raises(
+        CatalogError, match=r"chains-3-damped, \d+:\d+ cannot be read .* 'disting catalog build'"
+    ):
         list(catalog(3, damped=True, folder=tmp_path).pairs())
 
 
-@pytest.mark.parametrize("change", [lambda pairs: pairs[::-1], lambda pairs: [pairs[0], pairs[0], *pairs[2:]]])
+@pytest.mark.parametrize(
+    "change", [lambda pairs: pairs[::-1], lambda pairs: [pairs[0], pairs[0], *pairs[2:]]]
+)
 def test_pairs_in_disorder_are_refused(tmp_path, change):
     text = (shipped_folder() / "chains-3-undamped.jsonl").read_text().splitlines()
-    (tmp_path / "chains-3-undamped.jsonl").write_text("\n".join([*text[:12], *change(text[12:]), ""]))
+    (tmp_path / "chains-3-undamped.jsonl").write_text(
+        "\n".join([*text[:12], *change(text[12:]), ""])
+    )
     with pytest.raises(CatalogError, match="incomplete"):
         catalog(3, folder=tmp_path)
 
@@ -135,12 +147,17 @@ def test_tables_agree_with_the_verdicts():
 def test_csv_and_json_hold_every_pair():
     c = catalog(3)
     rows = c.to_csv().splitlines()
-    assert rows[0].startswith("left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,")
+    assert rows[0].startswith(
+        "left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,"
+    )
     assert rows[0].endswith(",left_positive,right_positive")
     assert len(rows) == 1 + 55
     data = json.loads(c.to_json(View.TF))
     assert len(data["verdicts"]) == 55
-    assert {v["relation"] for v in data["verdicts"]} == {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE}
+    assert {v["relation"] for v in data["verdicts"]} == {
+        Relation.DISTINGUISHABLE,
+        Relation.INDISTINGUISHABLE,
+    }
 
 
 def test_evidence_of_an_unknown_name_is_damage_when_it_is_read(tmp_path):
@@ -160,7 +177,8 @@ def test_writing_leaves_no_partial_files(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("n", "damped", "left_open"), [(2, True, 0), (3, True, 0), (4, False, 0), (4, True, 0), (5, False, 0), (5, True, 0)]
+    ("n", "damped", "left_open"),
+    [(2, True, 0), (3, True, 0), (4, False, 0), (4, True, 0), (5, False, 0), (5, True, 0)],
 )
 def test_the_exact_decision_leaves_nothing_open(n, damped, left_open):
     c = catalog(n, damped=damped)
@@ -173,6 +191,10 @@ def test_what_the_exact_decision_says_and_how_surely():
     c = catalog(3, damped=True)
     assert c.verdict(1, 11, View.COMBINED).relation is Relation.UNDECIDED
     dual, apart = c.verdict(1, 11, View.EXACT), c.verdict(1, 6, View.EXACT)
-    assert (dual.relation, dual.decided_by, dual.certainty) == (Relation.INDISTINGUISHABLE, "exact", "theorem")
+    assert (dual.relation, dual.decided_by, dual.certainty) == (
+        Relation.INDISTINGUISHABLE,
+        "exact",
+        "theorem",
+    )
     assert (apart.relation, apart.certainty) == (Relation.DISTINGUISHABLE, "bounded")
     assert apart.safety >= 100

@@ -19,12 +19,20 @@ def disting(*arguments, cache="off", cwd=None):
     """A process of its own."""
     environment = os.environ | {"DISTING_CACHE": str(cache), "COLUMNS": "100"}
     command = [*COMMAND, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, check=False, cwd=cwd)
+    return subprocess.run(
+        command, capture_output=True, text=True, env=environment, timeout=600, check=False, cwd=cwd
+    )
 
 
 def called(*arguments, cache="off"):
-    """The same without a process of its own, which takes a second to start: for tests of what a command says."""
-    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+    """The same without a process of its own, which takes a second to start: for tests of what a
+    command says.
+    """
+    with (
+        pytest.MonkeyPatch.context() as patch,
+        redirect_stdout(io.StringIO()) as out,
+        redirect_stderr(io.StringIO()) as error,
+    ):
         patch.setenv("DISTING_CACHE", str(cache))
         patch.setenv("COLUMNS", "100")
         try:

@@ -1,4 +1,6 @@
-"""Bad usage and bad input: one sentence that names cause and remedy, exit status 2, nothing half printed."""
+"""Bad usage and bad input: one sentence that names cause and remedy, exit status 2, nothing
+half printed.
+"""
 
 from pathlib import Path
 
@@ -37,7 +39,10 @@ WORDS = [
     (("verdicts", "3", "--csv", "-", "--json", "-"), "not both"),
     (("verdicts", "3", "--markov", "-4"), "at least 1"),
     (("verdicts", "3", "--jobs", "0"), "at least 1"),
-    (("verdicts", "2", "--csv", "/dev/full"), "/dev/full cannot be written (No space left on device); name another file"),
+    (
+        ("verdicts", "2", "--csv", "/dev/full"),
+        "/dev/full cannot be written (No space left on device); name another file",
+    ),
     ((*CHAIN, "m1=1"), "the value of m2, m3, k12, k23 is missing"),
     ((*CHAIN, "m1=-1,m2=2,m3=3,k12=1,k23=1"), "are positive"),
     ((*CHAIN, "m1=nan,m2=2,m3=3,k12=1,k23=1"), "a number such as"),
@@ -70,19 +75,28 @@ def refused(capsys, *arguments):
     except SystemExit as end:  # argparse ends the process
         status = end.code
     out, error = capsys.readouterr()
-    told = [line for line in error.splitlines() if "simulation:" not in line]  # what the simulated data is like
+    # what the simulated data is like
+    told = [line for line in error.splitlines() if "simulation:" not in line]
     assert (status, out, len(told)) == (2, "", 1)
     assert told[0].startswith("disting: ")
     return told[0]
 
 
-@pytest.mark.parametrize(("arguments", "says"), WORDS, ids=[" ".join(words)[:60] for words, _ in WORDS])
+@pytest.mark.parametrize(
+    ("arguments", "says"), WORDS, ids=[" ".join(words)[:60] for words, _ in WORDS]
+)
 def test_bad_usage_is_one_clear_sentence_and_status_2(capsys, arguments, says):
     assert says in refused(capsys, *arguments)
 
 
 @pytest.mark.parametrize(
-    "words", [("compare", "3:1\x1b[2J", "3:1"), ("fit", "\x1b]0;x\x07.csv"), ("models", "\u202e3"), ("models", "1\n2")]
+    "words",
+    [
+        ("compare", "3:1\x1b[2J", "3:1"),
+        ("fit", "\x1b]0;x\x07.csv"),
+        ("models", "\u202e3"),
+        ("models", "1\n2"),
+    ],
 )
 def test_control_characters_do_not_reach_the_terminal(capsys, words):
     assert refused(capsys, *words).isprintable()
@@ -117,10 +131,14 @@ def test_no_cluster_answers():
 def test_a_file_that_cannot_be_written_is_named_before_the_work(capsys, tmp_path, command):
     assert f"{tmp_path} is no file" in refused(capsys, *command, str(tmp_path))
     assert "an empty name is no file" in refused(capsys, *command, "")
-    assert f"there is no folder {tmp_path}/a; make it first" in refused(capsys, *command, f"{tmp_path}/a/b.csv")
+    assert f"there is no folder {tmp_path}/a; make it first" in refused(
+        capsys, *command, f"{tmp_path}/a/b.csv"
+    )
 
 
-@pytest.mark.parametrize("command", [("report", "3"), ("catalog", "build", "2"), ("catalog", "candidates"), DEMO])
+@pytest.mark.parametrize(
+    "command", [("report", "3"), ("catalog", "build", "2"), ("catalog", "candidates"), DEMO]
+)
 def test_a_folder_that_cannot_be_made_is_named_before_the_work(capsys, tmp_path, command):
     file = tmp_path / "file"
     file.touch()

@@ -19,7 +19,9 @@ def test_models_lists_the_family():
 def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
     listed = disting("models", 6, "--no-cache").stdout
     assert "· not asked (--identifiability asks)" in listed and "A98" not in listed
-    rows = [line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line]
+    rows = [
+        line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line
+    ]
     assert len(rows) == 157 and {row[10] for row in rows} == {"·"}
 
 
@@ -36,7 +38,11 @@ def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
     found = (shipped["relation"], shipped["decided_by"], shipped["certainty"], shipped["domain"])
     assert found == ("indistinguishable", "admissible", "theorem", "positive")
     paper = json.loads(called("compare", "3:2", "3:5", "--domain", "complex", "--json").stdout)
-    assert (paper["relation"], paper["decided_by"], paper["domain"]) == ("indistinguishable", "6", "complex")
+    assert (paper["relation"], paper["decided_by"], paper["domain"]) == (
+        "indistinguishable",
+        "6",
+        "complex",
+    )
     computed = json.loads(called("compare", "3:2", "3:5", "--json", "--sensor", "velocity").stdout)
     assert computed["relation"] == "indistinguishable"
     mixed = json.loads(called("compare", "2:1", "3:1", "--json").stdout)
@@ -45,14 +51,24 @@ def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
 
 def test_compare_reads_ground_dampers_lag_and_dead_time():
     found = json.loads(called("compare", "3:1+b1", "3:4+b3+lag", "--damped", "--json").stdout)
-    assert (found["left"], found["right"], found["relation"]) == ("A1+b1", "A4+b3+lag", "distinguishable")
+    assert (found["left"], found["right"], found["relation"]) == (
+        "A1+b1",
+        "A4+b3+lag",
+        "distinguishable",
+    )
     found = json.loads(called("compare", "3:1+delay", "3:11+delay", "--damped", "--json").stdout)
-    assert (found["left"], found["right"], found["relation"]) == ("A1+delay", "A11+delay", "indistinguishable")
+    assert (found["left"], found["right"], found["relation"]) == (
+        "A1+delay",
+        "A11+delay",
+        "indistinguishable",
+    )
 
 
 def test_report_writes_the_families_with_dampers_too(tmp_path):
     told = called("report", "3", "--damped", "--out", str(tmp_path)).stdout
-    assert (tmp_path / "dampers-3-damped.html").is_file() and not (tmp_path / "dampers-3-undamped.html").exists()
+    assert (tmp_path / "dampers-3-damped.html").is_file() and not (
+        tmp_path / "dampers-3-undamped.html"
+    ).exists()
     assert "dampers-3-damped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
     assert "chains-3-damped" in told
     assert not (tmp_path / "sizes-damped.html").exists()
@@ -61,21 +77,35 @@ def test_report_writes_the_families_with_dampers_too(tmp_path):
 def test_report_compares_several_sizes(tmp_path):
     assert called("report", "1", "2", "--undamped", "--out", tmp_path).returncode == 0
     text = (tmp_path / "sizes-undamped.html").read_text(encoding="utf-8")
-    assert "Of <strong>482</strong> pairs" in text and "1 in 2" in text  # of 1 to 4 masses, whatever is asked
+    # of 1 to 4 masses, whatever is asked
+    assert "Of <strong>482</strong> pairs" in text and "1 in 2" in text
     assert "2 in 1" not in text
     assert "sizes-undamped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
 def test_verdicts_csv_contract_and_subsets():
     everything = rows(called("verdicts", 3, "--damped", "--csv", "-").stdout)
-    assert list(everything[0])[:6] == ["left", "right", "relation", "decided_by", "representation", "certainty"]
-    assert [(int(r["left"]), int(r["right"])) for r in everything] == [(i, j) for i in range(1, 12) for j in range(i + 1, 12)]
+    assert list(everything[0])[:6] == [
+        "left",
+        "right",
+        "relation",
+        "decided_by",
+        "representation",
+        "certainty",
+    ]
+    assert [(int(r["left"]), int(r["right"])) for r in everything] == [
+        (i, j) for i in range(1, 12) for j in range(i + 1, 12)
+    ]
     assert not [r for r in everything if r["relation"] == "undecided"]
     conditions = rows(called("verdicts", 3, "--damped", "--conditions", "1-9", "--csv", "-").stdout)
     assert sum(r["relation"] == "undecided" and r["decided_by"] == "" for r in conditions) == 6
-    paper = rows(called("verdicts", 3, "--conditions", "1-5", "--representation", "tf", "--csv", "-").stdout)
+    paper = rows(
+        called("verdicts", 3, "--conditions", "1-5", "--representation", "tf", "--csv", "-").stdout
+    )
     assert {r["decided_by"] for r in paper} == {"1", "4", "5", ""}
-    eight = rows(called("verdicts", 3, "--representation", "markov", "--markov", 8, "--csv", "-").stdout)
+    eight = rows(
+        called("verdicts", 3, "--representation", "markov", "--markov", 8, "--csv", "-").stdout
+    )
     assert {r["representation"] for r in eight} == {"markov", ""}
 
 
@@ -84,7 +114,8 @@ def test_verdicts_json_has_evidence(tmp_path):
     done = called("verdicts", 2, "--json", path)
     assert done.returncode == 0
     assert done.stdout.startswith(
-        "3 models, 3 pairs, over positive parameters: 2 distinguishable, 1 indistinguishable, 0 undecided\n"
+        "3 models, 3 pairs, over positive parameters: 2 distinguishable, 1 indistinguishable, 0"
+        " undecided\n"
     )
     assert all(v["evidence"]["kind"] for v in json.loads(path.read_text())["verdicts"])
 
@@ -125,34 +156,56 @@ def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
     alone = called("verdicts", 2, "--damped", "--csv", "-").stdout
     assert disting("verdicts", 2, "--damped", "--csv", "-", "--jobs", 2).stdout == alone
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as cluster:
-        done = called("verdicts", 2, "--damped", "--csv", "-", "--scheduler", cluster.scheduler_address)
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+    ) as cluster:
+        done = called(
+            "verdicts", 2, "--damped", "--csv", "-", "--scheduler", cluster.scheduler_address
+        )
     assert done.stdout == alone
 
 
 def test_the_exact_decision_settles_what_conditions_leave_open():
     table = rows(called("verdicts", 3, "--damped", "--domain", "complex", "--csv", "-").stdout)
-    exact = {(int(r["left"]), int(r["right"])): r["relation"] for r in table if r["decided_by"] == "exact"}
+    exact = {
+        (int(r["left"]), int(r["right"])): r["relation"]
+        for r in table
+        if r["decided_by"] == "exact"
+    }
     assert len(exact) == 6
-    assert [pair for pair, relation in exact.items() if relation == "indistinguishable"] == [(1, 11)]
+    assert [pair for pair, relation in exact.items() if relation == "indistinguishable"] == [
+        (1, 11)
+    ]
     assert not any(r["relation"] == "undecided" for r in table)
     shipped = json.loads(called("compare", "3:1", "3:6", "--damped", "--json").stdout)
     assert (shipped["relation"], shipped["decided_by"]) == ("distinguishable", "exact")
-    paper = json.loads(called("compare", "3:1", "3:6", "--damped", "--conditions", "1-9", "--json").stdout)
+    paper = json.loads(
+        called("compare", "3:1", "3:6", "--damped", "--conditions", "1-9", "--json").stdout
+    )
     assert (paper["relation"], paper["decided_by"]) == ("undecided", "")
 
 
 def test_ranges_and_positive_parameters_are_told_both_ways():
     done = called("compare", "4:2", "4:6").stdout.splitlines()
     assert done[0] == "SOMETIMES"
-    assert done[-1] == "domain     positive parameters; over complex ones they are indistinguishable (--domain complex)"
+    assert (
+        done[-1]
+        == "domain     positive parameters; over complex ones they are indistinguishable (--domain"
+        " complex)"
+    )
     assert any("77 of 100 random points have one: empirically 68% to 84%" in line for line in done)
     apart = called("compare", "3:6", "3:7", "--damped").stdout.splitlines()
     assert apart[-1].startswith("positive: A7 in A6 never. No generic positive parameters of A7")
-    inside = called("compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout.splitlines()
+    inside = called(
+        "compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2"
+    ).stdout.splitlines()
     for line, start in zip(inside[-2:], ("A1 in A4", "A4 in A1"), strict=True):
         assert line.startswith(f"within the ranges: {start} sometimes")
-    for wrong, says in (("k12=5", "written like"), ("x9=1..2", "no parameter"), ("k12=3..1", "not empty")):
+    for wrong, says in (
+        ("k12=5", "written like"),
+        ("x9=1..2", "no parameter"),
+        ("k12=3..1", "not empty"),
+    ):
         refused = called("compare", "3:1", "3:4", "--range", wrong)
         assert refused.returncode == 2 and says in refused.stderr
 
@@ -166,7 +219,9 @@ def test_a_verdict_is_over_positive_parameters_where_nothing_is_said_and_over_co
     }
     for given, domain in domains.items():
         told = called("compare", "4:3", "4:7", *given).stdout
-        assert f" over {domain} parameters (" in told and f"\ndomain     {domain} parameters" in told
+        assert (
+            f" over {domain} parameters (" in told and f"\ndomain     {domain} parameters" in told
+        )
     table = rows(called("verdicts", 3, "--representation", "tf", "--csv", "-").stdout)
     assert {r["domain"] for r in table} == {"complex"}
     refused = called("compare", "4:3", "4:7", "--conditions", "1-9", "--domain", "positive")
@@ -178,7 +233,11 @@ def test_verdicts_names_the_domain_and_what_depends_on_the_values():
     head = "29 models, 406 pairs, over positive parameters"
     assert told[0] == f"{head}: 357 distinguishable, 48 indistinguishable, 1 sometimes, 0 undecided"
     paper = called("verdicts", 3, "--damped", "--domain", "complex").stdout.splitlines()
-    assert paper[0] == "11 models, 55 pairs, over complex parameters: 52 distinguishable, 3 indistinguishable, 0 undecided"
+    assert (
+        paper[0]
+        == "11 models, 55 pairs, over complex parameters: 52 distinguishable, 3 indistinguishable,"
+        " 0 undecided"
+    )
     assert paper[1].endswith("2 by condition 6, 6 by the exact decision")
 
 
@@ -186,20 +245,30 @@ def test_a_pair_in_the_other_order_draws_each_model_under_its_own_name():
     """A stored verdict names the lower number first: drawings, ranges and proofs follow it."""
     told = called("compare", "4:4", "4:1").stdout.splitlines()
     assert told[2:4] == ["  A1  [1FS]~[2]~[3]~[4]", "  A4  [1F]~[2]~[3]~[4S]"]
-    turned = called("compare", "3:4", "3:1", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout
-    assert turned == called("compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout
+    turned = called(
+        "compare", "3:4", "3:1", "--range", "k12=0..1000", "--range", "m1=0.5..2"
+    ).stdout
+    assert (
+        turned
+        == called("compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout
+    )
 
 
 def test_the_rule_names_what_decided():
     """A theorem is not called a fibre."""
-    assert "(exact decision, a theorem)" in called("compare", "3:1", "3:11", "--damped", "--domain", "complex").stdout
+    assert (
+        "(exact decision, a theorem)"
+        in called("compare", "3:1", "3:11", "--damped", "--domain", "complex").stdout
+    )
     assert "(exact decision, one fibre)" in called("compare", "3:1", "3:6", "--damped").stdout
 
 
 def test_the_doctor_names_what_is_there():
     done = called("doctor")
     assert done.returncode == 0
-    assert {"disting", "python-flint", "cache"} <= {line.split()[0] for line in done.stdout.splitlines()}
+    assert {"disting", "python-flint", "cache"} <= {
+        line.split()[0] for line in done.stdout.splitlines()
+    }
 
 
 def test_proofs_on_request():

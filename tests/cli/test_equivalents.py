@@ -14,27 +14,60 @@ def equivalents(*arguments):
 
 
 def test_one_structure():
-    done = disting("equivalents", "3:1", "--to", "3:11", "--damped", "--set", VALUES, "--set", "d12=0.1,d23=3/10")
+    done = disting(
+        "equivalents",
+        "3:1",
+        "--to",
+        "3:11",
+        "--damped",
+        "--set",
+        VALUES,
+        "--set",
+        "d12=0.1,d23=3/10",
+    )
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     assert lines[0] == "3:1  [1FS]=[2]=[3]"
     assert "3:11  #=[1]=[2fs]   [3FS]   1 parameter set, all there are" in lines
     assert [line.split() for line in lines if line.startswith("  m1 ")] == [["m1", "4.8"]]
-    assert lines[-1] == "No experiment with this force and sensor tells it from 3:11 with the positive values above."
+    assert (
+        lines[-1]
+        == "No experiment with this force and sensor tells it from 3:11 with the positive values"
+        " above."
+    )
 
 
 def test_a_family():
     done = equivalents("3:4", "--to", 3, "--set", VALUES)
     assert done.returncode == 0
-    assert "3:2, 3:3, 3:5, 3:7, 3:9, 3:10: none exists, with positive parameters or any others: proven" in done.stdout
+    assert (
+        "3:2, 3:3, 3:5, 3:7, 3:9, 3:10: none exists, with positive parameters or any others: proven"
+        in done.stdout
+    )
     assert "tells it from 3:1, 3:6, 3:8 or 3:11" in done.stdout
 
 
 def test_json():
     done = equivalents("3:4", "--to", 3, "--set", VALUES, "--json")
     said = json.loads(done.stdout)
-    assert [len(listing["equivalents"]) for listing in said["listings"]] == [1, 0, 0, 2, 0, 2, 0, 1, 0, 0, 1]
-    assert all(m["signs"] == "positive" and m["residual"] < 1e-12 for li in said["listings"] for m in li["equivalents"])
+    assert [len(listing["equivalents"]) for listing in said["listings"]] == [
+        1,
+        0,
+        0,
+        2,
+        0,
+        2,
+        0,
+        1,
+        0,
+        0,
+        1,
+    ]
+    assert all(
+        m["signs"] == "positive" and m["residual"] < 1e-12
+        for li in said["listings"]
+        for m in li["equivalents"]
+    )
 
 
 def test_formulas_in_three_languages():
@@ -62,11 +95,18 @@ def test_formulas_in_three_languages():
 def test_bad_input_is_one_sentence(arguments, words):
     done = equivalents(*arguments)
     assert done.returncode == 2 and done.stdout == ""
-    assert words in done.stderr and len(done.stderr.splitlines()) == 1 and done.stderr.startswith("disting: ")
+    assert (
+        words in done.stderr
+        and len(done.stderr.splitlines()) == 1
+        and done.stderr.startswith("disting: ")
+    )
 
 
 def test_the_last_sentence_says_among_what_it_was_looked_for():
     done = equivalents("2:2+delay", "--to", 2, "--set", "m1=1,m2=2,k12=100,Td=0.01")
     assert "2:1+delay: none exists, with positive parameters or any others: proven" in done.stdout
-    said = "No other of the 3 structures of 2 masses, undamped, with a dead time, looked at gives this transfer function with"
+    said = (
+        "No other of the 3 structures of 2 masses, undamped, with a dead time, looked at gives this"
+        " transfer function with"
+    )
     assert f"\n{said} positive values." in done.stdout

@@ -14,7 +14,14 @@ from tests.cli.process import called, disting
 from tests.measurement.bench_data import measured_data
 
 REPORTS = Path(__file__).parents[2] / "reports"
-DRIVE = ("2:1+b2+delay", "--damped", "--set", "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4", "--output-noise", "1e-6")
+DRIVE = (
+    "2:1+b2+delay",
+    "--damped",
+    "--set",
+    "m1=0.01,m2=0.004,k12=800,d12=0.05,b2=0.05,Td=2e-4",
+    "--output-noise",
+    "1e-6",
+)
 
 
 ONE_MASS = ("1:1+b1+delay", "--set", "m1=0.01,b1=0.05,Td=2e-4", "--output-noise", "1e-6")
@@ -44,7 +51,9 @@ def rigid(tmp_path_factory):
 def fitted(files):
     """What a process with two workers prints, and the file that it writes."""
     path = files[0].with_name("fit.json")
-    done = disting("fit", files[0], "--test", files[1], "--masses", "2", "--json", path, "--jobs", 2)
+    done = disting(
+        "fit", files[0], "--test", files[1], "--masses", "2", "--json", path, "--jobs", 2
+    )
     assert done.returncode == 0 and done.stderr == ""
     return done.stdout, path
 
@@ -53,9 +62,18 @@ def test_what_is_simulated_is_selected(files, fitted):
     _, path = fitted
     found = json.loads(path.read_text(encoding="utf-8"))
     chosen = found["selected"]
-    assert (chosen["n_masses"], chosen["ground_dampers"], chosen["lag"], chosen["delay"]) == (2, [2], False, True)
-    assert chosen["n_parameters"] == 6 and chosen["parameters"]["k12"] == pytest.approx(800, rel=2e-3)
-    assert len(found["candidates"]) == 16 and all(c["admissible"] or c["reasons"] for c in found["candidates"])
+    assert (chosen["n_masses"], chosen["ground_dampers"], chosen["lag"], chosen["delay"]) == (
+        2,
+        [2],
+        False,
+        True,
+    )
+    assert chosen["n_parameters"] == 6 and chosen["parameters"]["k12"] == pytest.approx(
+        800, rel=2e-3
+    )
+    assert len(found["candidates"]) == 16 and all(
+        c["admissible"] or c["reasons"] for c in found["candidates"]
+    )
     chain, values = read_model(path)
     train = read(files[0])
     assert np.median(np.abs(predicted(chain, values, train.omega) / train.G - 1)) < 1e-3
@@ -67,7 +85,10 @@ def test_the_printed_result_says_what_matters(fitted):
     assert "\n16 candidates fitted to 241 frequency lines, validated on test data\n" in said
     assert "selected: 2 masses, damper b2, dead time " in said
     assert "  b2   = " in said and "antiresonance 1" in said and " Hz\n" in said
-    assert "for generic positive parameters no other candidate with as many masses behaves the same" in said
+    assert (
+        "for generic positive parameters no other candidate with as many masses behaves the same"
+        in said
+    )
 
 
 def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
@@ -80,19 +101,50 @@ def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
 def test_a_folder_gets_everything(rigid, tmp_path):
     """The page leads to the catalogue that is named."""
     out = tmp_path / "out"
-    done = called("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--out", out, "--site", REPORTS)
+    done = called(
+        "fit", rigid[0], "--test", rigid[1], "--masses", "1", "--out", out, "--site", REPORTS
+    )
     assert f"open {out / 'fit.html'}" in done.stdout
     assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in out.iterdir()}
-    assert 'reports/models/1-damped/1.html">1:1 in the catalogue</a>' in (out / "fit.html").read_text(encoding="utf-8")
+    assert 'reports/models/1-damped/1.html">1:1 in the catalogue</a>' in (
+        out / "fit.html"
+    ).read_text(encoding="utf-8")
 
 
 def test_options_reach_the_fit(rigid, tmp_path):
-    done = called("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--json", "-", "--fix", "Td=2e-4", "--band", "20..200")
+    done = called(
+        "fit",
+        rigid[0],
+        "--test",
+        rigid[1],
+        "--masses",
+        "1",
+        "--json",
+        "-",
+        "--fix",
+        "Td=2e-4",
+        "--band",
+        "20..200",
+    )
     with_delay = [c for c in json.loads(done.stdout)["candidates"] if c["delay"]]
     assert {c["parameters"]["Td"] for c in with_delay} == {2e-4}
     assert all("Td" not in c["standard_errors"] for c in with_delay)
-    there = simulated(("2:2+b2+delay", *DRIVE[1:]), tmp_path)  # what no candidate explains is looked at much longer
-    last = called("fit", there[0], "--test", there[1], "--masses", "2", "--json", "-", "--sensor", "last", "--seed", "other")
+    # what no candidate explains is looked at much longer
+    there = simulated(("2:2+b2+delay", *DRIVE[1:]), tmp_path)
+    last = called(
+        "fit",
+        there[0],
+        "--test",
+        there[1],
+        "--masses",
+        "2",
+        "--json",
+        "-",
+        "--sensor",
+        "last",
+        "--seed",
+        "other",
+    )
     assert {tuple(c["sensor"]) for c in json.loads(last.stdout)["candidates"]} == {(0, 2)}
     assert len(json.loads(last.stdout)["not_fitted"]) == 4
 
@@ -105,7 +157,10 @@ def test_the_demonstration_drive_is_recognised():
 
 def test_time_series_are_fitted_like_their_response():
     records = [measured_data(f"fditools_motorbench_{x}.mat") for x in "AB"]
-    options = [f"--read={o}" for o in ("input=iq_adx", "output=theta_mx", "sampling_rate=2500", "to=acceleration")]
+    options = [
+        f"--read={o}"
+        for o in ("input=iq_adx", "output=theta_mx", "sampling_rate=2500", "to=acceleration")
+    ]
     loose = ("--masses", "1", "--thresholds", "1e9,1e9,1e9", "--json", "-")
     raw = called("fit", records[0], "--test", records[1], *options, *loose)
     responses = [measured_data(f"fditools_motorbench_frf_{x}.csv") for x in "AB"]
@@ -128,8 +183,14 @@ def test_time_series_are_fitted_like_their_response():
         (("fit", "--demo", "--fix", "m1"), "a value is written like m1=0.02"),
         (("fit", "--demo", "--read", "x"), "an option is written like sampling_rate=2500"),
         (("fit", "--demo", "--band", "10..12"), "line"),
-        (("fit", "--demo", "--masses", "1", "--actuator", "3"), "no chain of 1 masses has these ports"),
-        (("fit", "--demo", "--masses", "1", "--actuator", "x"), "a port is written like 2, last or 1:3"),
+        (
+            ("fit", "--demo", "--masses", "1", "--actuator", "3"),
+            "no chain of 1 masses has these ports",
+        ),
+        (
+            ("fit", "--demo", "--masses", "1", "--actuator", "x"),
+            "a port is written like 2, last or 1:3",
+        ),
         (("simulate", "2:1", "--set", "m1=1"), "the value of m2, k12 is missing"),
         (("simulate", "--set", "m1=1"), "parameters belong to a model"),
         (("simulate", "--friction", "x"), "friction is written like 1=0.3"),
@@ -152,5 +213,9 @@ def test_a_file_whose_name_is_no_text_gets_its_page(rigid, tmp_path):
     data = os.path.join(os.fsencode(tmp_path), b"\xff.csv")
     with open(data, "wb") as file:
         file.write(rigid[0].read_bytes())
-    done = disting("fit", os.fsdecode(data), "--test", rigid[1], "--masses", "1", "--out", tmp_path / "out")
-    assert done.returncode == 0 and "\\udcff.csv" in (tmp_path / "out" / "fit.html").read_text(encoding="utf-8")
+    done = disting(
+        "fit", os.fsdecode(data), "--test", rigid[1], "--masses", "1", "--out", tmp_path / "out"
+    )
+    assert done.returncode == 0 and "\\udcff.csv" in (tmp_path / "out" / "fit.html").read_text(
+        encoding="utf-8"
+    )

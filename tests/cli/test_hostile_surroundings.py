@@ -21,11 +21,18 @@ from tests.cli.process import COMMAND, disting, heed_signals, marked
     ],
 )
 def test_output_that_the_terminal_cannot_encode_is_no_error(encoding, command):
-    environment = os.environ | {"PYTHONIOENCODING": encoding, "DISTING_CACHE": "off", "PYTHONUTF8": "0"}
-    done = subprocess.run([*COMMAND, *command], capture_output=True, env=environment, timeout=600, check=False)
+    environment = os.environ | {
+        "PYTHONIOENCODING": encoding,
+        "DISTING_CACHE": "off",
+        "PYTHONUTF8": "0",
+    }
+    done = subprocess.run(
+        [*COMMAND, *command], capture_output=True, env=environment, timeout=600, check=False
+    )
     assert done.returncode == 0, done.stderr
     assert b"Traceback" not in done.stderr and done.stdout
-    assert done.stdout.decode(encoding).count("?") == disting(*command).stdout.count("?")  # every sign has a substitute
+    # every sign has a substitute
+    assert done.stdout.decode(encoding).count("?") == disting(*command).stdout.count("?")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="processes are looked up by POSIX means")
@@ -34,7 +41,11 @@ def test_workers_end_with_their_parent(tmp_path, by):
     command = [*COMMAND, "verdicts", "5", "--damped", "--jobs", "2"]
     environment = os.environ | {"DISTING_CACHE": "off", "MARK": str(tmp_path)}
     parent = subprocess.Popen(
-        command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=heed_signals
+        command,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=heed_signals,
     )
     while (
         len(workers := marked(tmp_path) - {parent.pid}) < 3 and parent.poll() is None
@@ -52,7 +63,11 @@ def test_workers_end_with_their_parent(tmp_path, by):
 
 @pytest.mark.skipif(os.name != "posix", reason="the limit is of POSIX")
 @pytest.mark.parametrize(
-    ("name", "command"), [("a.csv", ("verdicts", 3, "--csv")), ("chains-1-undamped.html", ("report", 1, "--undamped", "--out"))]
+    ("name", "command"),
+    [
+        ("a.csv", ("verdicts", 3, "--csv")),
+        ("chains-1-undamped.html", ("report", 1, "--undamped", "--out")),
+    ],
 )
 def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path, name, command):
     """No file may grow beyond a kilobyte, as on a full disk."""
@@ -70,7 +85,9 @@ def disting_with_small_files(*arguments):
     limited = f"{limit}; runpy.run_module('disting', run_name='__main__')"
     environment = os.environ | {"DISTING_CACHE": "off"}
     command = [sys.executable, "-c", limited, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, check=False)
+    return subprocess.run(
+        command, capture_output=True, text=True, env=environment, timeout=600, check=False
+    )
 
 
 @pytest.mark.skipif(os.name != "posix", reason="named pipes are of POSIX")

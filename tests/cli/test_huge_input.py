@@ -1,4 +1,6 @@
-"""Whatever is written on the command line or stands in a file: a refusal is short, printable and comes before the work."""
+"""Whatever is written on the command line or stands in a file: a refusal is short, printable
+and comes before the work.
+"""
 
 import pytest
 
@@ -25,6 +27,8 @@ def test_refusals_are_short_and_printable(command):
 
 
 def test_an_error_does_not_list_every_column_of_a_wide_file(tmp_path):
-    (tmp_path / "wide.csv").write_text(",".join(f"c{i}" for i in range(20_000)) + "\n" + 9 * (",".join(["1"] * 20_000) + "\n"))
+    (tmp_path / "wide.csv").write_text(
+        ",".join(f"c{i}" for i in range(20_000)) + "\n" + 9 * (",".join(["1"] * 20_000) + "\n")
+    )
     done = disting("fit", tmp_path / "wide.csv", "--read", "response=G")
     assert done.returncode == 2 and len(done.stderr) < 700, done.stderr[:800]

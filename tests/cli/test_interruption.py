@@ -24,7 +24,11 @@ INTERRUPTED = "disting: interrupted; what was finished is kept in the cache"
 
 def test_a_warm_cache_gives_the_same_verdicts_with_all_that_is_told_of_them(tmp_path):
     everything, cache = ("verdicts", 3, "--damped", "--json", "-"), tmp_path / "cache.sqlite3"
-    cold, warm, alone = called(*everything, cache=cache), disting(*everything, cache=cache), called(*everything)
+    cold, warm, alone = (
+        called(*everything, cache=cache),
+        disting(*everything, cache=cache),
+        called(*everything),
+    )
     assert cold.stdout == warm.stdout == alone.stdout
     assert entries(cache) > 9
 
@@ -41,11 +45,17 @@ def test_cache_is_filled_reported_and_cleared(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "content", [b"", random.Random(1).randbytes(3000), *by_hand(b"\x00" * 5000, b"SQLite format 3\x00 but no more")]
+    "content",
+    [
+        b"",
+        random.Random(1).randbytes(3000),
+        *by_hand(b"\x00" * 5000, b"SQLite format 3\x00 but no more"),
+    ],
 )
 def test_a_damaged_cache_is_set_aside_with_a_warning(tmp_path, content):
     cache = tmp_path / "cache.sqlite3"
-    assert disting("verdicts", 2, cache=cache).returncode == 0  # so it is ours: its lock stands beside it
+    # so it is ours: its lock stands beside it
+    assert disting("verdicts", 2, cache=cache).returncode == 0
     cache.write_bytes(content)
     done = disting("verdicts", 3, "--csv", "-", cache=cache)
     assert done.returncode == 0
@@ -60,7 +70,10 @@ def test_many_processes_share_one_cache(tmp_path):
     environment = os.environ | {"DISTING_CACHE": str(cache)}
     command = [*COMMAND, "verdicts", "3", "--damped", "--csv", "-"]
     running = [
-        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) for _ in range(3)
+        subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        )
+        for _ in range(3)
     ]
     outputs = [process.communicate(timeout=600) for process in running]
     assert [process.returncode for process in running] == [0] * 3
@@ -69,13 +82,18 @@ def test_many_processes_share_one_cache(tmp_path):
 
 
 def test_a_run_killed_at_any_moment_resumes(tmp_path):
-    """Kill the run again and again; what it had stored stays, grows, and the last run gives the true result."""
+    """Kill the run again and again; what it had stored stays, grows, and the last run gives the
+    true result.
+    """
     cache = tmp_path / "cache.sqlite3"
     environment = os.environ | {"DISTING_CACHE": str(cache)}
     command = [*COMMAND, "verdicts", "4", "--damped", "--conditions", "1-9", "--csv", "-"]
     stored, delay = [], 0.5
-    while len(stored) < 4 or (stored[-1] == 0 and delay < 60):  # a busy machine needs longer to store anything
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
+    # a busy machine needs longer to store anything
+    while len(stored) < 4 or (stored[-1] == 0 and delay < 60):
+        process = subprocess.Popen(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment
+        )
         time.sleep(delay)
         delay = delay + 0.3 if len(stored) < 4 else 2 * delay
         process.send_signal(signal.SIGKILL)
@@ -105,7 +123,8 @@ def interrupted(cache, stored, *arguments):
         text=True,
         env=os.environ | {"DISTING_CACHE": str(cache)},
         start_new_session=True,  # a terminal tells the whole group
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background jobs inherit SIG_IGN
+        # a shell's background jobs inherit SIG_IGN
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     while process.poll() is None and entries(cache) < stored:
         time.sleep(0.01)
@@ -120,7 +139,9 @@ def test_interrupt_leaves_no_traceback(tmp_path):
 
 def test_interrupt_ends_the_workers_without_a_word(tmp_path):
     many = 12  # until all of them are at work
-    assert interrupted(tmp_path / "c.sqlite3", many, "verdicts", "8", "--damped", "--jobs", "2") == (130, INTERRUPTED)
+    assert interrupted(
+        tmp_path / "c.sqlite3", many, "verdicts", "8", "--damped", "--jobs", "2"
+    ) == (130, INTERRUPTED)
 
 
 def shell(arguments, redirected):
@@ -129,7 +150,8 @@ def shell(arguments, redirected):
 
 
 @pytest.mark.parametrize(
-    "arguments", ["verdicts 3 --csv -", "models 3", *by_hand("compare 3:1 3:2", "dampers 2 --csv -", "--help")]
+    "arguments",
+    ["verdicts 3 --csv -", "models 3", *by_hand("compare 3:1 3:2", "dampers 2 --csv -", "--help")],
 )
 def test_a_closed_pipe_is_no_error(arguments):
     done = shell(arguments, "| true")
@@ -142,7 +164,9 @@ def test_a_reader_gets_the_lines_it_wants():
     assert done.stdout.startswith("left,right")
 
 
-@pytest.mark.parametrize("arguments", ["doctor", "verdicts 2 --csv -", *by_hand("verdicts 2", "models 2")])
+@pytest.mark.parametrize(
+    "arguments", ["doctor", "verdicts 2 --csv -", *by_hand("verdicts 2", "models 2")]
+)
 @pytest.mark.parametrize("closed", [">&-", "<&- >&- 2>&-", *by_hand(">&- 2>&-")])
 def test_without_standard_output_nothing_is_printed(arguments, closed):
     done = shell(arguments, closed)
@@ -150,16 +174,19 @@ def test_without_standard_output_nothing_is_printed(arguments, closed):
 
 
 def test_without_standard_error_the_result_is_printed():
-    assert shell("verdicts 2 --csv -", "2>&-").stdout == shell("verdicts 2 --csv -", "").stdout != ""
+    assert (
+        shell("verdicts 2 --csv -", "2>&-").stdout == shell("verdicts 2 --csv -", "").stdout != ""
+    )
 
 
 def test_no_file_gets_the_number_of_a_closed_stream(tmp_path):
     """A cache opened as number 2 would take what libraries say there."""
     cache = tmp_path / "c.sqlite3"
     program = (
-        "import os; from disting.cli import main; from disting.engine.store import Store; main(['models', '1']);"
-        f"store = Store.open({str(cache)!r}); store.put_many({{'0' * 64: '1'}});"
-        "print(sorted(os.readlink(f'/proc/self/fd/{n}') for n in range(3)), file=open(3, 'w'))"
+        "import os; from disting.cli import main; from disting.engine.store import Store;"
+        f" main(['models', '1']);store = Store.open({str(cache)!r}); store.put_many({{'0' * 64:"
+        " '1'});print(sorted(os.readlink(f'/proc/self/fd/{n}') for n in range(3)), file=open(3,"
+        " 'w'))"
     )
     command = f"exec 3>&1; {sys.executable} -c {shlex.quote(program)} <&- >&- 2>&-"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
@@ -168,6 +195,9 @@ def test_no_file_gets_the_number_of_a_closed_stream(tmp_path):
 
 def test_a_full_disk_is_named():
     done = subprocess.run(
-        ["bash", "-c", f"{' '.join(COMMAND)} models 2 > /dev/full"], capture_output=True, text=True, check=False
+        ["bash", "-c", f"{' '.join(COMMAND)} models 2 > /dev/full"],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert (done.returncode, done.stderr) == (2, "disting: No space left on device\n")

@@ -1,4 +1,6 @@
-"""A system without what only POSIX has, such as Windows: everything is imported and every command runs there."""
+"""A system without what only POSIX has, such as Windows: everything is imported and every
+command runs there.
+"""
 
 import os
 import re
@@ -67,7 +69,17 @@ def test_every_command_runs_where_posix_is_not_and_names_are_not_ascii(tmp_path)
         "DISTING_CACHE": str(folder / "cache å.sqlite3"),
         "PYTHONPATH": os.pathsep.join([str(blocker), os.getcwd(), *filter(None, sys.path)]),
     }
-    done = subprocess.run([sys.executable, "script.py"], cwd=folder, env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "script.py"], cwd=folder, env=environment, capture_output=True, text=True
+    )
     assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr[-1000:]
-    written = {"pairs ü.csv", "pairs ü.json", "bench ß.csv", "fit ñ.json", "pages å", "catalogues ø", "cache å.sqlite3"}
+    written = {
+        "pairs ü.csv",
+        "pairs ü.json",
+        "bench ß.csv",
+        "fit ñ.json",
+        "pages å",
+        "catalogues ø",
+        "cache å.sqlite3",
+    }
     assert written <= {path.name for path in folder.iterdir()}

@@ -14,7 +14,14 @@ WORK = ("verdicts", "3", "--damped", "--no-cache")
 def told(*arguments: str, progress: str | None) -> subprocess.CompletedProcess[str]:
     environment = {name: value for name, value in os.environ.items() if name != "DISTING_PROGRESS"}
     environment |= {} if progress is None else {"DISTING_PROGRESS": progress}
-    return subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, env=environment, timeout=600, check=False)
+    return subprocess.run(
+        [*COMMAND, *arguments],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=600,
+        check=False,
+    )
 
 
 def test_a_pipe_is_told_what_is_done_and_the_result_stays_as_it_is() -> None:
@@ -22,7 +29,11 @@ def test_a_pipe_is_told_what_is_done_and_the_result_stays_as_it_is() -> None:
     lines = done.stderr.splitlines()
     assert any(re.fullmatch(r"disting: [a-z ]+: \d+ of \d+, \d+ s", line) for line in lines)
     assert all(line.startswith("disting: ") for line in lines)
-    assert done.stdout == silent.stdout and silent.stderr == "" and done.returncode == silent.returncode == 0
+    assert (
+        done.stdout == silent.stdout
+        and silent.stderr == ""
+        and done.returncode == silent.returncode == 0
+    )
 
 
 @pytest.mark.parametrize("value", ["never", "0", "-1", "nan", "inf"])

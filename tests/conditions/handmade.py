@@ -1,4 +1,6 @@
-"""Profiles from Jacobians written by hand: the conditions know no mechanics, so neither do these."""
+"""Profiles from Jacobians written by hand: the conditions know no mechanics, so neither do
+these.
+"""
 
 from disting.algebra.sampling import Size
 from disting.invariants.profile import from_samples
@@ -13,7 +15,18 @@ def sample(rows, values, labels, modulus):
     return Sample(labels, tuple(v % modulus for v in values), reduced, len(rows[0]), modulus)
 
 
-def handmade(rows, values=None, *, labels=None, degrees=None, zeros=(), count=0, n_states=1, searched=None, limit=1000):
+def handmade(
+    rows,
+    values=None,
+    *,
+    labels=None,
+    degrees=None,
+    zeros=(),
+    count=0,
+    n_states=1,
+    searched=None,
+    limit=1000,
+):
     """Profile of a summary with this Jacobian: coefficients b0, b1.. unless labelled otherwise."""
     labels = labels or tuple(f"b{i}" for i in range(len(rows)))
     values = values or [0] * len(rows)

@@ -1,4 +1,6 @@
-"""Real and positive parameters: literal truths, laws of the order of a pair, evidence that is altered."""
+"""Real and positive parameters: literal truths, laws of the order of a pair, evidence that is
+altered.
+"""
 
 from collections import Counter
 from dataclasses import replace
@@ -8,7 +10,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting import Certainty, Chain, ContradictionError, Engine, Family, Outcome, Query, Relation, View, compare
+from disting import (
+    Certainty,
+    Chain,
+    ContradictionError,
+    Engine,
+    Family,
+    Outcome,
+    Query,
+    Relation,
+    View,
+    compare,
+)
 from disting.catalogs import Catalog
 from disting.catalogs.build import build
 from disting.catalogs.export import decisions_csv
@@ -45,17 +58,26 @@ def small():
 
 
 def shares(verdict):
-    return tuple(None if x is None else x.share.value for x in (verdict.left_positive, verdict.right_positive))
+    return tuple(
+        None if x is None else x.share.value
+        for x in (verdict.left_positive, verdict.right_positive)
+    )
 
 
 def test_damped_chains_of_three_masses(small):
-    """Which pairs are so for positive parameters always, sometimes and never; nothing else is asked."""
+    """Which pairs are so for positive parameters always, sometimes and never; nothing else is
+    asked.
+    """
     known = {(i, j): shares(v) for i, j, v in small[True].pairs() if shares(v) != (None, None)}
     always = ("always", "always")
     limits = {(6, 7): (None, "never"), (2, 3): (None, "never"), (3, 5): ("never", None)}
     assert known == {(1, 11): always, (2, 5): always, (9, 10): always} | limits
     over = {(i, j): v.relation for i, j, v in small[True].pairs(View.POSITIVE)}
-    assert [pair for pair, r in over.items() if r is Relation.INDISTINGUISHABLE] == [(1, 11), (2, 5), (9, 10)]
+    assert [pair for pair, r in over.items() if r is Relation.INDISTINGUISHABLE] == [
+        (1, 11),
+        (2, 5),
+        (9, 10),
+    ]
     assert set(over.values()) == {Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE}
 
 
@@ -73,7 +95,11 @@ def test_included_models_without_positive_equivalents(n, small_model, large_mode
 def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
     a, b = Family(n)[i], Family(n)[j]
     v = compare(a, b, query=POSITIVE)
-    assert (v.relation, v.certainty, shares(v)) == (Relation.SOMETIMES, Certainty.THEOREM, ("always", "sometimes"))
+    assert (v.relation, v.certainty, shares(v)) == (
+        Relation.SOMETIMES,
+        Certainty.THEOREM,
+        ("always", "sometimes"),
+    )
     low, high = v.right_positive.empirical.interval
     assert 0 < low < v.right_positive.empirical.hits / 100 < high < 1
     assert f"empirically {low:.0%} to {high:.0%}" in v.sentence
@@ -82,7 +108,9 @@ def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
 
 
 @settings(max_examples=30, deadline=None)
-@given(st.sampled_from(PAIRS), st.booleans(), st.sampled_from((View.EXACT, View.POSITIVE, View.REAL)))
+@given(
+    st.sampled_from(PAIRS), st.booleans(), st.sampled_from((View.EXACT, View.POSITIVE, View.REAL))
+)
 def test_the_order_of_a_pair_swaps_what_is_said_of_the_sides(pair, damped, view):
     a, b = (Family(3, damped)[number] for number in pair)
     there, back = compare(a, b, query=Query(view)), compare(b, a, query=Query(view))
@@ -90,7 +118,11 @@ def test_the_order_of_a_pair_swaps_what_is_said_of_the_sides(pair, damped, view)
     assert (back.relation, back.certainty) == (there.relation, there.certainty)
     assert back.closure is there.closure.turned and back.image is there.image.turned
     asked = (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
-    assert (there.left_positive is not None) == (there.closure in asked) == (back.right_positive is not None)
+    assert (
+        (there.left_positive is not None)
+        == (there.closure in asked)
+        == (back.right_positive is not None)
+    )
     if isinstance(there.evidence, BothWays):
         assert back.evidence == BothWays(there.evidence.right, there.evidence.left)
     if isinstance(there.evidence, OddFibres):
@@ -116,8 +148,20 @@ def test_nothing_is_asked_of_the_papers_views(small):
     header, *rows = small[True].to_csv(View.COMBINED).splitlines()
     assert header.endswith(",domain,image,closure,left_positive,right_positive")
     assert all(row.endswith(",complex,,,,") for row in rows)
-    assert sum(row.endswith(",complex,,right-in-left,,never") for row in small[True].to_csv(View.EXACT).splitlines()) == 1
-    assert sum(row.endswith(",positive,,right-in-left,,never") for row in small[True].to_csv().splitlines()) == 1
+    assert (
+        sum(
+            row.endswith(",complex,,right-in-left,,never")
+            for row in small[True].to_csv(View.EXACT).splitlines()
+        )
+        == 1
+    )
+    assert (
+        sum(
+            row.endswith(",positive,,right-in-left,,never")
+            for row in small[True].to_csv().splitlines()
+        )
+        == 1
+    )
 
 
 def test_altered_shares_are_found_out(small):
@@ -128,12 +172,25 @@ def test_altered_shares_are_found_out(small):
     lies = [
         right | {"share": "always"},
         right | {"certainty": "theorem"},
-        right | {"evidence": right["evidence"] | {"name": "decay", "point": []}, "certainty": "theorem"},
+        right
+        | {
+            "evidence": right["evidence"] | {"name": "decay", "point": []},
+            "certainty": "theorem",
+        },
         right | {"evidence": right["evidence"] | {"point": []}, "certainty": "theorem"},
-        right | {"evidence": {"kind": "theorem", "name": "duality"}, "share": "always", "certainty": "theorem"},
+        right
+        | {
+            "evidence": {"kind": "theorem", "name": "duality"},
+            "share": "always",
+            "certainty": "theorem",
+        },
     ]
     for lie in lies:
-        altered = [*records[:place], records[place] | {"right_positive": lie}, *records[place + 1 :]]
+        altered = [
+            *records[:place],
+            records[place] | {"right_positive": lie},
+            *records[place + 1 :],
+        ]
         assert any("7:6" in sentence for sentence in false_evidence(Catalog.from_records(altered)))
 
 
@@ -142,13 +199,21 @@ def test_altered_evidence_of_a_verdict_is_refused():
     true = compare(two, six, query=POSITIVE).evidence
     nothing = PositiveFinding(Share.UNKNOWN, reason="forgotten")
     points = true.right.evidence
-    swapped = replace(true.right, evidence=replace(points, with_one=points.without, without=points.with_one))
+    swapped = replace(
+        true.right, evidence=replace(points, with_one=points.without, without=points.with_one)
+    )
     witness = Witness()
     assert witness.confirms(true, "parameters", two, six)
     assert not witness.confirms(true, "parameters", six, two)
-    for lie in (BothWays(true.right, true.left), replace(true, right=swapped), BothWays(nothing, nothing)):
+    for lie in (
+        BothWays(true.right, true.left),
+        replace(true, right=swapped),
+        BothWays(nothing, nothing),
+    ):
         assert not witness.confirms(lie, "parameters", two, six)
-    assert not proves(replace(true.right, share=Share.ALWAYS), canonical(six).chain, canonical(two).chain)
+    assert not proves(
+        replace(true.right, share=Share.ALWAYS), canonical(six).chain, canonical(two).chain
+    )
 
 
 def test_a_smaller_error_than_the_bound_is_refused():
@@ -162,7 +227,10 @@ def test_shares_to_findings():
     two, six = Family(4)[2], Family(4)[6]
     always, sometimes = positive_finding(two, six), positive_finding(six, two)
     damped = Family(3, damped=True)
-    never, unknown = positive_finding(damped[1], damped[4]), PositiveFinding(Share.UNKNOWN, reason="nobody knows")
+    never, unknown = (
+        positive_finding(damped[1], damped[4]),
+        PositiveFinding(Share.UNKNOWN, reason="nobody knows"),
+    )
     table = {
         (always, always): Outcome.HOLDS,
         (never, never): Outcome.FAILS,
@@ -197,14 +265,25 @@ def test_grades_add_up():
 
 
 def test_over_real_parameters(small):
-    """Rational maps; real factors both ways; an open set without real equivalents beside one with positive ones."""
+    """Rational maps; real factors both ways; an open set without real equivalents beside one
+    with positive ones.
+    """
     family = Family(3)
-    rational, factors, some = (compare(family[i], family[j], query=REAL) for i, j in ((2, 5), (1, 11), (1, 4)))
-    assert (rational.relation, rational.certainty) == (Relation.INDISTINGUISHABLE, Certainty.THEOREM)
+    rational, factors, some = (
+        compare(family[i], family[j], query=REAL) for i, j in ((2, 5), (1, 11), (1, 4))
+    )
+    assert (rational.relation, rational.certainty) == (
+        Relation.INDISTINGUISHABLE,
+        Certainty.THEOREM,
+    )
     assert (factors.relation, factors.evidence) == (Relation.INDISTINGUISHABLE, RealFactors())
     assert (some.relation, some.decided_by) == (Relation.SOMETIMES, "admissible")
     settled = [v for *_, v in small[False].pairs(View.REAL) if v.decided_by == "admissible"]
-    assert Counter(v.evidence.kind for v in settled) == {"theorem": 2, "real factors": 3, "real witnesses": 7}
+    assert Counter(v.evidence.kind for v in settled) == {
+        "theorem": 2,
+        "real factors": 3,
+        "real witnesses": 7,
+    }
     assert list(false_evidence(small[False])) == []
 
 
@@ -220,7 +299,10 @@ def test_real_parameters_of_either_sign_have_real_equivalents(n, i, j):
     family, seen = Family(n), 0
     for one, other in ((family[i], family[j]), (family[j], family[i])):
         for k in range(8):
-            point = {name: -v if (k >> at) & 1 else v for at, (name, v) in enumerate(positive_point(one, f"{k}").items())}
+            point = {
+                name: -v if (k >> at) & 1 else v
+                for at, (name, v) in enumerate(positive_point(one, f"{k}").items())
+            }
             found = fibre(other, target(one.structure, point))
             if found.status is Status.COMPLETE:
                 assert any(s.real is not Answer.NO for s in found.solutions)
@@ -233,12 +315,19 @@ def test_odd_fibres_rest_on_the_finding_over_complex_parameters():
     family = Family(3)
     finding = by_counts(*(identifiability(family[k]) for k in (1, 11)))
     assert (finding.outcome, finding.evidence) == (Outcome.HOLDS, OddFibres(1, 1))
-    over = Engine().subject("a", family[1]).admissible(Engine().subject("b", family[11]), Domain.REAL)
+    over = (
+        Engine().subject("a", family[1]).admissible(Engine().subject("b", family[11]), Domain.REAL)
+    )
     assert (over.certainty, over.evidence, resting_on(over, (Certainty.BOUNDED, 120))) == (
         Certainty.THEOREM,
         RealFactors(),
         over,
     )
-    assert resting_on(replace(finding, certainty=Certainty.BOUNDED, safety=120), (Certainty.BOUNDED, 120)).safety == 119
+    assert (
+        resting_on(
+            replace(finding, certainty=Certainty.BOUNDED, safety=120), (Certainty.BOUNDED, 120)
+        ).safety
+        == 119
+    )
     for lie in (OddFibres(1, 3), OddFibres(2, 2), OddFibres(3, 1)):
         assert not Witness().confirms(lie, "parameters", family[1], family[11])

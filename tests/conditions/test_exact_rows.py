@@ -1,4 +1,6 @@
-"""One answer wherever it is asked: rows decided once serve every command, and no installed program changes a verdict."""
+"""One answer wherever it is asked: rows decided once serve every command, and no installed
+program changes a verdict.
+"""
 
 import stat
 
@@ -26,7 +28,10 @@ INSIDE = (Chain(6, 4, 1, 5, 3, 6, damped=True), Chain(6, 4, 2, 5, 4, 6, damped=T
 @pytest.mark.parametrize("pair", [WALLED, INSIDE], ids=["5 masses", "6 masses"])
 def test_a_row_known_once_decides_chains_of_any_size(pair):
     found = by_row(*pair)
-    assert (found.outcome, found.certainty) == (Outcome.FAILS, Certainty.BOUNDED) and found.safety >= 100
+    assert (found.outcome, found.certainty) == (
+        Outcome.FAILS,
+        Certainty.BOUNDED,
+    ) and found.safety >= 100
     assert found.evidence == ByRow("grounded", True, 4, (2, 4), (1, 3), "rows:disting", 7, 6)
     assert by_row(*pair[::-1]).evidence == found.evidence
     assert finding_from_json(finding_to_json(found)) == found
@@ -46,7 +51,9 @@ def test_decisions_and_one_pair_agree():
 @pytest.mark.parametrize("name", ["msolve", "Singular"])
 def test_an_installed_program_changes_no_verdict(name, monkeypatch, tmp_path):
     script = tmp_path / name
-    script.write_text('#!/bin/sh\necho "[1]"\nfor last; do :; done\ntest -z "$last" || echo "[1]" > "$last"\n')
+    script.write_text(
+        '#!/bin/sh\necho "[1]"\nfor last; do :; done\ntest -z "$last" || echo "[1]" > "$last"\n'
+    )
     script.chmod(script.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     monkeypatch.setattr(exact, "LIMITS", Limits(seconds=60, entries=1, safety=100))

@@ -1,14 +1,21 @@
 """Section 4.2: whether a condition can tell two models apart depends on the representation.
 
-z_1 = a_1 b_1 and z_2 = a_2 b_2 (1 + i), with the Jacobians (28) and (29) at a random point modulo a prime; phases in turns,
-so that pi/4 is 1/8, and sqrt 2 = 2^31 modulo 2^61 - 1 (2^16 modulo 2^31 - 1).
+z_1 = a_1 b_1 and z_2 = a_2 b_2 (1 + i), with the Jacobians (28) and (29) at a random point modulo
+a prime; phases in turns, so that pi/4 is 1/8, and sqrt 2 = 2^31 modulo 2^61 - 1 (2^16 modulo 2^31
+- 1).
 """
 
 import pytest
 
 from disting import Outcome
 from disting.algebra.sampling import Size, residues
-from disting.conditions.necessary import condition_1, condition_2, condition_3, condition_4, condition_5
+from disting.conditions.necessary import (
+    condition_1,
+    condition_2,
+    condition_3,
+    condition_4,
+    condition_5,
+)
 from disting.conditions.sufficient import condition_7
 from disting.invariants.profile import from_samples
 from disting.settings import Settings
@@ -19,17 +26,26 @@ ROOT = {LARGE: 2**31, SMALL: 2**16}
 
 
 def summary(rows_and_values, *, constants=()):
-    """Profile of two moment invariants, each (value, derivative by a, derivative by b) at a, b, modulo p; constants by name."""
+    """Profile of two moment invariants, each (value, derivative by a, derivative by b) at a, b,
+    modulo p; constants by name.
+    """
     samples = []
     for label, modulus in [("one", LARGE), ("two", LARGE), ("search", SMALL)]:
         entries = rows_and_values(*residues(label, 2, modulus), modulus)
-        samples.append(sample([row for _, *row in entries], [value for value, *_ in entries], LABELS, modulus))
-    return from_samples(samples[:2], samples[2:], frozenset(constants), (1, 0), 0, 1, Size(2, 2), Settings())
+        samples.append(
+            sample([row for _, *row in entries], [value for value, *_ in entries], LABELS, modulus)
+        )
+    return from_samples(
+        samples[:2], samples[2:], frozenset(constants), (1, 0), 0, 1, Size(2, 2), Settings()
+    )
 
 
 MAGNITUDE_PHASE = (
     summary(lambda a, b, p: [(a * b, b, a), (0, 0, 0)], constants=["b1"]),
-    summary(lambda a, b, p: [(ROOT[p] * a * b, ROOT[p] * b, ROOT[p] * a), (pow(8, -1, p), 0, 0)], constants=["b1"]),
+    summary(
+        lambda a, b, p: [(ROOT[p] * a * b, ROOT[p] * b, ROOT[p] * a), (pow(8, -1, p), 0, 0)],
+        constants=["b1"],
+    ),
 )
 REAL_IMAGINARY = (
     summary(lambda a, b, p: [(a * b, b, a), (0, 0, 0)]),

@@ -1,4 +1,6 @@
-"""No statement with an error bound above 2^-100, whoever makes it; bounds count what the theorem counts."""
+"""No statement with an error bound above 2^-100, whoever makes it; bounds count what the
+theorem counts.
+"""
 
 from dataclasses import replace
 from math import log2
@@ -29,9 +31,17 @@ LONG = [
 @pytest.mark.parametrize("outcome", [Outcome.HOLDS, Outcome.FAILS, Outcome.SOMETIMES])
 def test_a_finding_below_the_floor_is_abandoned(outcome, safety):
     found = Finding(EXACT, outcome, Certainty.BOUNDED, safety, RANKS)
-    assert (found.outcome, found.certainty, found.safety, found.evidence) == (Outcome.ABANDONED, Certainty.PROVEN, 0, None)
+    assert (found.outcome, found.certainty, found.safety, found.evidence) == (
+        Outcome.ABANDONED,
+        Certainty.PROVEN,
+        0,
+        None,
+    )
     assert ("2^-99" in found.note) == (safety == 99)
-    assert replace(Finding(EXACT, outcome, evidence=RANKS), certainty=Certainty.BOUNDED, safety=safety) == found
+    assert (
+        replace(Finding(EXACT, outcome, evidence=RANKS), certainty=Certainty.BOUNDED, safety=safety)
+        == found
+    )
 
 
 def test_a_finding_at_the_floor_stands():
@@ -40,15 +50,27 @@ def test_a_finding_at_the_floor_stands():
 
 
 def test_a_stored_finding_below_the_floor_is_not_believed():
-    text = finding_to_json(Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, 100, RANKS)).replace("100", "99")
+    text = finding_to_json(Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, 100, RANKS)).replace(
+        "100", "99"
+    )
     assert finding_from_json(text).outcome is Outcome.ABANDONED
 
 
 def test_positive_equivalents_and_inclusion_keep_to_the_floor():
     never = PositiveFinding(Share.NEVER, Certainty.BOUNDED, 99, EmptyFibre(()))
-    assert (never.share, never.certainty, never.evidence) == (Share.UNKNOWN, None, None) and "2^-99" in never.reason
-    neither = InclusionFinding(Inclusion.NEITHER, certainty=Certainty.BOUNDED, safety=99, evidence=RANKS)
-    assert (neither.inclusion, neither.certainty, neither.evidence) == (Inclusion.UNKNOWN, None, None)
+    assert (never.share, never.certainty, never.evidence) == (
+        Share.UNKNOWN,
+        None,
+        None,
+    ) and "2^-99" in never.reason
+    neither = InclusionFinding(
+        Inclusion.NEITHER, certainty=Certainty.BOUNDED, safety=99, evidence=RANKS
+    )
+    assert (neither.inclusion, neither.certainty, neither.evidence) == (
+        Inclusion.UNKNOWN,
+        None,
+        None,
+    )
 
 
 def test_only_bounded_findings_have_a_bound():
@@ -61,12 +83,18 @@ def test_only_bounded_findings_have_a_bound():
 def test_long_chains_keep_to_the_floor(left, right):
     """Points of 192 bits gave 2^-99 for 7 masses and 2^-82 for 8."""
     verdict = compare(left, right)
-    assert verdict.relation is Relation.UNDECIDED or verdict.safety == 0 or verdict.safety >= LEAST_SAFETY
+    assert (
+        verdict.relation is Relation.UNDECIDED
+        or verdict.safety == 0
+        or verdict.safety >= LEAST_SAFETY
+    )
 
 
 def test_six_masses_with_all_ground_dampers_keep_to_the_floor():
     rubbing = tuple(range(1, 7))
-    chains = [canonical(Chain(6, damped=True, ground_dampers=rubbing, meas_plus=m)).chain for m in (1, 2)]
+    chains = [
+        canonical(Chain(6, damped=True, ground_dampers=rubbing, meas_plus=m)).chain for m in (1, 2)
+    ]
     found = by_synthesis(*chains, Settings())
     assert found is None or found.safety >= LEAST_SAFETY
 
@@ -78,8 +106,14 @@ def bound(searched):
 
 
 def test_the_bound_counts_the_parameters_of_the_searched_chain():
-    """Equal ranks, unequal numbers of parameters: the given chain's number would claim more than is known."""
-    chains = [Chain(3, 0, 0, a, 0, 1, damped=True, ground_dampers=g) for a in (1, 2) for g in ((1,), (1, 2), (1, 2, 3), (2, 3))]
+    """Equal ranks, unequal numbers of parameters: the given chain's number would claim more
+    than is known.
+    """
+    chains = [
+        Chain(3, 0, 0, a, 0, 1, damped=True, ground_dampers=g)
+        for a in (1, 2)
+        for g in ((1,), (1, 2), (1, 2, 3), (2, 3))
+    ]
     seen = 0
     for one in chains:
         for other in chains:
@@ -90,13 +124,16 @@ def test_the_bound_counts_the_parameters_of_the_searched_chain():
             if found is None or found.outcome is not Outcome.FAILS:
                 continue
             searched = b if found.evidence.left_given else a
-            longest = max(int(number) for _, value in found.evidence.point for number in value.split("/"))
+            longest = max(
+                int(number) for _, value in found.evidence.point for number in value.split("/")
+            )
             assert found.safety <= longest.bit_length() - bound(searched)
             seen += 1
     assert seen > 4
 
 
-# --- what is proven ----------------------------------------------------------------------------------------------------
+# --- what is proven
+# ----------------------------------------------------------------------------------------------------
 
 
 def test_a_rank_of_all_free_rows_is_proven_only_where_the_others_are_proven_constant():
@@ -104,7 +141,8 @@ def test_a_rank_of_all_free_rows_is_proven_only_where_the_others_are_proven_cons
     rows, labels = [[1, 0, 0], [0, 1, 0], [0, 0, 0]], ("b0", "b1", "a0")
     assert not handmade(rows, labels=labels).rank_proven
     assert handmade(rows, labels=labels, zeros=("a0",)).rank_proven
-    assert handmade([[1, 0], [0, 1], [0, 0]], labels=labels).rank_proven  # no more than there are parameters
+    # no more than there are parameters
+    assert handmade([[1, 0], [0, 1], [0, 0]], labels=labels).rank_proven
 
 
 def test_a_family_is_as_sure_as_all_of_its_pairs():

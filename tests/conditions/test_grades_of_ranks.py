@@ -1,4 +1,6 @@
-"""Equal closures are as sure as the ranks that say so: what is seen at points is a lower bound, and two of them may differ."""
+"""Equal closures are as sure as the ranks that say so: what is seen at points is a lower bound,
+and two of them may differ.
+"""
 
 from fractions import Fraction
 
@@ -27,9 +29,13 @@ def sum_of(*bits):
 
 
 def test_equal_closures_of_chains_count_both_ranks():
-    """Five undamped masses whose ranks are less than both their parameters and their coefficients."""
+    """Five undamped masses whose ranks are less than both their parameters and their
+    coefficients.
+    """
     engine = Engine()
-    left, right = (engine.subject(str(c), c) for c in (Chain(5, 4, 1, 5, 2, 5), Chain(5, 4, 2, 5, 3, 5)))
+    left, right = (
+        engine.subject(str(c), c) for c in (Chain(5, 4, 1, 5, 2, 5), Chain(5, 4, 2, 5, 3, 5))
+    )
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
     assert not any(p.rank_proven for p in profiles)
     fibre = by_synthesis(left.canonical.chain, right.canonical.chain, Settings())
@@ -39,12 +45,17 @@ def test_equal_closures_of_chains_count_both_ranks():
 
 
 def test_equal_closures_of_general_models_count_the_rank_that_is_not_proven():
-    """One of two parameters is determined, through three coefficients: nothing but points says that it is not more."""
+    """One of two parameters is determined, through three coefficients: nothing but points says
+    that it is not more.
+    """
     left = Model.from_transfer_function(["a*b"], ["1", "a*b", "(a*b)**2"], name="two")
     right = Model.from_transfer_function(["c"], ["1", "c", "c**2"], name="one")
     seen, proven = (profile(m, Representation.TF, 0, Settings()) for m in (left, right))
     assert proven.rank_proven and not seen.rank_proven
-    fibre, found = exact_finding(left, right, "disting"), compare(left, right, query=Query(View.EXACT))
+    fibre, found = (
+        exact_finding(left, right, "disting"),
+        compare(left, right, query=Query(View.EXACT)),
+    )
     assert found.decided_by == "exact" and found.safety >= LEAST_SAFETY
     assert sum_of(found.safety) >= sum_of(fibre.safety, seen.safety)
 
@@ -77,7 +88,13 @@ def test_a_family_counts_each_rank_that_tells_who_may_lie_in_whom(damped):
 
 def test_no_bound_is_told_from_none_needed():
     assert joint_safety([]) == 0
-    assert joint_safety([1, 1, 1]) == joint_safety([1, 100]) == joint_safety([0]) == joint_safety([-5, 120]) == USELESS
+    assert (
+        joint_safety([1, 1, 1])
+        == joint_safety([1, 100])
+        == joint_safety([0])
+        == joint_safety([-5, 120])
+        == USELESS
+    )
     assert joint_safety([2, 2]) == 1
     assert joint_in_words(USELESS) != joint_in_words(0) and "-1" not in joint_in_words(USELESS)
     assert error_bound("bounded", USELESS) == "1"

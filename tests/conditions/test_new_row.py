@@ -1,4 +1,6 @@
-"""A condition is a row of the table, and nothing else: rows written into a copy of the package are at work everywhere."""
+"""A condition is a row of the table, and nothing else: rows written into a copy of the package
+are at work everywhere.
+"""
 
 import csv
 import os
@@ -49,7 +51,11 @@ def copied(tmp_path_factory):
         shutil.copytree(shipped.parent / "catalog", folder / "catalog")
     table = folder / "disting" / "conditions" / "table.py"
     text = table.read_text(encoding="utf-8")
-    for old, new in (("\n_n = ", RULES + "_n = "), (")\nSUFFICIENT = (", NECESSARY), (")\nCONDITIONS", STRUCTURAL)):
+    for old, new in (
+        ("\n_n = ", RULES + "_n = "),
+        (")\nSUFFICIENT = (", NECESSARY),
+        (")\nCONDITIONS", STRUCTURAL),
+    ):
         assert text.count(old) == 1
         text = text.replace(old, new)
     table.write_text(text, encoding="utf-8")
@@ -59,27 +65,47 @@ def copied(tmp_path_factory):
 def run(folder, *arguments):
     environment = {**os.environ, "PYTHONPATH": str(folder), "DISTING_CACHE": "off"}
     command = [sys.executable, "-m", "disting", *arguments]
-    done = subprocess.run(command, env=environment, cwd=folder, capture_output=True, encoding="utf-8", timeout=600, check=False)
+    done = subprocess.run(
+        command,
+        env=environment,
+        cwd=folder,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=600,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def rows(folder, *arguments):
-    found = csv.DictReader(run(folder, "verdicts", "3", "--damped", "--no-cache", "--csv", "-", *arguments).splitlines())
+    found = csv.DictReader(
+        run(
+            folder, "verdicts", "3", "--damped", "--no-cache", "--csv", "-", *arguments
+        ).splitlines()
+    )
     return {(row["left"], row["right"]): row for row in found}
 
 
 def test_it_changes_no_other_verdict(copied):
-    before, after = (rows(folder, "--conditions", "1-9") for folder in (Path(disting.__file__).parents[1], copied))
+    before, after = (
+        rows(folder, "--conditions", "1-9")
+        for folder in (Path(disting.__file__).parents[1], copied)
+    )
     assert before == after and before[MARKED]["relation"] == "undecided"
     every = rows(copied, "--conditions", "1-marked")
     assert {pair for pair in every if every[pair] != before[pair]} == {MARKED}
-    assert (every[MARKED]["relation"], every[MARKED]["decided_by"]) == ("indistinguishable", "marked")
+    assert (every[MARKED]["relation"], every[MARKED]["decided_by"]) == (
+        "indistinguishable",
+        "marked",
+    )
 
 
 def test_it_is_told_everywhere(copied):
     assert "10  a matter of course: both are models" in run(copied, "--help")
-    assert "1 by the mark" in run(copied, "verdicts", "3", "--damped", "--no-cache", "--domain", "complex")
+    assert "1 by the mark" in run(
+        copied, "verdicts", "3", "--damped", "--no-cache", "--domain", "complex"
+    )
     run(copied, "report", "3", "--out", "site")
     page = (copied / "site" / "chains-3-damped.html").read_text(encoding="utf-8")
     assert "a matter of course" in page and '"marked":"M"' in page

@@ -5,9 +5,29 @@ from itertools import combinations
 
 import pytest
 
-from disting import CONDITIONS, Certainty, Chain, Engine, Family, Finding, Outcome, Query, Relation, Settings, View, compare
+from disting import (
+    CONDITIONS,
+    Certainty,
+    Chain,
+    Engine,
+    Family,
+    Finding,
+    Outcome,
+    Query,
+    Relation,
+    Settings,
+    View,
+    compare,
+)
 from disting.conditions import sufficient
-from disting.conditions.necessary import INVARIANTS, condition_1, condition_2, condition_3, condition_4, condition_5
+from disting.conditions.necessary import (
+    INVARIANTS,
+    condition_1,
+    condition_2,
+    condition_3,
+    condition_4,
+    condition_5,
+)
 from disting.conditions.structural import condition_8, condition_9
 from disting.conditions.sufficient import condition_6, condition_7
 from disting.evidence.conditions import Counts, Forms, Ranks
@@ -35,14 +55,19 @@ def ground(*masses, chain=None):
     return replace(chain or Chain(2, damped=True), ground_dampers=masses)
 
 
-# --- 1 and 2: numbers of coefficients --------------------------------------------------------------------------------
+# --- 1 and 2: numbers of coefficients
+# --------------------------------------------------------------------------------
 
 
 def test_condition_1_counts_by_degree():
     two, three = handmade(INDEPENDENT, degrees=(1, 0)), handmade(INDEPENDENT, degrees=(1, 1))
     assert condition_1(two, two).outcome is HOLDS
     finding = condition_1(two, three)
-    assert (finding.outcome, finding.certainty, finding.evidence) == (FAILS, Certainty.PROVEN, Counts((1, 0), (1, 1)))
+    assert (finding.outcome, finding.certainty, finding.evidence) == (
+        FAILS,
+        Certainty.PROVEN,
+        Counts((1, 0), (1, 1)),
+    )
 
 
 def test_condition_2_wants_the_same_split():
@@ -59,7 +84,8 @@ def test_markov_parameters_have_no_degrees(condition):
     assert condition(series, series).outcome is INAPPLICABLE
 
 
-# --- 3: symbolic form ------------------------------------------------------------------------------------------------
+# --- 3: symbolic form
+# ------------------------------------------------------------------------------------------------
 
 
 def test_condition_3_compares_what_is_constant():
@@ -74,7 +100,10 @@ def test_condition_3_compares_what_is_constant():
     [((), (), Certainty.BOUNDED), (("b1",), (), Certainty.PROVEN), ((), ("b0",), Certainty.PROVEN)],
 )
 def test_condition_3_is_proven_where_a_zero_is(zeros_left, zeros_right, certainty):
-    left, right = handmade([[1, 0], [0, 0]], zeros=zeros_left), handmade([[0, 0], [0, 1]], zeros=zeros_right)
+    left, right = (
+        handmade([[1, 0], [0, 0]], zeros=zeros_left),
+        handmade([[0, 0], [0, 1]], zeros=zeros_right),
+    )
     finding = condition_3(left, right)
     assert finding.certainty is certainty
     assert (finding.safety > 0) == (certainty is Certainty.BOUNDED)
@@ -88,10 +117,15 @@ def test_a_zero_of_the_side_that_varies_proves_nothing():
 def test_an_invariant_that_one_model_lacks_is_constant_there():
     left, right = handmade(INDEPENDENT), handmade([*INDEPENDENT, [1, 1]])
     finding = condition_3(left, right)
-    assert (finding.outcome, finding.certainty, finding.evidence) == (FAILS, Certainty.PROVEN, Forms((), ("b2",)))
+    assert (finding.outcome, finding.certainty, finding.evidence) == (
+        FAILS,
+        Certainty.PROVEN,
+        Forms((), ("b2",)),
+    )
 
 
-# --- 4: generic rank -------------------------------------------------------------------------------------------------
+# --- 4: generic rank
+# -------------------------------------------------------------------------------------------------
 
 
 def test_condition_4_compares_ranks():
@@ -101,19 +135,32 @@ def test_condition_4_compares_ranks():
     assert condition_4(low, low).certainty is Certainty.BOUNDED
     for left, right in ((low, high), (high, low)):
         finding = condition_4(left, right)
-        assert (finding.outcome, finding.evidence) == (FAILS, Ranks(("b0", "b1"), left.rank, right.rank, True))
+        assert (finding.outcome, finding.evidence) == (
+            FAILS,
+            Ranks(("b0", "b1"), left.rank, right.rank, True),
+        )
 
 
 def test_condition_4_is_proven_where_the_smaller_rank_cannot_be_larger():
-    """A rank at a point is a lower bound: the larger one needs no proof, the smaller one has it where it is full."""
+    """A rank at a point is a lower bound: the larger one needs no proof, the smaller one has it
+    where it is full.
+    """
     full, larger = handmade([[1], [2], [3]]), handmade([[1, 0], [2, 0], [0, 1]])
-    deficient, largest = handmade([[1, 0, 0], [2, 0, 0], [3, 0, 0]]), handmade([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    assert [condition_4(*pair).certainty for pair in ((full, larger), (larger, full))] == [Certainty.PROVEN] * 2
-    assert [condition_4(*pair).certainty for pair in ((deficient, largest), (largest, deficient))] == [Certainty.BOUNDED] * 2
+    deficient, largest = (
+        handmade([[1, 0, 0], [2, 0, 0], [3, 0, 0]]),
+        handmade([[1, 0, 0], [0, 1, 0], [0, 0, 1]]),
+    )
+    assert [condition_4(*pair).certainty for pair in ((full, larger), (larger, full))] == [
+        Certainty.PROVEN
+    ] * 2
+    assert [
+        condition_4(*pair).certainty for pair in ((deficient, largest), (largest, deficient))
+    ] == [Certainty.BOUNDED] * 2
     assert condition_4(deficient, larger).safety == min(deficient.safety, larger.safety) - 1
 
 
-# --- 5: dependences --------------------------------------------------------------------------------------------------
+# --- 5: dependences
+# --------------------------------------------------------------------------------------------------
 
 
 def test_condition_5_finds_the_smallest_rows_that_differ():
@@ -126,8 +173,13 @@ def test_condition_5_finds_the_smallest_rows_that_differ():
 
 
 def test_condition_5_ignores_where_the_constants_are():
-    """Zero rows are left out, so summaries with other constants compare; labels keep their names."""
-    left, right = handmade([[1, 0], [0, 0], [0, 1]]), handmade([[1, 0], [0, 1]], labels=("b0", "b2"))
+    """Zero rows are left out, so summaries with other constants compare; labels keep their
+    names.
+    """
+    left, right = (
+        handmade([[1, 0], [0, 0], [0, 1]]),
+        handmade([[1, 0], [0, 1]], labels=("b0", "b2")),
+    )
     assert condition_5(left, right).outcome is HOLDS
     names = ("b0", "b1", "b2", "b3", "b4")
     left = handmade([[0, 0, 0], *PARALLEL], labels=names)
@@ -145,7 +197,10 @@ def test_condition_5_is_abandoned_where_a_matroid_is_too_large():
     assert limited.matroid == Unsearched("more than 3 subsets: 4 rows of rank 3")
     for pair in ((full, limited), (limited, full), (limited, limited)):
         finding = condition_5(*pair)
-        assert (finding.outcome, finding.note) == (ABANDONED, "more than 3 subsets: 4 rows of rank 3")
+        assert (finding.outcome, finding.note) == (
+            ABANDONED,
+            "more than 3 subsets: 4 rows of rank 3",
+        )
 
 
 @pytest.mark.parametrize("searched", [PARALLEL, [[1, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0]]])
@@ -175,7 +230,8 @@ def test_a_small_limit_leaves_pairs_undecided_and_never_decides_wrongly(limit, l
     assert undecided == lost
 
 
-# --- 6: renamings ----------------------------------------------------------------------------------------------------
+# --- 6: renamings
+# ----------------------------------------------------------------------------------------------------
 
 
 def test_condition_6_by_symmetry_is_a_theorem():
@@ -187,7 +243,11 @@ def test_condition_6_by_symmetry_is_a_theorem():
 def test_condition_6_finds_renamings_that_are_no_symmetry():
     """A free mass with a ground damper is the same with and without springs that are not there."""
     finding = condition_6(*subjects(Chain(1, damped=True), Chain(1)), True)
-    assert (finding.outcome, finding.certainty, finding.evidence.symmetries) == (HOLDS, Certainty.PROVEN, ())
+    assert (finding.outcome, finding.certainty, finding.evidence.symmetries) == (
+        HOLDS,
+        Certainty.PROVEN,
+        (),
+    )
     assert finding.evidence.pairs == (("m1", "m1"),)
 
 
@@ -207,27 +267,39 @@ def test_condition_6_is_abandoned_after_too_many_candidates(monkeypatch):
 @pytest.mark.parametrize(("count", "outcome"), [(11, INAPPLICABLE), (12, HOLDS), (13, HOLDS)])
 def test_condition_6_on_markov_parameters_counts_the_states(count, outcome):
     """N_S1 + N_S2 = 12 for two 3-mass models."""
-    relation = compare(Family(3)[2], Family(3)[5], query=Query(View.MARKOV, (6,), count), engine=ENGINE).relation
+    relation = compare(
+        Family(3)[2], Family(3)[5], query=Query(View.MARKOV, (6,), count), engine=ENGINE
+    ).relation
     assert (relation is Relation.INDISTINGUISHABLE) == (outcome is HOLDS)
 
 
-# --- 7: free choice --------------------------------------------------------------------------------------------------
+# --- 7: free choice
+# --------------------------------------------------------------------------------------------------
 
 
 def test_condition_7_holds_for_full_rank_and_equal_constants():
     p = handmade([[1, 0], [0, 0], [0, 1]], [5, 3, 7], zeros=("b1",))
     finding = condition_7(p, p)
-    assert (finding.outcome, finding.evidence.rank, finding.evidence.free) == (HOLDS, 2, ("b0", "b2"))
+    assert (finding.outcome, finding.evidence.rank, finding.evidence.free) == (
+        HOLDS,
+        2,
+        ("b0", "b2"),
+    )
     assert finding.certainty is Certainty.PROVEN
 
 
 def test_condition_7_asks_for_constants_that_are_proven():
-    """Residues that look like one number may belong to two: what is only seen at points is not compared."""
+    """Residues that look like one number may belong to two: what is only seen at points is not
+    compared.
+    """
     rows = [[1, 0], [0, 0], [0, 1]]
     sure, unsure = handmade(rows, zeros=("b1",)), handmade(rows)
     for pair in ((sure, unsure), (unsure, sure), (unsure, unsure)):
         found = condition_7(*pair)
-        assert (found.outcome, found.note) == (INAPPLICABLE, "not all constant invariants are known exactly")
+        assert (found.outcome, found.note) == (
+            INAPPLICABLE,
+            "not all constant invariants are known exactly",
+        )
 
 
 @pytest.mark.parametrize(
@@ -236,7 +308,10 @@ def test_condition_7_asks_for_constants_that_are_proven():
         (handmade([[1, 0], [0, 0], [0, 1]], [5, 4, 7]), "the constant invariants differ"),
         (handmade([[1, 0], [1, 1], [0, 1]]), "the constant invariants differ"),
         (handmade([[1, 0], [0, 1]], [5, 7], labels=("b0", "b2")), "the constant invariants differ"),
-        (handmade([[1, 0], [0, 0], [1, 0]], [5, 3, 7]), "2 and 1 determinable parameters for 2 invariants"),
+        (
+            handmade([[1, 0], [0, 0], [1, 0]], [5, 3, 7]),
+            "2 and 1 determinable parameters for 2 invariants",
+        ),
     ],
 )
 def test_condition_7_fails(other, note):
@@ -257,7 +332,8 @@ def test_condition_7_needs_as_many_markov_parameters_as_states():
         assert condition_7(*pair).outcome is INAPPLICABLE
 
 
-# --- 8: submodels ----------------------------------------------------------------------------------------------------
+# --- 8: submodels
+# ----------------------------------------------------------------------------------------------------
 
 LONG = Chain(3, meas_plus=3, damped=True)  # A3: its ground dampers cannot be located
 
@@ -269,7 +345,11 @@ def test_condition_8_holds_for_subsets_of_ground_dampers(part):
     assert forward.outcome is backward.outcome is HOLDS
     assert (forward.evidence.left_is_submodel, backward.evidence.left_is_submodel) == (True, False)
     assert forward.evidence.rank == backward.evidence.rank == 8
-    assert forward.evidence.numbering == backward.evidence.numbering == ((0, 0), (1, 1), (2, 2), (3, 3))
+    assert (
+        forward.evidence.numbering
+        == backward.evidence.numbering
+        == ((0, 0), (1, 1), (2, 2), (3, 3))
+    )
 
 
 def test_condition_8_fails_where_a_damper_adds_a_determinable_parameter():
@@ -297,7 +377,8 @@ def test_condition_8_compares_chains_of_different_sizes():
     assert (finding.outcome, finding.note) == (FAILS, "3 and 5 determinable parameters")
 
 
-# --- 9: supermodels --------------------------------------------------------------------------------------------------
+# --- 9: supermodels
+# --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("one", "other"), [((1,), (2,)), ((1,), (2, 3)), ((1, 2), (2, 3))])
@@ -328,11 +409,15 @@ def test_condition_9_does_not_apply(left, right):
 
 
 def test_the_bounds_of_8_and_9_cover_all_profiles():
-    """Each of two or three ranks could be wrong: two bits less than the weakest, which is the largest model's."""
+    """Each of two or three ranks could be wrong: two bits less than the weakest, which is the
+    largest model's.
+    """
     chain = Chain(3, 1, 1, 2, 1, 3, damped=True)
     one, other, both = subjects(*(ground(*masses, chain=chain) for masses in ((2,), (3,), (2, 3))))
     whole = both.chain.structure
-    largest, third = (profile(whole, Representation.TF, 0, Settings(subset_limit=n)).safety for n in (10**6, 0))
+    largest, third = (
+        profile(whole, Representation.TF, 0, Settings(subset_limit=n)).safety for n in (10**6, 0)
+    )
     assert max(largest, third) < one.profile(Representation.TF, 0).safety
     for finding, weakest in (
         (condition_8(one, both), largest),
@@ -342,7 +427,8 @@ def test_the_bounds_of_8_and_9_cover_all_profiles():
         assert (finding.certainty, finding.safety) == (Certainty.BOUNDED, weakest - 2)
 
 
-# --- the table and the finding ---------------------------------------------------------------------------------------
+# --- the table and the finding
+# ---------------------------------------------------------------------------------------
 
 
 def test_the_table_is_in_the_order_of_the_paper():
@@ -352,8 +438,16 @@ def test_the_table_is_in_the_order_of_the_paper():
 
 def test_every_condition_reports_under_its_own_number():
     tf, chains = handmade(INDEPENDENT), subjects(Chain(2), Chain(2))
-    necessary = [c(tf, tf) for c in (condition_1, condition_2, condition_3, condition_4, condition_5)]
-    findings = [*necessary, condition_6(*chains, True), condition_7(tf, tf), condition_8(*chains), condition_9(*chains)]
+    necessary = [
+        c(tf, tf) for c in (condition_1, condition_2, condition_3, condition_4, condition_5)
+    ]
+    findings = [
+        *necessary,
+        condition_6(*chains, True),
+        condition_7(tf, tf),
+        condition_8(*chains),
+        condition_9(*chains),
+    ]
     assert [f.rule.name for f in findings] == list("123456789")
 
 

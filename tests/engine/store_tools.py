@@ -1,4 +1,6 @@
-"""What the tests of the store share: worker processes, warnings, damage done behind the store's back."""
+"""What the tests of the store share: worker processes, warnings, damage done behind the store's
+back.
+"""
 
 import contextlib
 import os

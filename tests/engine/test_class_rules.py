@@ -1,4 +1,6 @@
-"""The rule that is told of a pair in classes: the same from both sides, and true of this pair; weak answers are not used."""
+"""The rule that is told of a pair in classes: the same from both sides, and true of this pair;
+weak answers are not used.
+"""
 
 from itertools import combinations
 
@@ -24,7 +26,10 @@ def test_structural_rules_are_told_from_both_sides_and_hold(damped):
         assert found.look_up(j, i) == (relation, rule)
         if rule in ("8", "9"):
             check = {"8": condition_8, "9": condition_9}[rule]
-            assert check(*(ENGINE.subject(str(k), found.chains[k]) for k in (i, j))).outcome is Outcome.HOLDS
+            assert (
+                check(*(ENGINE.subject(str(k), found.chains[k]) for k in (i, j))).outcome
+                is Outcome.HOLDS
+            )
             told.add(rule)
     assert told == {"8", "9"}
 

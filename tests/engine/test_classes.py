@@ -1,4 +1,6 @@
-"""Classes of whole families with ground dampers, against the pair-by-pair decision and against the shipped catalogues."""
+"""Classes of whole families with ground dampers, against the pair-by-pair decision and against
+the shipped catalogues.
+"""
 
 from dataclasses import replace
 from itertools import combinations
@@ -35,7 +37,8 @@ from disting.settings import Settings
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 ENGINE = Engine()
-LOOSE = {"8", "9", "exact"}  # a class links its models by chains of rules, so the rule of a pair may be another
+# a class links its models by chains of rules, so the rule of a pair may be another
+LOOSE = {"8", "9", "exact"}
 
 
 @pytest.fixture(scope="module", params=[False, True], ids=["undamped", "damped"])
@@ -111,7 +114,10 @@ def test_four_masses_at_random_as_compare_says(four):
         relation, rule = four.found.look_up(i, j)
         if rule != "exact":
             query = Query(View.EXACT, inclusion=False)
-            assert compare(four.found.chains[i], four.found.chains[j], query=query).relation is relation
+            assert (
+                compare(four.found.chains[i], four.found.chains[j], query=query).relation
+                is relation
+            )
 
 
 def test_names_and_places(four):
@@ -126,7 +132,12 @@ def test_names_and_places(four):
 
 
 def test_chains_that_do_not_belong_together_are_refused():
-    for chains in ([], [Chain(2), Chain(3)], [Chain(2), Chain(2, damped=True)], [Chain(2), Chain(2, sensor="position")]):
+    for chains in (
+        [],
+        [Chain(2), Chain(3)],
+        [Chain(2), Chain(2, damped=True)],
+        [Chain(2), Chain(2, sensor="position")],
+    ):
         with pytest.raises(InputError, match="one size"):
             classes(chains, ENGINE)
     with pytest.raises(InputError, match="dead time"):
@@ -135,9 +146,13 @@ def test_chains_that_do_not_belong_together_are_refused():
 
 def test_a_run_resumes_from_the_store(tmp_path):
     with Store.open(tmp_path / "cache.sqlite3") as store:
-        chains = [replace(Family(3, damped=True)[1], ground_dampers=s) for s in DamperSets.ALL.of(3)]
+        chains = [
+            replace(Family(3, damped=True)[1], ground_dampers=s) for s in DamperSets.ALL.of(3)
+        ]
         first, told = classes(chains, Engine(store=store)), []
-        again = classes(chains, Engine(store=store), progress=lambda what, done, total: told.append(what))
+        again = classes(
+            chains, Engine(store=store), progress=lambda what, done, total: told.append(what)
+        )
     assert told == []
     assert np.array_equal(first.columns, again.columns) and np.array_equal(first.group, again.group)
 
@@ -148,13 +163,19 @@ def answered(chains, outcomes):
     subjects = [engine.subject(str(i), c) for i, c in enumerate(chains)]
     for (i, j), outcome in outcomes.items():
         bounded = outcome is not Outcome.ABANDONED
-        finding = Finding(EXACT, outcome, Certainty.BOUNDED if bounded else Certainty.PROVEN, 120 * bounded)
-        engine.answers[question_key(QUICKLY, subjects[i].in_order(subjects[j]), engine.settings)] = finding
+        finding = Finding(
+            EXACT, outcome, Certainty.BOUNDED if bounded else Certainty.PROVEN, 120 * bounded
+        )
+        engine.answers[
+            question_key(QUICKLY, subjects[i].in_order(subjects[j]), engine.settings)
+        ] = finding
     return engine
 
 
 def test_what_is_given_up_stays_undecided():
-    """Pairs that only the synthesis decides are open where it gives up, and none is decided otherwise."""
+    """Pairs that only the synthesis decides are open where it gives up, and none is decided
+    otherwise.
+    """
     chains = [replace(Family(3, damped=True)[1], ground_dampers=s) for s in DamperSets.ALL.of(3)]
     given_up = dict.fromkeys(combinations(range(len(chains)), 2), Outcome.ABANDONED)
     hurried, whole = classes(chains, answered(chains, given_up)), classes(chains, ENGINE)

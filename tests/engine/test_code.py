@@ -1,4 +1,6 @@
-"""The digest of the code behind cached results: it names all code that a module runs, and changes with any of it."""
+"""The digest of the code behind cached results: it names all code that a module runs, and
+changes with any of it.
+"""
 
 import ast
 import shutil
@@ -31,7 +33,9 @@ def imported(name):
     for node in ast.walk(ast.parse(source(name))):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("disting"):
             assert not node.level
-            names = {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)} - {"disting"}
+            names = {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)} - {
+                "disting"
+            }
             yield from (each for each in names if exists(each))
         elif isinstance(node, ast.Import):
             yield from (a.name for a in node.names if a.name.startswith("disting."))
@@ -45,19 +49,30 @@ def closure(name):
     return found
 
 
-@pytest.mark.parametrize("name", ["disting.engine.engine", "disting.fit.estimate", "disting.algebra.matroid"])
+@pytest.mark.parametrize(
+    "name", ["disting.engine.engine", "disting.fit.estimate", "disting.algebra.matroid"]
+)
 def test_the_modules_are_those_of_the_syntax_trees(name):
     assert set(modules_of(name)) == closure(name)
 
 
 def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions():
-    assert {"disting.model.chain", "disting.fit.plant", "disting.synthesis.decide"} <= set(modules_of("disting.fit.estimate"))
-    assert {"disting.model.chain", "disting.conditions.table", "disting.domain"} <= set(modules_of("disting.engine.engine"))
-    assert not any(name.startswith(("disting.report", "disting.cli")) for name in modules_of("disting.fit.estimate"))
+    assert {"disting.model.chain", "disting.fit.plant", "disting.synthesis.decide"} <= set(
+        modules_of("disting.fit.estimate")
+    )
+    assert {"disting.model.chain", "disting.conditions.table", "disting.domain"} <= set(
+        modules_of("disting.engine.engine")
+    )
+    assert not any(
+        name.startswith(("disting.report", "disting.cli"))
+        for name in modules_of("disting.fit.estimate")
+    )
 
 
 def test_a_change_of_the_ports_in_the_chain_model_changes_the_key_of_estimates(tmp_path):
-    """Estimates were kept under a digest of the folder `fit` alone, and served after a change elsewhere."""
+    """Estimates were kept under a digest of the folder `fit` alone, and served after a change
+    elsewhere.
+    """
     copy = tmp_path / "disting"
     shutil.copytree(ROOT / "disting", copy, ignore=shutil.ignore_patterns("__pycache__", "shipped"))
     shutil.copytree(ROOT / "catalog", tmp_path / "catalog")
@@ -70,5 +85,7 @@ def test_a_change_of_the_ports_in_the_chain_model_changes_the_key_of_estimates(t
 
 def digest_of(folder):
     command = "from disting.engine.code import digest; print(digest('disting.fit.estimate'))"
-    done = subprocess.run([sys.executable, "-c", command], cwd=folder, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", command], cwd=folder, capture_output=True, text=True, check=True
+    )
     return done.stdout.strip()

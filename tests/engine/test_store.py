@@ -40,7 +40,13 @@ def test_every_text_comes_back(texts: dict[str, str]) -> None:
 
 
 def test_large_and_strange_values_come_back_from_disk(path: Path) -> None:
-    texts = {"empty": "", "nul": "a\0b", "large": "é" * 3_000_000, "\0": "\U0010ffff", "": "key of length 0"}
+    texts = {
+        "empty": "",
+        "nul": "a\0b",
+        "large": "é" * 3_000_000,
+        "\0": "\U0010ffff",
+        "": "key of length 0",
+    }
     with Store.open(path) as store:
         store.put_many(texts)
     with Store.open(path) as store:
@@ -84,7 +90,9 @@ def test_a_closed_store_keeps_nothing(path: Path) -> None:
     assert not path.with_name(path.name + "-wal").exists()
 
 
-def test_without_variable_the_cache_is_in_the_users_cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_variable_the_cache_is_in_the_users_cache_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.delenv("DISTING_CACHE", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "new" / "folder"))
     monkeypatch.setenv("HOME", str(tmp_path))
@@ -107,7 +115,9 @@ def test_the_variable_names_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("text", ["", "off"])
-def test_the_variable_can_say_no_cache(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_variable_can_say_no_cache(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("DISTING_CACHE", text)
     with cache_warnings(0):
@@ -117,7 +127,9 @@ def test_the_variable_can_say_no_cache(text: str, tmp_path: Path, monkeypatch: p
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_cache_in_memory_is_private_and_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cache_in_memory_is_private_and_leaves_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("DISTING_CACHE", ":memory:")
     with Store.open() as store, Store.open(":memory:") as other:

@@ -47,7 +47,11 @@ def emptied(path: Path) -> None:
 
 def foreign_database(path: Path) -> None:
     path.unlink()
-    alter(path, "CREATE TABLE entry (key, checksum, value)", "INSERT INTO entry VALUES ('a', 'b', 'c')")
+    alter(
+        path,
+        "CREATE TABLE entry (key, checksum, value)",
+        "INSERT INTO entry VALUES ('a', 'b', 'c')",
+    )
 
 
 def foreign_stamp(path: Path) -> None:
@@ -92,7 +96,9 @@ DAMAGES = [
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_a_file_that_cannot_be_trusted_is_set_aside(damage: Callable[[Path], None], filled: Path) -> None:
+def test_a_file_that_cannot_be_trusted_is_set_aside(
+    damage: Callable[[Path], None], filled: Path
+) -> None:
     damage(filled)
     before = filled.read_bytes() if filled.is_file() else b""
     with cache_warnings(1) as messages:
@@ -249,7 +255,10 @@ def test_a_cut_within_the_last_page_costs_the_entries_there_only(filled: Path) -
         "checksum = 'text'",
         "checksum = 3",
         "checksum = x''",
-        f"(checksum, value) = (SELECT checksum, value FROM entry WHERE key = CAST('{key(2)}' AS BLOB))",
+        (
+            f"(checksum, value) = (SELECT checksum, value FROM entry WHERE key = CAST('{key(2)}' AS"
+            " BLOB))"
+        ),
     ],
 )
 def test_a_row_altered_by_other_means_is_absent_and_removed(change: str, filled: Path) -> None:
@@ -265,7 +274,9 @@ def test_a_row_altered_by_other_means_is_absent_and_removed(change: str, filled:
 
 
 @pytest.mark.parametrize("damage", [random_bytes, older_schema, emptied])
-def test_processes_that_find_the_same_damage_set_it_aside_once(damage: Callable[[Path], None], filled: Path) -> None:
+def test_processes_that_find_the_same_damage_set_it_aside_once(
+    damage: Callable[[Path], None], filled: Path
+) -> None:
     damage(filled)
     workers = [start("meet", filled, number) for number in range(3)]
     assert [first_line(worker) for worker in workers] == ["ready\n"] * 3

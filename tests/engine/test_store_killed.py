@@ -14,7 +14,9 @@ from tests.engine.store_worker import items
 
 
 @pytest.mark.parametrize("times", [4, pytest.param(30, marks=pytest.mark.slow)])
-def test_nothing_committed_is_lost_when_the_process_is_killed_again_and_again(path: Path, times: int) -> None:
+def test_nothing_committed_is_lost_when_the_process_is_killed_again_and_again(
+    path: Path, times: int
+) -> None:
     chance, committed = random.Random(5), 0
     for _ in range(times):
         worker = start("count", path)

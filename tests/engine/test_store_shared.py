@@ -29,9 +29,13 @@ from tests.engine.store_tools import (
 from tests.engine.store_worker import items, key, value
 
 
-@pytest.mark.parametrize(("number", "rounds"), [(4, 40), pytest.param(8, 200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("number", "rounds"), [(4, 40), pytest.param(8, 200, marks=pytest.mark.slow)]
+)
 @pytest.mark.parametrize("journal", ["wal", "delete"])
-def test_many_processes_share_the_same_keys(journal: str, path: Path, number: int, rounds: int) -> None:
+def test_many_processes_share_the_same_keys(
+    journal: str, path: Path, number: int, rounds: int
+) -> None:
     if journal == "delete":  # as it is where a write-ahead log is impossible
         Store.open(path).close()
         alter(path, "PRAGMA journal_mode = DELETE")
@@ -43,8 +47,12 @@ def test_many_processes_share_the_same_keys(journal: str, path: Path, number: in
     assert aside(path) == []
 
 
-@pytest.mark.parametrize(("number", "rounds"), [(3, 30), pytest.param(6, 200, marks=pytest.mark.slow)])
-def test_processes_that_keep_replacing_the_file_do_not_disturb_each_other(path: Path, number: int, rounds: int) -> None:
+@pytest.mark.parametrize(
+    ("number", "rounds"), [(3, 30), pytest.param(6, 200, marks=pytest.mark.slow)]
+)
+def test_processes_that_keep_replacing_the_file_do_not_disturb_each_other(
+    path: Path, number: int, rounds: int
+) -> None:
     workers = [start("churn", path, rounds) for _ in range(number)]
     assert [finish(worker) for worker in workers] == [["wrong 0", "warnings 0"]] * number
     with cache_warnings(0), Store.open(path) as store:
@@ -103,7 +111,9 @@ def test_threads_share_a_store(path: Path) -> None:
 
 
 def in_child(work: Callable[[], bool]) -> int:
-    """Run the work in a child of fork; its process number. The exit status tells what it returned."""
+    """Run the work in a child of fork; its process number. The exit status tells what it
+    returned.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # threads and fork are mixed on purpose
         child = os.fork()
@@ -117,7 +127,9 @@ def in_child(work: Callable[[], bool]) -> int:
 
 
 def test_commits_of_a_forked_child_outlive_the_close_of_its_parent(path: Path) -> None:
-    """If the child shared SQLite's state with its parent, the parent would delete the log on closing."""
+    """If the child shared SQLite's state with its parent, the parent would delete the log on
+    closing.
+    """
     (opened, open_end), (closed, close_end) = os.pipe(), os.pipe()
     store = Store.open(path)
     store.put_many({"parent": "1"})
@@ -140,7 +152,11 @@ def test_commits_of_a_forked_child_outlive_the_close_of_its_parent(path: Path) -
     assert os.read(opened, 1) == b"x"
     os.waitpid(child, 0)
     with cache_warnings(0), Store.open(path) as store:
-        assert store.get_many(["parent", "child", "later"]) == {"parent": "1", "child": "2", "later": "3"}
+        assert store.get_many(["parent", "child", "later"]) == {
+            "parent": "1",
+            "child": "2",
+            "later": "3",
+        }
 
 
 @pytest.mark.parametrize("memory", [False, True])
@@ -158,7 +174,9 @@ def test_forks_amid_the_work_of_threads(path: Path, memory: bool) -> None:
     threads = [threading.Thread(target=work, daemon=True) for _ in range(3)]
     for thread in threads:
         thread.start()
-    children = [in_child(lambda: works(store) and "before" in store.get_many(["before"])) for _ in range(12)]
+    children = [
+        in_child(lambda: works(store) and "before" in store.get_many(["before"])) for _ in range(12)
+    ]
     done.set()
     join(threads)
     assert [os.waitpid(child, 0)[1] for child in children] == [0] * 12

@@ -72,7 +72,9 @@ PLACES = [
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_a_cache_that_cannot_be_made_is_done_without(place: Callable[[Path], Path], tmp_path: Path) -> None:
+def test_a_cache_that_cannot_be_made_is_done_without(
+    place: Callable[[Path], Path], tmp_path: Path
+) -> None:
     path = place(tmp_path)
     before = contents(tmp_path)
     with cache_warnings(1) as messages, Store.open(path) as store:

@@ -1,4 +1,6 @@
-"""An oracle: frequency responses of chains by a linear solve, with the matrices written down from the picture alone."""
+"""An oracle: frequency responses of chains by a linear solve, with the matrices written down
+from the picture alone.
+"""
 
 from fractions import Fraction
 
@@ -33,4 +35,7 @@ def response(chain, values, s):
 def agree(chain, values, member, tolerance=1e-8):
     """Whether a member of a list has the frequency response of the given model."""
     given = {name: float(Fraction(str(v))) for name, v in values.items()}
-    return all(abs(response(member.chain, member.values, s) / response(chain, given, s) - 1) < tolerance for s in PLACES)
+    return all(
+        abs(response(member.chain, member.values, s) / response(chain, given, s) - 1) < tolerance
+        for s in PLACES
+    )

@@ -1,4 +1,6 @@
-"""Equivalent parameter vectors: literal ones, planted ones, and laws; judged by plain numerical mechanics."""
+"""Equivalent parameter vectors: literal ones, planted ones, and laws; judged by plain numerical
+mechanics.
+"""
 
 from fractions import Fraction
 
@@ -62,20 +64,26 @@ def test_every_member_has_the_same_frequency_response(damped, number, values):
 
 
 def test_proportional_damping_makes_more_structures_equivalent():
-    assert [li.name for li in equivalents("3:1", DAMPED, "3", damped=True).listings if li.members] == ["3:1", "3:11"]
+    assert [
+        li.name for li in equivalents("3:1", DAMPED, "3", damped=True).listings if li.members
+    ] == ["3:1", "3:11"]
     found = equivalents("3:1", PROPORTIONAL, "3", damped=True)
     assert [li.name for li in found.listings if li.members] == ["3:1", "3:4", "3:6", "3:8", "3:11"]
     assert found.proportional
 
 
 def test_planted_equivalent_with_split_roots_is_found_again():
-    """Model 6, undamped, is one of two that model 1 has for these values; a third structure leads there."""
+    """Model 6, undamped, is one of two that model 1 has for these values; a third structure
+    leads there.
+    """
     planted = {"m1": 1, "m2": 2, "m3": 3, "k01": 5, "k23": 7}
     six, one = Family(3)[6], Family(3)[1]
     image = explicit_map(six, one).at(planted)
     found = list(equivalents(one, image, six))
     assert len(found) == 2 and all(m.signs is Signs.POSITIVE for m in found)
-    assert any(all(abs(m.values[name] - v) < 1e-12 * v for name, v in planted.items()) for m in found)
+    assert any(
+        all(abs(m.values[name] - v) < 1e-12 * v for name, v in planted.items()) for m in found
+    )
 
 
 def test_members_that_are_not_positive_and_families():
@@ -87,7 +95,9 @@ def test_members_that_are_not_positive_and_families():
 
 
 def test_complex_members():
-    """A damped chain with force and sensor beside each other: two of three parameter vectors are complex conjugates."""
+    """A damped chain with force and sensor beside each other: two of three parameter vectors
+    are complex conjugates.
+    """
     values = {"m1": 3, "m2": 10, "m3": 6, "k12": 650, "k23": 450, "d12": 5, "d23": 12}
     found = list(equivalents("3:2", values, "3:2", damped=True))
     assert [m.signs for m in found] == [Signs.POSITIVE, Signs.COMPLEX, Signs.COMPLEX]
@@ -98,7 +108,11 @@ def test_complex_members():
 def test_text_follows_the_chain():
     chain = Chain(3, damped=True, sensor=Sensor.VELOCITY)
     (listing,) = equivalents(chain, DAMPED, "3:11").listings
-    assert (listing.chain.damped, listing.chain.sensor, len(listing.members)) == (True, Sensor.VELOCITY, 1)
+    assert (listing.chain.damped, listing.chain.sensor, len(listing.members)) == (
+        True,
+        Sensor.VELOCITY,
+        1,
+    )
 
 
 def test_symmetric_chain_says_why_nothing_is_known_but_the_theorems():
@@ -111,7 +125,18 @@ def test_symmetric_chain_says_why_nothing_is_known_but_the_theorems():
 
 
 def test_equal_ratios_are_named_and_proportional_members_given():
-    values = {"m1": 1, "m2": 2, "m3": 3, "m4": 5, "k12": 100, "k23": 70, "k34": 40, "d12": 0.1, "d23": 0.07, "d34": 0.04}
+    values = {
+        "m1": 1,
+        "m2": 2,
+        "m3": 3,
+        "m4": 5,
+        "k12": 100,
+        "k23": 70,
+        "k34": 40,
+        "d12": 0.1,
+        "d23": 0.07,
+        "d34": 0.04,
+    }
     listing = equivalents("4:2", values, "4:6", damped=True).listings[0]
     assert listing.status is Status.DEGENERATE and "k12/d12 = k23/d23 = k34/d34" in listing.sentence
     assert listing.members and {m.origin for m in listing.members} == {Origin.PROPORTIONAL}
@@ -158,7 +183,9 @@ def test_bad_values(change, words):
         equivalents("3:1", values, "3:11", damped=True)
 
 
-@pytest.mark.parametrize(("model", "to"), [("3", "3:1"), ("3:12", "3:1"), ("3:1", "3:0"), ("x", "3"), ("3:1", "")])
+@pytest.mark.parametrize(
+    ("model", "to"), [("3", "3:1"), ("3:12", "3:1"), ("3:1", "3:0"), ("x", "3"), ("3:1", "")]
+)
 def test_bad_references(model, to):
     with pytest.raises(InputError):
         equivalents(model, DAMPED, to, damped=True)
@@ -170,13 +197,18 @@ def test_sensors_have_to_agree():
 
 
 def test_values_are_taken_exactly():
-    exact = point_of(Chain(3), {"m1": 0.1, "m2": np.float32(0.1), "m3": np.int64(3), "k12": "3/4", "k23": "1e-3"})
+    exact = point_of(
+        Chain(3), {"m1": 0.1, "m2": np.float32(0.1), "m3": np.int64(3), "k12": "3/4", "k23": "1e-3"}
+    )
     assert [str(v) for v in exact.values()] == ["1/10", "1/10", "3", "3/4", "1/1000"]
 
 
 def test_to_dict_is_json_of_everything():
     said = equivalents("3:1", DAMPED, "3:11", damped=True).to_dict()
-    assert said["values"]["d12"] == "1/10" and said["listings"][0]["equivalents"][0]["exact"]["m1"] == "24/5"
+    assert (
+        said["values"]["d12"] == "1/10"
+        and said["listings"][0]["equivalents"][0]["exact"]["m1"] == "24/5"
+    )
 
 
 numbers = st.integers(1, 12).map(lambda i: Fraction(i, 3))
@@ -213,7 +245,9 @@ def test_an_exact_equivalent_leads_back(model, data):
 
 
 def test_a_list_that_lacks_what_is_at_the_boundary_is_not_called_complete():
-    """All ones: a branch of the synthesis ends at an element near zero, so the one set found need not be the only one."""
+    """All ones: a branch of the synthesis ends at an element near zero, so the one set found
+    need not be the only one.
+    """
     ones = dict.fromkeys(("m1", "m2", "m3", "k01", "k23"), 1)
     found = equivalents("3:7", ones, "3:6")
     (listing,) = found.listings
@@ -224,7 +258,9 @@ def test_a_list_that_lacks_what_is_at_the_boundary_is_not_called_complete():
 
 @pytest.mark.parametrize(("extra", "name"), [("lag", "T1"), ("delay", "Td")])
 def test_lag_and_dead_time_are_inherited(extra, name):
-    """They belong to the bench: all structures of a size have them too, and the one found by its name is found there."""
+    """They belong to the bench: all structures of a size have them too, and the one found by
+    its name is found there.
+    """
     values = {"m1": 1, "m2": 2, "k12": 100, name: "0.01"}
     found = equivalents(f"2:1+{extra}", values, "2")
     assert [listing.name for listing in found.listings] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
@@ -233,15 +269,25 @@ def test_lag_and_dead_time_are_inherited(extra, name):
     assert short == named == found.listings[2]
     (member,) = named.members
     assert (member.signs, member.text["m1"], member.text["k01"]) == (Signs.POSITIVE, "1.5", "225")
-    assert [c.name for c in equivalents(f"2:1+{extra}", values, Family(2)).listings] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
+    assert [c.name for c in equivalents(f"2:1+{extra}", values, Family(2)).listings] == [
+        f"2:{i}+{extra}" for i in (1, 2, 3)
+    ]
 
 
 def test_a_chain_is_taken_as_it_is():
     """Asked of a chain without a dead time, the answer is about that chain."""
-    (listing,) = equivalents("2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3]).listings
-    assert listing.members == () and listing.complete and "only one of them has a dead time" in listing.sentence
+    (listing,) = equivalents(
+        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3]
+    ).listings
+    assert (
+        listing.members == ()
+        and listing.complete
+        and "only one of them has a dead time" in listing.sentence
+    )
 
 
 def test_none_exists_says_over_which_parameters():
     (listing,) = equivalents("2:2", {"m1": 1, "m2": 2, "k12": 100}, "2:1").listings
-    assert listing.sentence.startswith("none exists, with positive parameters or any others: proven (")
+    assert listing.sentence.startswith(
+        "none exists, with positive parameters or any others: proven ("
+    )

@@ -1,4 +1,6 @@
-"""Equivalents of models with dampers to the ground, lag and dead time: judged by plain numerical mechanics."""
+"""Equivalents of models with dampers to the ground, lag and dead time: judged by plain
+numerical mechanics.
+"""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -12,7 +14,9 @@ from disting.model.family import Family
 from disting.synthesis.result import Status
 from tests.equivalence.mechanics import agree
 
-VALUES = assignments(["m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3,b1=0.5,b2=0.2,b3=0.7,T1=1/50,Td=0.01"])
+VALUES = assignments(
+    ["m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3,b1=0.5,b2=0.2,b3=0.7,T1=1/50,Td=0.01"]
+)
 
 
 def values_of(chain):
@@ -46,7 +50,12 @@ def test_an_equivalent_leads_back():
 
 @pytest.mark.parametrize(
     ("one", "other", "damped"),
-    [("3:2+b2+b3", "3:2+b2+b3", True), ("3:4+b1+b2", "3:5+b2", True), ("3:4+b2", "3:4+b2", False), ("3:8+b2", "3:11+b2", True)],
+    [
+        ("3:2+b2+b3", "3:2+b2+b3", True),
+        ("3:4+b1+b2", "3:5+b2", True),
+        ("3:4+b2", "3:4+b2", False),
+        ("3:8+b2", "3:11+b2", True),
+    ],
 )
 def test_members_come_in_the_order_of_signs_and_agree(one, other, damped):
     given = chain_of(one, Family(3, damped=damped))
@@ -64,7 +73,9 @@ def test_parallel_dampers_are_told_as_infinitely_many():
     listing = equivalents(given, values, given).listings[0]
     assert listing.status is Status.INFINITE and "infinitely many" in listing.sentence
     sampled = [m for m in listing.members if m.origin is Origin.SYNTHESIS]
-    assert [m.values["b1"] for m in sampled] == [pytest.approx(0.15)] and agree(given, values, sampled[0])
+    assert [m.values["b1"] for m in sampled] == [pytest.approx(0.15)] and agree(
+        given, values, sampled[0]
+    )
 
 
 def test_lag_and_dead_time_stay_what_they_are():
@@ -87,8 +98,12 @@ def test_an_element_near_zero_is_named():
 
 def test_text_for_structures():
     given = Chain(3, damped=True)
-    assert chain_of("3:4+b3+b1+lag", Family(3)) == Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1, 3), lag=True)
-    assert {c.ground_dampers for c in chains_of("3+b2", given)} == {(2,)} and len(chains_of("3+b2", given)) == 11
+    assert chain_of("3:4+b3+b1+lag", Family(3)) == Chain(
+        3, 0, 0, 2, 0, 2, ground_dampers=(1, 3), lag=True
+    )
+    assert {c.ground_dampers for c in chains_of("3+b2", given)} == {(2,)} and len(
+        chains_of("3+b2", given)
+    ) == 11
     assert len(set(chains_of("3+b*", given))) == 88
     assert all(c.lag and c.damped for c in chains_of("2+b*+lag", given))
     for wrong in ("3:4+b4", "3:4+b0", "3:4+x", "3:4+", "3+c1"):

@@ -25,7 +25,9 @@ def receptance(chain, values):
             i, j = (int(digit) for digit in name[1:3])
             v = sympy.Matrix([int(node == j) - int(node == i) for node in range(1, n + 1)])
             a += value * (S if name[0] == "d" else 1) * v * v.T
-    force, sensor = ([int(i == plus) - int(i == minus) for i in range(1, n + 1)] for plus, minus in _ports(chain))
+    force, sensor = (
+        [int(i == plus) - int(i == minus) for i in range(1, n + 1)] for plus, minus in _ports(chain)
+    )
     return (sympy.Matrix([sensor]) * a.LUsolve(sympy.Matrix(force)))[0]
 
 
@@ -49,7 +51,9 @@ def test_formulas_give_the_same_transfer_function(n, left, right, damped):
     family = Family(n, damped)
     found = explicit_map(family[left], family[right])
     symbols = {name: sympy.Symbol(name, positive=True) for name in family[left].parameters}
-    numbers = {symbol: sympy.Rational(3 * i + 2, i + 1) for i, symbol in enumerate(symbols.values())}
+    numbers = {
+        symbol: sympy.Rational(3 * i + 2, i + 1) for i, symbol in enumerate(symbols.values())
+    }
     ours = receptance(family[right], {name: f.subs(numbers) for name, f in found.sympy().items()})
     given = receptance(family[left], {name: numbers[symbol] for name, symbol in symbols.items()})
     assert sympy.cancel(ours - given) == 0
@@ -80,7 +84,11 @@ def test_part_by_part():
     """Both parts have two masses; the grounded one is seen from the gap."""
     chain, other = Chain(4, 2, 1, 3, 1, 3), Chain(4, 2, 2, 3, 2, 3)
     found = explicit_map(chain, other)
-    assert tuple(text(found.formulas[name]) for name in ("m3", "m2", "k12")) == ("m3", "m1", "k01 + k12")
+    assert tuple(text(found.formulas[name]) for name in ("m3", "m2", "k12")) == (
+        "m3",
+        "m1",
+        "k01 + k12",
+    )
 
 
 def test_where_there_is_none():
@@ -111,11 +119,15 @@ def test_values_of_a_map_are_those_of_the_search():
     values = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": 0.3}
     (member,) = equivalents("3:1", values, "3:11", damped=True)
     image = explicit_map(Family(3, True)[1], Family(3, True)[11]).at(values)
-    assert {name: str(v) for name, v in image.items()} == {name: str(v) for name, v in member.exact.items()}
+    assert {name: str(v) for name, v in image.items()} == {
+        name: str(v) for name, v in member.exact.items()
+    }
 
 
 def test_python_source_runs():
     found = explicit_map(Family(3)[4], Family(3)[1])
     space = {}
     exec(found.python, space)
-    assert all(sympy.simplify(space["equivalent"][name] - f) == 0 for name, f in found.sympy().items())
+    assert all(
+        sympy.simplify(space["equivalent"][name] - f) == 0 for name, f in found.sympy().items()
+    )

@@ -11,7 +11,12 @@ import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
 from disting.evidence.ideals import ByParts, PartStep, Refuted, Solved, Vanishing
-from disting.evidence.kinds import Evidence, InclusionEvidence, evidence_from, inclusion_evidence_from
+from disting.evidence.kinds import (
+    Evidence,
+    InclusionEvidence,
+    evidence_from,
+    inclusion_evidence_from,
+)
 from disting.evidence.limits import LargerProjection
 from disting.evidence.plain import from_dict, to_dict
 from disting.evidence.positive import EmptyFibre, Interlacing, PartWords, PositiveEvidence
@@ -21,9 +26,14 @@ UNIONS = [set(get_args(union)) for union in (Evidence, InclusionEvidence, Positi
 
 def written():
     """Every class of the package that is a kind of evidence."""
-    modules = [importlib.import_module(f"disting.evidence.{m.name}") for m in pkgutil.iter_modules(disting.evidence.__path__)]
+    modules = [
+        importlib.import_module(f"disting.evidence.{m.name}")
+        for m in pkgutil.iter_modules(disting.evidence.__path__)
+    ]
     classes = {c for m in modules for _, c in inspect.getmembers(m, inspect.isclass)}
-    return {c for c in classes if c.__module__.startswith("disting.evidence") and hasattr(c, "kind")}
+    return {
+        c for c in classes if c.__module__.startswith("disting.evidence") and hasattr(c, "kind")
+    }
 
 
 def test_each_kind_is_registered():
@@ -53,13 +63,26 @@ def test_what_belongs_to_another_statement_is_refused():
         (Theorem("duality"), {"kind": "theorem", "name": "duality"}),
         (EmptyFibre((("m1", "1/2"),)), {"kind": "no-equivalent", "point": (("m1", "1/2"),)}),
         (
-            ByParts(True, (PartStep("same", "free", Vanishing(3)), PartStep("rigid", "free", Refuted(True, ("x",), 2, False)))),
+            ByParts(
+                True,
+                (
+                    PartStep("same", "free", Vanishing(3)),
+                    PartStep("rigid", "free", Refuted(True, ("x",), 2, False)),
+                ),
+            ),
             {
                 "kind": "by-parts",
                 "left_given": True,
                 "steps": [
                     {"split": "same", "part": "free", "kind": "vanishing", "index": 3},
-                    {"split": "rigid", "part": "free", "kind": "refuted", "left_given": True, "labels": ("x",), "degree": 2}
+                    {
+                        "split": "rigid",
+                        "part": "free",
+                        "kind": "refuted",
+                        "left_given": True,
+                        "labels": ("x",),
+                        "degree": 2,
+                    }
                     | {"tangent": False, "is_normalised": False},
                 ],
             },
@@ -68,7 +91,15 @@ def test_what_belongs_to_another_statement_is_refused():
             Interlacing((PartWords("free", 3, (1, 2), (1, 3), ((0, 2),)),)),
             {
                 "kind": "interlacing",
-                "parts": ({"part": "free", "nodes": 3, "given": (1, 2), "other": (1, 3), "lacking": ((0, 2),)},),
+                "parts": (
+                    {
+                        "part": "free",
+                        "nodes": 3,
+                        "given": (1, 2),
+                        "other": (1, 3),
+                        "lacking": ((0, 2),),
+                    },
+                ),
                 "with_one": (),
                 "without": (),
             },
@@ -83,4 +114,6 @@ def test_files_have_this_form_and_it_is_read_back(found, plain):
 def test_a_name_that_no_theorem_has_is_refused():
     with pytest.raises(ValueError, match="no theorem is called"):
         evidence_from({"kind": "theorem", "name": "wishful"})
-    assert evidence_from(to_dict(Solved(True, ("a",), ((1, 2),)))) == Solved(True, ("a",), ((1, 2),))
+    assert evidence_from(to_dict(Solved(True, ("a",), ((1, 2),)))) == Solved(
+        True, ("a",), ((1, 2),)
+    )

@@ -1,10 +1,12 @@
-"""The best known costs of the 120 candidates on the bench, from 20 independent searches: made once, kept beside this module.
+"""The best known costs of the 120 candidates on the bench, from 20 independent searches: made
+once, kept beside this module.
 
     python -m tests.fit.best_known
 
-A search shares the response and its derivatives with `disting.fit`, not its starts: random chains over wide ranges, random
-splits of masses of smaller fits down to very small ones, and random steps from the fits of neighbours, all brought to the end
-without dropping any, until nothing moves. The best of all searches go through one more exchange. Takes half an hour.
+A search shares the response and its derivatives with `disting.fit`, not its starts: random chains
+over wide ranges, random splits of masses of smaller fits down to very small ones, and random steps
+from the fits of neighbours, all brought to the end without dropping any, until nothing moves. The
+best of all searches go through one more exchange. Takes half an hour.
 """
 
 import json
@@ -54,7 +56,12 @@ def drawn(names: tuple[str, ...], size: Scale, source: np.random.Generator) -> V
             case "k":
                 i = int(x[1])
                 omega = np.exp(source.uniform(np.log(0.5 * size.low), np.log(1.5 * size.high)))
-                values[x] = values[f"m{i}"] * values[f"m{i + 1}"] / (values[f"m{i}"] + values[f"m{i + 1}"]) * omega**2
+                values[x] = (
+                    values[f"m{i}"]
+                    * values[f"m{i + 1}"]
+                    / (values[f"m{i}"] + values[f"m{i + 1}"])
+                    * omega**2
+                )
             case "d":
                 values[x] = spread * values["k" + x[1:]] / np.sqrt(size.low * size.high)
             case "b":
@@ -68,11 +75,17 @@ def stepped(chain: Chain, fit: Values, size: Scale, source: np.random.Generator)
     """A neighbour's fit, what it lacks drawn anew, every other time shaken."""
     shake = 0.3 * source.integers(2)
     fresh = drawn(chain.parameters, size, source)
-    return {x: fit.get(x, fresh[x]) * float(np.exp(shake * source.normal())) for x in chain.parameters}
+    return {
+        x: fit.get(x, fresh[x]) * float(np.exp(shake * source.normal())) for x in chain.parameters
+    }
 
 
-def splits(chain: Chain, found: Found, size: Scale, source: np.random.Generator) -> Iterator[Values]:
-    """Random masses of smaller fits split, the part from a ten-thousandth on, tuned to a random frequency."""
+def splits(
+    chain: Chain, found: Found, size: Scale, source: np.random.Generator
+) -> Iterator[Values]:
+    """Random masses of smaller fits split, the part from a ten-thousandth on, tuned to a random
+    frequency.
+    """
     choices = [(joint, fewer) for joint, fewer in merged(chain) if fewer in found]
     for _ in range(SPLITS if choices else 0):
         joint, fewer = choices[source.integers(len(choices))]
@@ -94,7 +107,10 @@ def descended(chain: Chain, task: Task, starts: list[Values], found: Found) -> b
     i = int(np.nanargmin(costs))
     better = chain not in found or costs[i] < found[chain][0] * (1 - GAIN)
     if better:
-        found[chain] = float(costs[i]), dict(zip(chain.parameters, map(float, points[i]), strict=True))
+        found[chain] = (
+            float(costs[i]),
+            dict(zip(chain.parameters, map(float, points[i]), strict=True)),
+        )
     return better
 
 
@@ -103,7 +119,9 @@ def exchanged(task: Task, found: Found, size: Scale, source: np.random.Generator
     offered = {chain: {n for n in neighbours(chain) if n in found} for chain in found}
     while any(offered.values()):
         for chain in sorted(found, key=repr):
-            starts = [stepped(chain, found[n][1], size, source) for n in sorted(offered[chain], key=repr)]
+            starts = [
+                stepped(chain, found[n][1], size, source) for n in sorted(offered[chain], key=repr)
+            ]
             offered[chain] = set()
             if starts and descended(chain, task, starts, found):
                 for n in neighbours(chain):
@@ -132,7 +150,12 @@ def pooled(task: Task, searches: list[Found]) -> Found:
         exchanged(task, part, scale(task.cost.measured), np.random.default_rng(n))
         best |= part
     for chain, (_, values) in best.items():
-        p, j = fine(task.plant(chain), task.cost, task.box(chain.parameters), np.array(list(values.values())))
+        p, j = fine(
+            task.plant(chain),
+            task.cost,
+            task.box(chain.parameters),
+            np.array(list(values.values())),
+        )
         best[chain] = j, dict(zip(chain.parameters, map(float, p), strict=True))
     return best
 
@@ -145,7 +168,11 @@ def main() -> None:
             searches.append(search(seed, task, figure_1()))
             lowest = {c: min(s[c][0] for s in searches) for c in searches[0]}
             missed = sum(searches[-1][c][0] > j * 1.001 for c, j in lowest.items())
-            print(f"search {seed}: {missed} above the best so far, sum of the best {sum(lowest.values()):.4f}", flush=True)
+            print(
+                f"search {seed}: {missed} above the best so far, sum of the best"
+                f" {sum(lowest.values()):.4f}",
+                flush=True,
+            )
         best = pooled(task, searches)
     FILE.write_text(json.dumps({name(c): best[c] for c in sorted(best, key=name)}, indent=1) + "\n")
 

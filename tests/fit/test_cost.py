@@ -26,7 +26,10 @@ def test_residuals_are_those_of_the_paper(case):
     literal = {
         Case.COMPLEX: [amplitude * (g - gm).real, phase * (g - gm).imag],
         Case.AMPLITUDE: [amplitude * (abs(g) - abs(gm)), phase * np.angle(g / gm)],
-        Case.LOGARITHM: [amplitude * (np.log10(abs(g)) - np.log10(abs(gm))), phase * np.angle(g / gm)],
+        Case.LOGARITHM: [
+            amplitude * (np.log10(abs(g)) - np.log10(abs(gm))),
+            phase * np.angle(g / gm),
+        ],
     }[case]
     cost = Cost(measured, case, (amplitude, phase))
     np.testing.assert_allclose(cost.residual(g), np.concatenate(literal), atol=1e-12)
@@ -42,7 +45,9 @@ def test_the_sensitivity_is_the_derivative_of_the_residual(case, chain):
     assert columns.shape == (cost.n_residuals, len(p)) and residual.shape == (cost.n_residuals,)
     for i in range(len(p)):
         factor = np.exp(1e-6 * (np.arange(len(p)) == i))
-        difference = cost.residual(plant.response(p * factor)) - cost.residual(plant.response(p / factor))
+        difference = cost.residual(plant.response(p * factor)) - cost.residual(
+            plant.response(p / factor)
+        )
         scale = np.abs(columns).max()
         np.testing.assert_allclose(columns[:, i] / scale, difference / 2e-6 / scale, atol=2e-7)
 
@@ -66,7 +71,9 @@ def test_case_3_does_not_see_the_sensor_quantity(quantity):
 
 
 def test_the_phase_difference_never_wraps():
-    """Two turns of dead time against none: a difference of unwrapped phases would grow beyond pi."""
+    """Two turns of dead time against none: a difference of unwrapped phases would grow beyond
+    pi.
+    """
     measured = FrequencyResponse(OMEGA, np.ones(OMEGA.size, complex))
     turned = np.exp(-1j * OMEGA * (4 * np.pi / OMEGA[-1]))
     phases = Cost(measured, weights=(0.0, 1.0)).residual(turned)[OMEGA.size :]

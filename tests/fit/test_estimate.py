@@ -1,4 +1,6 @@
-"""Estimation: known parameters are found again, nothing contained is ever better, interrupted work resumes."""
+"""Estimation: known parameters are found again, nothing contained is ever better, interrupted
+work resumes.
+"""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -56,7 +58,9 @@ def test_noise_is_fitted_at_least_as_well_as_by_the_truth(case):
 
 def worst_excess(found):
     """Largest relative excess of a candidate's cost over that of one that it contains."""
-    pairs = [(found[c], found[smaller]) for c in found for smaller in shortened(c) if smaller in found]
+    pairs = [
+        (found[c], found[smaller]) for c in found for smaller in shortened(c) if smaller in found
+    ]
     return max(large.j / small.j - 1 for large, small in pairs)
 
 
@@ -80,12 +84,16 @@ def test_the_same_seed_gives_the_same_bytes_with_workers_or_without():
     alone = estimates(few, task)
     with ThreadPoolExecutor(3) as pool:
         together = estimates(few, task, executor=pool)
-    assert {c: estimate_to_json(e) for c, e in alone.items()} == {c: estimate_to_json(e) for c, e in together.items()}
+    assert {c: estimate_to_json(e) for c, e in alone.items()} == {
+        c: estimate_to_json(e) for c, e in together.items()
+    }
     assert estimate_from_json(chain, estimate_to_json(alone[chain])) == alone[chain]
 
 
 def test_interrupted_work_resumes_where_it_stopped(tmp_path):
-    """Also within the exchange between neighbours: after 4 fits of one mass and 8 of two, steps go on with all 12 ready."""
+    """Also within the exchange between neighbours: after 4 fits of one mass and 8 of two, steps
+    go on with all 12 ready.
+    """
     chain = Chain(2, damped=True, dead_time=True)
     task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
     few = [c for c in figure_1((1, 2)) if not c.lag]
@@ -108,17 +116,23 @@ def test_interrupted_work_resumes_where_it_stopped(tmp_path):
             assert before < store.info().entries
             before = store.info().entries
         steps = []
-        found = estimates(few, task, store=store, progress=lambda what, done, total: steps.append(done))
+        found = estimates(
+            few, task, store=store, progress=lambda what, done, total: steps.append(done)
+        )
         assert found == estimates(few, task) and steps[-1] == len(few) == 12
         entries = store.info().entries
-        assert estimates(few, task, store=store) == found and store.info().entries == entries > before
+        assert (
+            estimates(few, task, store=store) == found and store.info().entries == entries > before
+        )
         other = Task(Cost(response(chain, truth(chain, 7), noise=0.02)))
         assert estimates([chain], other, store=store)[chain] != found[chain]
 
 
 @pytest.mark.slow
 def test_no_candidate_misses_the_best_known_cost_on_the_bench():
-    """The best known costs are those of 20 independent searches, see `best_known`; their parameters are kept to be checked."""
+    """The best known costs are those of 20 independent searches, see `best_known`; their
+    parameters are kept to be checked.
+    """
     known, task = best_known(), Task(Cost(bench("A")))
     found = estimates(figure_1(), task)
     assert len(known) == len(found) == 120
@@ -138,7 +152,9 @@ def test_no_candidate_of_two_masses_misses_the_best_known_cost_on_the_bench():
 def test_neighbours_are_mutual_and_their_fits_become_starts():
     chain = Chain(3, damped=True, ground_dampers=(2,), dead_time=True)
     near = list(neighbours(chain))
-    assert len(near) == len(set(near)) == 1 + 1 + 2 + 2 + 1 + 1 and all(chain in neighbours(c) for c in near)
+    assert len(near) == len(set(near)) == 1 + 1 + 2 + 2 + 1 + 1 and all(
+        chain in neighbours(c) for c in near
+    )
     values = truth(chain, 3)
     size = scale(response(chain, values))
     for other in near:
@@ -162,7 +178,10 @@ def test_one_more_pair_of_pole_and_zero_keeps_the_others_and_finds_a_mode_that_h
     before = np.array([fit[p] for p in smaller.parameters])
     after = np.array([starts[0][p] for p in chain.parameters])  # of the closest pair
     for roots in (poles, zeros):
-        kept, now = (np.sort(np.abs(roots(c.structure, p).imag)) for c, p in ((smaller, before), (chain, after)))
+        kept, now = (
+            np.sort(np.abs(roots(c.structure, p).imag))
+            for c, p in ((smaller, before), (chain, after))
+        )
         assert all(np.min(np.abs(now - w)) < 0.02 * w for w in kept if w > 1)
         assert np.min(np.abs(now - missed[0])) < 0.01 * missed[0]
     exact, without = (
@@ -177,10 +196,17 @@ def test_one_more_pair_of_pole_and_zero_keeps_the_others_and_finds_a_mode_that_h
 def test_bounds_and_fixed_values_are_kept():
     chain = Chain(2, damped=True)
     values = truth(chain, 1)
-    task = Task(Cost(response(chain, values)), fixed={"m1": values["m1"]}, bounds={"k12": (0.0, 0.9 * values["k12"])})
+    task = Task(
+        Cost(response(chain, values)),
+        fixed={"m1": values["m1"]},
+        bounds={"k12": (0.0, 0.9 * values["k12"])},
+    )
     found = estimates([chain], task)[chain].parameters
     assert found["m1"] == values["m1"]
-    assert found["k12"] == pytest.approx(0.9 * values["k12"], rel=1e-6) and found["k12"] <= 0.9 * values["k12"]
+    assert (
+        found["k12"] == pytest.approx(0.9 * values["k12"], rel=1e-6)
+        and found["k12"] <= 0.9 * values["k12"]
+    )
     with pytest.raises(InputError, match=r"bounds of k12 are 0 <= low < high, not 2\.\.1"):
         Task(task.cost, bounds={"k12": (2.0, 1.0)})
     with pytest.raises(InputError, match="m1 is fixed to a positive number, not -1"):
@@ -196,14 +222,20 @@ def test_the_classes_have_the_sizes_of_the_paper():
     }
     assert {len(c.parameters) for c in parameters.values()} == {6, 9, 12}
     assert all(len(c.parameters) == n and c in figure_1() for n, c in parameters.items())
-    assert len(whole_family((2,))) == 3 * 16 == len({v for c in whole_family((2,)) for v in variants(c)})
+    assert (
+        len(whole_family((2,)))
+        == 3 * 16
+        == len({v for c in whole_family((2,)) for v in variants(c)})
+    )
 
 
 def test_the_continued_fraction_gives_masses_and_springs_back():
     chain = Chain(4)
     values = truth(chain, 9)
     p = np.array([values[n] for n in chain.parameters])
-    z, p_ = (np.unique(np.round(np.abs(r(chain.structure, p).imag), 6))[-3:] for r in (zeros, poles))
+    z, p_ = (
+        np.unique(np.round(np.abs(r(chain.structure, p).imag), 6))[-3:] for r in (zeros, poles)
+    )
     masses, springs = cauer(sum(p[:4]), list(zip(z, p_, strict=True)))
     np.testing.assert_allclose([*masses, *springs], p, rtol=1e-5)
 
@@ -213,7 +245,8 @@ def test_extrema_are_seen_where_they_are():
     measured = response(chain, {"m1": 1.0, "m2": 0.5, "k12": 2e4, "d12": 2.0})
     ((z, p),) = extrema(measured)
     step = OMEGA[1] / OMEGA[0]
-    assert 200.0 / step < z < 200.0 * step and 245.0 / step < p < 245.0 * step  # sqrt(k/m2), sqrt(k (1/m1 + 1/m2))
+    # sqrt(k/m2), sqrt(k (1/m1 + 1/m2))
+    assert 200.0 / step < z < 200.0 * step and 245.0 / step < p < 245.0 * step
     assert scale(measured).mass == pytest.approx(1.5, rel=0.1)
 
 

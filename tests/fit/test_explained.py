@@ -1,4 +1,6 @@
-"""Whether anything explains the data: right models do, what is no such chain is said, never silently."""
+"""Whether anything explains the data: right models do, what is no such chain is said, never
+silently.
+"""
 
 from dataclasses import replace
 
@@ -37,7 +39,9 @@ def beam(gains, ratio=0.01):
 
 
 def closed(gain):
-    """What a velocity loop of this gain [N s/m] leaves of the velocity by reference: read as acceleration by force."""
+    """What a velocity loop of this gain [N s/m] leaves of the velocity by reference: read as
+    acceleration by force.
+    """
     velocity = response(DRIVE, VALUES).G / (1j * OMEGA)
     return gain * velocity / (1 + gain * velocity)
 
@@ -51,7 +55,10 @@ WRONG = {
     "velocity read as acceleration": (noisy(EXACT / (1j * OMEGA)), Sensor.ACCELERATION),
     "acceleration read as position": (noisy(EXACT), Sensor.POSITION),
     "a closed velocity loop": (noisy(closed(60.0)), Sensor.ACCELERATION),
-    "a sensor on the load": (noisy(response(Chain(2, meas_plus=2, damped=True), VALUES).G), Sensor.ACCELERATION),
+    "a sensor on the load": (
+        noisy(response(Chain(2, meas_plus=2, damped=True), VALUES).G),
+        Sensor.ACCELERATION,
+    ),
     "two machines at one input": (noisy(EXACT - 1.8), Sensor.ACCELERATION),
 }
 ONE = Chain(1, damped=True, ground_dampers=(1,))
@@ -87,7 +94,10 @@ def test_more_candidates_do_not_explain_a_beam_either():
 def test_what_would_fit_is_named_with_its_cost(data, words):
     found = select(noisy(data), [Chain(1), ONE])
     told(data, found)
-    assert found.readings[0].words == words and found.readings[0].found.j < 0.05 * found.readings[0].before
+    assert (
+        found.readings[0].words == words
+        and found.readings[0].found.j < 0.05 * found.readings[0].before
+    )
     assert f"what would fit better: {words} the cost falls from" in first_lines(found)[2]
     assert "missed most at " in first_lines(found)[1]
 
@@ -101,7 +111,9 @@ def test_noise_is_called_noise():
 @pytest.mark.parametrize("seed", range(2))
 def test_right_models_explain(seed):
     chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
-    train, test = (response(chain, truth(chain, seed), noise=0.02, seed=100 * seed + k) for k in (1, 2))
+    train, test = (
+        response(chain, truth(chain, seed), noise=0.02, seed=100 * seed + k) for k in (1, 2)
+    )
     found = select(train, [Chain(1, damped=True), chain], test=test)
     assert found.explanation.explains and 0.5 < found.explanation.chi2 < 2
     assert first_lines(found)[0].startswith(f"{found.members[0].name} explains this data")
@@ -120,7 +132,11 @@ def test_the_bench_and_its_demonstration_are_explained():
 def test_scatter_from_neighbouring_lines_is_the_noise(noise):
     chain = Chain(3, damped=True, ground_dampers=(1,))
     found = [
-        scatter(response(chain, truth(chain, s), noise=noise, seed=s), [response(chain, truth(chain, s)).G]) for s in range(8)
+        scatter(
+            response(chain, truth(chain, s), noise=noise, seed=s),
+            [response(chain, truth(chain, s)).G],
+        )
+        for s in range(8)
     ]
     assert np.mean([f.typical for f in found]) == pytest.approx(noise / np.sqrt(2), rel=0.15)
     assert {f.source for f in found} == {"neighbouring lines"}
@@ -129,20 +145,28 @@ def test_scatter_from_neighbouring_lines_is_the_noise(noise):
 def test_scatter_prefers_what_the_file_knows():
     data = response(DRIVE, VALUES, noise=0.01, seed=3)
     stated = replace(data, deviation=0.02 * np.abs(data.G))
-    assert scatter(stated).typical == pytest.approx(0.02 / np.sqrt(2)) and "standard deviations" in scatter(stated).source
+    assert (
+        scatter(stated).typical == pytest.approx(0.02 / np.sqrt(2))
+        and "standard deviations" in scatter(stated).source
+    )
     uneven = np.where(np.arange(OMEGA.size) % 2, 0.999, 0.9)  # neighbours alone cannot see that
     size = np.sqrt((1 - uneven) / uneven)
     error = np.random.default_rng(1).normal(size=(2, OMEGA.size)) * 0.1 * size
     loud = replace(data, G=EXACT * np.exp(error[0] + 1j * error[1]), coherence=uneven)
     found = scatter(loud, [EXACT])
-    assert found.source.startswith("the coherence") and found.rho == pytest.approx(0.1 * size, rel=0.6)
+    assert found.source.startswith("the coherence") and found.rho == pytest.approx(
+        0.1 * size, rel=0.6
+    )
     jumping = replace(data, deviation=0.001 * np.abs(data.G))
     assert "jump" in scatter(jumping, [EXACT]).source and scatter(jumping, [EXACT]).typical > 0.004
 
 
 def test_training_against_test_counts_where_it_is_larger():
     one, other = (response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2))
-    assert between(one, other) == pytest.approx(0.01 / np.sqrt(2), rel=0.2) and between(one, one) is None
+    assert (
+        between(one, other) == pytest.approx(0.01 / np.sqrt(2), rel=0.2)
+        and between(one, one) is None
+    )
     moved = replace(other, G=other.G * 1.2)
     assert yardstick(one, moved, []).typical == pytest.approx(np.log(1.2) / 2, rel=0.1)
 
@@ -155,18 +179,27 @@ def test_what_is_missed_is_named_by_its_frequencies():
     sigma = cost.scatter(known.rho)
     assert chi2(cost.residual(EXACT), sigma) == pytest.approx(1, rel=0.4)
     (miss,) = explanation(cost.residual(wrong), sigma, cost, known).misses
-    assert 35 < miss.low < 42 and 58 < miss.high < 66 and miss.factor == pytest.approx(np.log(1.3), abs=0.03)
+    assert (
+        35 < miss.low < 42
+        and 58 < miss.high < 66
+        and miss.factor == pytest.approx(np.log(1.3), abs=0.03)
+    )
 
 
 def test_an_excluded_candidate_that_fits_better_is_named_with_its_reason():
     data = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)]
     found = select(data[0], [Chain(1), DRIVE], test=data[1], bounds={"k12": (0.0, 2.9e4)})
     assert found.selected.chain == Chain(1) and [c.chain for c in found.better] == [DRIVE]
-    assert any("2:1+b2 fits better" in line and "k12 is at its bound" in line for line in first_lines(found))
+    assert any(
+        "2:1+b2 fits better" in line and "k12 is at its bound" in line
+        for line in first_lines(found)
+    )
 
 
 def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
     data = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)]
-    found = select(data[0], [Chain(1), replace(ONE, dead_time=True)], test=data[1], fixed={"m1": 0.5})
+    found = select(
+        data[0], [Chain(1), replace(ONE, dead_time=True)], test=data[1], fixed={"m1": 0.5}
+    )
     lowest = min(c.j_test for c in found.candidates)
     assert not found.explanation.explains and found.described.j_test == lowest

@@ -28,7 +28,11 @@ def test_the_state_space_has_the_response(chain, sign):
     values = truth(chain, 3)
     ss, expected = state_space(chain, values, sign), predicted(chain, values, OMEGA[::10], sign)
     one = np.eye(len(ss.A))
-    seen = [(ss.C @ np.linalg.solve(1j * w * one - ss.A, ss.B) + ss.D)[0, 0] * np.exp(-1j * w * ss.delay) for w in OMEGA[::10]]
+    seen = [
+        (ss.C @ np.linalg.solve(1j * w * one - ss.A, ss.B) + ss.D)[0, 0]
+        * np.exp(-1j * w * ss.delay)
+        for w in OMEGA[::10]
+    ]
     np.testing.assert_allclose(seen, expected, rtol=1e-8)
     assert ss.delay == values.get("Td", 0.0) and len(ss.A) == chain.structure.n_states
 
@@ -39,8 +43,12 @@ def test_python_control_sees_the_same(chain):
     values = truth(chain, 4)
     delay = np.exp(-1j * OMEGA[::10] * values.get("Td", 0.0))
     expected = predicted(chain, values, OMEGA[::10])
-    np.testing.assert_allclose(to_control(chain, values)(1j * OMEGA[::10]) * delay, expected, rtol=1e-7)
-    np.testing.assert_allclose(to_control_transfer_function(chain, values)(1j * OMEGA[::10]) * delay, expected, rtol=1e-6)
+    np.testing.assert_allclose(
+        to_control(chain, values)(1j * OMEGA[::10]) * delay, expected, rtol=1e-7
+    )
+    np.testing.assert_allclose(
+        to_control_transfer_function(chain, values)(1j * OMEGA[::10]) * delay, expected, rtol=1e-6
+    )
 
 
 def test_matlab_reads_the_matrices(tmp_path):
@@ -83,9 +91,13 @@ def test_what_is_no_model_is_refused(text, message, tmp_path):
 
 
 def test_poles_and_zeros_of_a_two_mass_drive_by_hand():
-    """Free: poles 0, 0, +-sqrt(k/mu); zeros +-sqrt(k/m2); the rigid-body motion is no oscillation."""
+    """Free: poles 0, 0, +-sqrt(k/mu); zeros +-sqrt(k/m2); the rigid-body motion is no
+    oscillation.
+    """
     p = np.array([2.0, 1.0, 600.0])
-    (resonance,), (antiresonance,) = (oscillating(roots(Chain(2).structure, p)) for roots in (poles, zeros))
+    (resonance,), (antiresonance,) = (
+        oscillating(roots(Chain(2).structure, p)) for roots in (poles, zeros)
+    )
     assert resonance == pytest.approx(30j) and antiresonance == pytest.approx(np.sqrt(600) * 1j)
     free = Chain(3, damped=True)
     for seed in range(20):

@@ -1,4 +1,6 @@
-"""Data at the ends of what floating point holds: fitted without a warning, or refused in a sentence."""
+"""Data at the ends of what floating point holds: fitted without a warning, or refused in a
+sentence.
+"""
 
 import warnings
 

@@ -1,4 +1,6 @@
-"""Standard errors and intervals: they cover the truth as often as they say, whatever the noise is like."""
+"""Standard errors and intervals: they cover the truth as often as they say, whatever the noise
+is like.
+"""
 
 from dataclasses import replace
 
@@ -25,11 +27,15 @@ def drive(chain, seed):
     """A random drive whose dampers matter."""
     source = np.random.default_rng(seed)
     sizes = {"m": 1.0, "k": 5e4, "d": 20.0, "b": 20.0}
-    return {name: float(sizes[name[0]] * np.exp(0.3 * source.normal())) for name in chain.parameters}
+    return {
+        name: float(sizes[name[0]] * np.exp(0.3 * source.normal())) for name in chain.parameters
+    }
 
 
 def measured(chain, values, level, seed):
-    """White noise on the position, of a share of its typical size: relative noise differs from line to line."""
+    """White noise on the position, of a share of its typical size: relative noise differs from
+    line to line.
+    """
     exact = response(chain, values)
     source = np.random.default_rng([seed, 7])
     error = (source.normal(size=OMEGA.size) + 1j * source.normal(size=OMEGA.size)) / np.sqrt(2)
@@ -88,7 +94,9 @@ def test_correlation_is_found_where_it_is_and_not_elsewhere():
     coloured = white.copy()
     for k in range(1, 400):
         coloured[:, k] += 0.7 * coloured[:, k - 1]
-    assert correlation(white.ravel()) == 0.0 and correlation(coloured.ravel()) == pytest.approx(0.7, abs=0.08)
+    assert correlation(white.ravel()) == 0.0 and correlation(coloured.ravel()) == pytest.approx(
+        0.7, abs=0.08
+    )
     assert Noise(np.ones(4), 0.7).effective == pytest.approx(0.3 / 1.7)
 
 
@@ -101,12 +109,19 @@ def test_residuals_above_the_scatter_widen_the_errors_where_they_are():
 
 def test_a_parameter_that_differs_between_training_and_test_is_flagged():
     values = drive(TWO, 1)
-    train, test = measured(TWO, values, 0.002, 1), measured(TWO, values | {"b1": 1.5 * values["b1"]}, 0.002, 2)
+    train, test = (
+        measured(TWO, values, 0.002, 1),
+        measured(TWO, values | {"b1": 1.5 * values["b1"]}, 0.002, 2),
+    )
     found = select(train, [Chain(1, damped=True), TWO], test=train)
     candidate = next(c for c in found.candidates if c.chain == TWO)
     assert disagreements(candidate, found.task, replace(found.task.cost, measured=train)) == ()
     (flagged,) = disagreements(candidate, found.task, replace(found.task.cost, measured=test))
-    assert flagged.name == "b1" and flagged.distance > 3 and flagged.test == pytest.approx(1.5 * values["b1"], rel=0.1)
+    assert (
+        flagged.name == "b1"
+        and flagged.distance > 3
+        and flagged.test == pytest.approx(1.5 * values["b1"], rel=0.1)
+    )
 
 
 def test_errors_without_scatter_in_the_file_follow_the_noise():

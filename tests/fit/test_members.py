@@ -1,4 +1,6 @@
-"""The set of structures that data do not exclude: names that commands read, twins from the whole catalogue, the rules."""
+"""The set of structures that data do not exclude: names that commands read, twins from the
+whole catalogue, the rules.
+"""
 
 import json
 from concurrent.futures import ThreadPoolExecutor
@@ -39,7 +41,9 @@ def test_the_command_line_reads_the_names_that_a_fit_writes(n, data):
     )
     assert as_listed(chain).chain == chain
     for form in forms(chain):  # masses counted from the other end, force and sensor exchanged
-        assert chain_of(reference(form.chain), Family(1, damped=True)) in {other.chain for other in forms(chain)}
+        assert chain_of(reference(form.chain), Family(1, damped=True)) in {
+            other.chain for other in forms(chain)
+        }
 
 
 MIRRORED = Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,))
@@ -54,11 +58,16 @@ def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_lis
     train, test = (response(MIRRORED, values, noise=0.005, seed=s) for s in (1, 2))
     found = select(train, [MIRRORED], test=test)
     plain = selection_to_dict(found)
-    assert first_lines(found)[0].startswith("2:1+b2 explains") and plain["selected"]["name"] == "2:1+b2"
+    assert (
+        first_lines(found)[0].startswith("2:1+b2 explains")
+        and plain["selected"]["name"] == "2:1+b2"
+    )
     assert plain["selected"]["renamed"]["b1"] == "b2" and "m1 is m2 there" in renamed(found)
     command = commands(found)[-1].split()
     given = dict(pair.split("=") for pair in command[-1].split(","))
-    assert command[2] == "2:1+b2" and float(given["b2"]) == pytest.approx(found.described.estimate.parameters["b1"], rel=1e-5)
+    assert command[2] == "2:1+b2" and float(given["b2"]) == pytest.approx(
+        found.described.estimate.parameters["b1"], rel=1e-5
+    )
 
 
 def test_twins_come_from_the_whole_catalogue_and_behave_the_same():
@@ -86,7 +95,9 @@ def test_each_member_has_its_own_twins_in_whatever_order_workers_finish(selectio
     """The first one takes longest, so its twins come last."""
     chosen = sorted(selection.candidates, key=lambda c: -c.chain.n_masses)
     with ThreadPoolExecutor(len(chosen)) as pool:
-        among, alone = (members(chosen, selection.task, None, {}, executor) for executor in (pool, None))
+        among, alone = (
+            members(chosen, selection.task, None, {}, executor) for executor in (pool, None)
+        )
     assert among == alone and {t.chain.n_masses for t in among[0].twins} == {3}
 
 
@@ -94,18 +105,26 @@ def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
     plain = json.loads(json.dumps(selection_to_dict(selection), allow_nan=False))
     first = plain["not_excluded"][0]
     assert plain["explained"] is True and first["name"] == plain["selected"]["name"] == "3:1"
-    assert first["equivalents"][0]["name"] == "3:11" and set(first["equivalents"][0]["parameters"]) >= {"k01", "m3"}
+    assert first["equivalents"][0]["name"] == "3:11" and set(
+        first["equivalents"][0]["parameters"]
+    ) >= {"k01", "m3"}
     assert all(low < VALUES[n] < high for n, (low, high) in first["intervals"].items())
     assert "2:1" not in [m["name"] for m in plain["not_excluded"]]
 
 
 def test_five_lines_say_that_the_machine_may_as_well_be_another(selection):
-    assert any(line.startswith("if it is 3:1, it may as well be 3:11") for line in first_lines(selection))
-    assert commands(selection)[-1].startswith('disting equivalents 3:1 --damped --to "3+b*" --set m1=')
+    assert any(
+        line.startswith("if it is 3:1, it may as well be 3:11") for line in first_lines(selection)
+    )
+    assert commands(selection)[-1].startswith(
+        'disting equivalents 3:1 --damped --to "3+b*" --set m1='
+    )
 
 
 def test_a_well_determined_model_is_never_hidden_but_by_the_rule_of_the_paper(selection):
-    """Its condition index exceeds any threshold that is low enough, however little noise there is."""
+    """Its condition index exceeds any threshold that is low enough, however little noise there
+    is.
+    """
     strict = Thresholds(1.5, 1.5, 1.01)
     train = response(ROW, VALUES, noise=1e-4, seed=1)
     weighed, paper = (select(train, [ROW], thresholds=strict, rule=rule) for rule in Rule)

@@ -22,7 +22,8 @@ from disting.fit.practical import (
 )
 from tests.measurement.bench_data import measured_data
 
-# Longley 1967, J. Am. Stat. Assoc. 62, 819-841: GNP deflator, GNP, unemployment, armed forces, population, year.
+# Longley 1967, J. Am. Stat. Assoc. 62, 819-841: GNP deflator, GNP, unemployment, armed forces,
+# population, year.
 LONGLEY = np.array([
     [83.0, 234289, 2356, 1590, 107608, 1947], [88.5, 259426, 2325, 1456, 108632, 1948],
     [88.2, 258054, 3682, 1616, 109773, 1949], [89.5, 284599, 3351, 1650, 110929, 1950],
@@ -37,7 +38,9 @@ LONGLEY = np.array([
 
 def test_longley_with_a_constant():
     expected = [1, 9.1417205, 12.255735, 25.336607, 230.42395, 1048.0803, 43275.0436]
-    np.testing.assert_allclose(condition_indices(np.column_stack([np.ones(16), LONGLEY])), expected, rtol=1e-7)
+    np.testing.assert_allclose(
+        condition_indices(np.column_stack([np.ones(16), LONGLEY])), expected, rtol=1e-7
+    )
 
 
 def test_longley_without_a_constant():
@@ -46,7 +49,9 @@ def test_longley_without_a_constant():
 
 def test_belsley_consumption_function():
     matrix = np.loadtxt(measured_data("belsley1991_consumption_X.csv"), delimiter=",", skiprows=1)
-    np.testing.assert_allclose(condition_indices(matrix), [1.000, 4.143, 7.799, 39.406, 375.614], atol=1e-3)
+    np.testing.assert_allclose(
+        condition_indices(matrix), [1.000, 4.143, 7.799, 39.406, 375.614], atol=1e-3
+    )
 
 
 def test_the_examples_of_fme():
@@ -66,7 +71,9 @@ def test_scaling_of_columns_changes_neither_collinearity_nor_condition(seed, fac
 def test_subsets_are_never_more_collinear_than_the_whole():
     matrix = np.random.default_rng(1).normal(size=(9, 4))
     subsets = dict(collinearity_by_subset(matrix))
-    assert len(subsets) == 11 and max(subsets.values()) == subsets[0, 1, 2, 3] == pytest.approx(collinearity_index(matrix))
+    assert len(subsets) == 11 and max(subsets.values()) == subsets[0, 1, 2, 3] == pytest.approx(
+        collinearity_index(matrix)
+    )
 
 
 def test_the_covariance_is_that_of_linear_regression():
@@ -87,9 +94,18 @@ def test_reasons_name_criterion_value_threshold_and_parameters():
     matrix = np.random.default_rng(4).normal(size=(20, 3)) * [1.0, 1.0, 1e-5]
     matrix[:, 1] = matrix[:, 0] + 1e-3 * matrix[:, 1]
     reasons = Thresholds().reasons(practical(matrix, ["m1", "m2", "k12"], equal(1.0, 20, 3)))
-    assert [r.split(" exceeds")[0].rsplit(" ", 1)[0] for r in reasons] == ["condition index", "PII ratio", "collinearity index"]
+    assert [r.split(" exceeds")[0].rsplit(" ", 1)[0] for r in reasons] == [
+        "condition index",
+        "PII ratio",
+        "collinearity index",
+    ]
     assert "exceeds 30 (m1, m2)" in reasons[0] and "exceeds 1000 (k12)" in reasons[1]
-    assert Thresholds(np.inf, np.inf, np.inf).reasons(practical(matrix, ["m1", "m2", "k12"], equal(1.0, 20, 3))) == ()
+    assert (
+        Thresholds(np.inf, np.inf, np.inf).reasons(
+            practical(matrix, ["m1", "m2", "k12"], equal(1.0, 20, 3))
+        )
+        == ()
+    )
 
 
 @pytest.mark.parametrize("bad", [np.zeros((3, 0)), np.ones(3), np.array([[1.0, np.nan]])])
@@ -108,15 +124,24 @@ def test_what_is_infinite_is_said_by_its_parameters_not_as_a_number():
 
 def test_a_value_that_is_no_number_excludes():
     found = replace(practical(np.eye(3), ["a", "b", "c"], equal(1.0, 3, 3)), collinearity=np.nan)
-    assert [reason.split(" (")[0] for reason in Thresholds().reasons(found)] == ["collinearity index nan exceeds 20"]
+    assert [reason.split(" (")[0] for reason in Thresholds().reasons(found)] == [
+        "collinearity index nan exceeds 20"
+    ]
 
 
 def test_errors_of_results_are_those_of_the_covariance_and_infinite_across_what_is_not_determined():
-    matrix, slopes = np.random.default_rng(6).normal(size=(30, 4)), np.random.default_rng(7).normal(size=(5, 4))
+    matrix, slopes = (
+        np.random.default_rng(6).normal(size=(30, 4)),
+        np.random.default_rng(7).normal(size=(5, 4)),
+    )
     expected = np.sqrt(np.diag(slopes @ covariance(matrix, equal(3.0, 30, 4)) @ slopes.T))
-    np.testing.assert_allclose(standard_errors(slopes, matrix, equal(3.0, 30, 4), 4), expected, rtol=1e-9)
+    np.testing.assert_allclose(
+        standard_errors(slopes, matrix, equal(3.0, 30, 4), 4), expected, rtol=1e-9
+    )
     matrix[:, 3] = matrix[:, 2]  # only the sum of the last two is determined
-    both, one = standard_errors(np.array([[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 0.0]]), matrix, equal(3.0, 30, 4), 3)
+    both, one = standard_errors(
+        np.array([[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 0.0]]), matrix, equal(3.0, 30, 4), 3
+    )
     assert one == np.inf
     alone = np.sqrt(covariance(matrix[:, :3], equal(3.0, 30, 4))[2, 2])  # one column for the sum
     assert both == pytest.approx(alone, rel=1e-9)

@@ -1,4 +1,6 @@
-"""What the fit leaves out and what it says of it: positive parameters, those that are given or bounded as they are given."""
+"""What the fit leaves out and what it says of it: positive parameters, those that are given or
+bounded as they are given.
+"""
 
 import numpy as np
 import pytest
@@ -18,7 +20,9 @@ from tests.fit.drives import response
 
 
 def reversed_drive(fixed, **more):
-    """Force at mass 1, sensor at mass 2, damper at mass 2: with m1 given, the mirrored chain with b1 cannot be the same."""
+    """Force at mass 1, sensor at mass 2, damper at mass 2: with m1 given, the mirrored chain
+    with b1 cannot be the same.
+    """
     chain = Chain(2, meas_plus=2, damped=True, ground_dampers=(2,))
     values = {"m1": 0.01, "m2": 0.03, "k12": 900.0, "d12": 0.2, "b2": 0.5}
     candidates = [Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (2,))]
@@ -54,7 +58,9 @@ def test_bounds_prune_only_where_they_cut_nothing():
 
 
 def test_a_candidate_is_fitted_where_only_complex_parameters_are_known_to_agree():
-    """Two dampers to the ground for one: the same set over complex parameters; over positive ones nobody has decided it."""
+    """Two dampers to the ground for one: the same set over complex parameters; over positive
+    ones nobody has decided it.
+    """
     one, both = (Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (1, 2)))
     assert compare(one, both, query=Query(View.COMBINED)).relation is Relation.INDISTINGUISHABLE
     assert representatives([one, both], Engine(), {}) == {one: one, both: both}
@@ -63,7 +69,9 @@ def test_a_candidate_is_fitted_where_only_complex_parameters_are_known_to_agree(
 
 
 def test_what_the_drives_share_does_not_keep_them_apart():
-    """A lag and a dead time that both have are factors of their own: equivalents inherit T1 and Td, given or not."""
+    """A lag and a dead time that both have are factors of their own: equivalents inherit T1 and
+    Td, given or not.
+    """
     pair = [
         Chain(2, damped=True, lag=True, dead_time=True),
         Chain(2, 1, 1, 2, 1, 2, damped=True, lag=True, dead_time=True),
@@ -80,7 +88,9 @@ def test_a_candidate_with_nothing_left_to_estimate_is_evaluated():
     found = select(train, candidates, test=test, fixed={"m1": 0.0045})
     given = next(c for c in found.candidates if c.chain == Chain(1, damped=True))
     exact = np.array([0.0045])
-    assert given.j_train == pytest.approx(float(found.task.cost.total(found.task.plant(given.chain).response(exact))))
+    assert given.j_train == pytest.approx(
+        float(found.task.cost.total(found.task.plant(given.chain).response(exact)))
+    )
     assert (given.n_parameters, given.standard_errors, given.admissible) == (0, {}, True)
     assert found.selected.chain == Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
 
@@ -93,11 +103,15 @@ def test_a_selection_of_given_values_alone():
     (inertia,) = [r for r in physical(found.selected, found.task) if r.name == "total inertia"]
     assert (inertia.value, inertia.standard_error) == (2.0, 0.0)
     figures = fit_figures(found, physical(found.selected, found.task), train)
-    assert len(figures) > 3 and "2" in fit_page(found, physical(found.selected, found.task), figures, train)
+    assert len(figures) > 3 and "2" in fit_page(
+        found, physical(found.selected, found.task), figures, train
+    )
 
 
 def test_what_is_given_does_not_count_as_determined():
-    """A dead time that is given leaves four parameters for the three combinations that the rest determines."""
+    """A dead time that is given leaves four parameters for the three combinations that the rest
+    determines.
+    """
     chain = Chain(2, meas_plus=2, damped=True, dead_time=True)
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "Td": 1e-3}
     (found,) = select(response(chain, values, noise=0.01), [chain], fixed={"Td": 1e-3}).candidates

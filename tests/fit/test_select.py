@@ -1,4 +1,6 @@
-"""Selection: what is planted is selected, excluded candidates say why, indistinguishable ones are fitted once and named."""
+"""Selection: what is planted is selected, excluded candidates say why, indistinguishable ones
+are fitted once and named.
+"""
 
 import json
 from dataclasses import replace
@@ -35,7 +37,9 @@ def selection():
 
 def test_the_planted_structure_is_selected(selection):
     found = selection.selected
-    assert found.chain == PLANTED and found.n_parameters == 6 and selection.validation == "test data"
+    assert (
+        found.chain == PLANTED and found.n_parameters == 6 and selection.validation == "test data"
+    )
     for name, value in VALUES.items():
         assert abs(found.estimate.parameters[name] - value) < 4 * found.standard_errors[name]
     assert found.standard_errors["m1"] < 0.01
@@ -59,37 +63,61 @@ def test_a_simpler_candidate_wins_unless_it_loses_by_more_than_noise(selection):
 def test_the_json_reads_back_bit_equal(selection):
     plain = json.loads(json.dumps(selection_to_dict(selection)))
     assert model_from_dict(plain["selected"]) == (PLANTED, selection.selected.estimate.parameters)
-    contract = {"n_masses", "ground_dampers", "lag", "delay", "n_parameters", "parameters", "standard_errors", "j_train"}
+    contract = {
+        "n_masses",
+        "ground_dampers",
+        "lag",
+        "delay",
+        "n_parameters",
+        "parameters",
+        "standard_errors",
+        "j_train",
+    }
     contract |= {"j_test", "pii_ratio", "collinearity", "condition_index"}
-    assert contract <= set(plain["selected"]) and contract | {"admissible", "reasons"} <= set(plain["candidates"][0])
+    assert contract <= set(plain["selected"]) and contract | {"admissible", "reasons"} <= set(
+        plain["candidates"][0]
+    )
     assert plain["alternatives"] == []
     with pytest.raises(InputError, match="no fitted model"):
         model_from_dict({"n_masses": 2})
 
 
 def test_the_same_seed_gives_the_same_bytes(selection):
-    """All of it for fewer candidates; of the candidates of `selection`, what each fit found, in another company."""
+    """All of it for fewer candidates; of the candidates of `selection`, what each fit found, in
+    another company.
+    """
     few = [c for c in figure_1((1, 2)) if not c.lag and len(c.ground_dampers) < 2]
     once, again = (select(planted(1), few, test=planted(2)) for _ in range(2))
     assert json.dumps(selection_to_dict(once)) == json.dumps(selection_to_dict(again))
     found = {c.chain: c.estimate.parameters for c in selection.candidates}
-    assert once.selected.chain == PLANTED and once.selected.estimate.parameters == pytest.approx(found[PLANTED])
+    assert once.selected.chain == PLANTED and once.selected.estimate.parameters == pytest.approx(
+        found[PLANTED]
+    )
 
 
 def test_physical_results_carry_their_errors(selection):
     results = {r.name: r for r in physical(selection.selected, selection.task)}
-    assert results["total inertia"].value == pytest.approx(1.6, abs=4 * results["total inertia"].standard_error)
+    assert results["total inertia"].value == pytest.approx(
+        1.6, abs=4 * results["total inertia"].standard_error
+    )
     antiresonance, resonance = results["antiresonance 1"], results["resonance 1"]
-    exact = [oscillating(r(PLANTED.structure, np.array(list(VALUES.values()))))[0] for r in (zeros, poles)]
+    exact = [
+        oscillating(r(PLANTED.structure, np.array(list(VALUES.values()))))[0]
+        for r in (zeros, poles)
+    ]
     for found, root in zip((antiresonance, resonance), exact, strict=True):
         assert abs(found.value - abs(root) / 2 / np.pi) < 4 * found.standard_error < 0.2
-    assert results["dead time"].standard_error < 1e-5 and results["stiffness k12"].standard_error > 0
+    assert (
+        results["dead time"].standard_error < 1e-5 and results["stiffness k12"].standard_error > 0
+    )
 
 
 def test_sweeps_count_what_each_criterion_allows(selection):
     for criterion in CRITERIA:
         found = sweep(selection.candidates, criterion)
-        assert list(found.fulfilling) == sorted(found.fulfilling) and found.thresholds[[0, -1]] == pytest.approx([1, 1e4])
+        assert list(found.fulfilling) == sorted(found.fulfilling) and found.thresholds[
+            [0, -1]
+        ] == pytest.approx([1, 1e4])
         values = [getattr(c.practical, criterion) for c in selection.candidates]
         assert found.fulfilling[-1] == sum(v <= 1e4 for v in values)
     with pytest.raises(InputError, match="the criteria are"):
@@ -100,8 +128,11 @@ def test_a_profile_rises_on_both_sides(selection):
     found = profile(selection.selected, selection.task, "k12")
     middle = len(found.values) // 2
     assert found.values[middle] == pytest.approx(selection.selected.estimate.parameters["k12"])
-    assert np.all(np.diff(found.costs[middle:]) > 0) and np.all(np.diff(found.costs[: middle + 1]) < 0)
-    # Three standard errors raise J by about 9 times the mean square of the residuals, as in a linear problem.
+    assert np.all(np.diff(found.costs[middle:]) > 0) and np.all(
+        np.diff(found.costs[: middle + 1]) < 0
+    )
+    # Three standard errors raise J by about 9 times the mean square of the residuals, as in a
+    # linear problem.
     expected = 9 * selection.selected.j_train / (2 * OMEGA.size - 6)
     assert found.costs[-1] - found.costs[middle] == pytest.approx(expected, rel=0.5)
     with pytest.raises(InputError, match="m9 is no fitted parameter"):
@@ -115,21 +146,49 @@ def test_without_test_data_lines_are_left_out_in_turn():
 
 
 def test_nothing_is_selected_where_no_candidate_is_admissible():
-    found = select(planted(1), figure_1((1,)), test=planted(2), thresholds=Thresholds(0.5, 0.5, 0.5), rule=Rule.PAPER)
-    assert found.selected is None and found.alternatives == () and selection_to_dict(found)["selected"] is None
+    found = select(
+        planted(1),
+        figure_1((1,)),
+        test=planted(2),
+        thresholds=Thresholds(0.5, 0.5, 0.5),
+        rule=Rule.PAPER,
+    )
+    assert (
+        found.selected is None
+        and found.alternatives == ()
+        and selection_to_dict(found)["selected"] is None
+    )
 
 
 def test_indistinguishable_candidates_are_fitted_once_and_named():
-    """Force and sensor at the two ends: reciprocity mirrors the chain, so a ground damper may sit at either end."""
+    """Force and sensor at the two ends: reciprocity mirrors the chain, so a ground damper may
+    sit at either end.
+    """
     ends = Chain(2, meas_plus=2, damped=True)
     candidates = [c for c in variants(ends) if not c.lag and not c.dead_time]
-    measured = response(Chain(2, meas_plus=2, damped=True, ground_dampers=(1,)), VALUES | {"b1": 20.0}, noise=0.01)
+    measured = response(
+        Chain(2, meas_plus=2, damped=True, ground_dampers=(1,)), VALUES | {"b1": 20.0}, noise=0.01
+    )
     wide = Thresholds(100.0, 1000.0, 50.0)
-    pruned, whole = (select(measured, candidates, test=measured, thresholds=wide, prune=prune) for prune in (True, False))
-    first, second, third = (Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (2,), (1, 2)))
-    assert pruned.saved == 1 and pruned.same_as[second] == first and third not in pruned.same_as and whole.saved == 0
+    pruned, whole = (
+        select(measured, candidates, test=measured, thresholds=wide, prune=prune)
+        for prune in (True, False)
+    )
+    first, second, third = (
+        Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (2,), (1, 2))
+    )
+    assert (
+        pruned.saved == 1
+        and pruned.same_as[second] == first
+        and third not in pruned.same_as
+        and whole.saved == 0
+    )
     costs = {c.chain: c.j_train for c in whole.candidates}
-    assert costs[first] == pytest.approx(costs[second], rel=1e-6) == pytest.approx(costs[third], rel=1e-6)
+    assert (
+        costs[first]
+        == pytest.approx(costs[second], rel=1e-6)
+        == pytest.approx(costs[third], rel=1e-6)
+    )
     assert pruned.selected.chain == first
     said = [(a.chain, a.relation) for a in pruned.alternatives]
     assert said == [(second, Relation.INDISTINGUISHABLE), (third, Relation.UNDECIDED)]
@@ -143,13 +202,25 @@ def test_what_no_data_determine_is_said_by_its_combinations_and_never_selected()
     found = select(data, [chain, replace(chain, ground_dampers=(1,))], test=data, thresholds=loose)
     (plain,) = (c for c in found.candidates if c.chain == chain)
     said = "not identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
-    assert plain.reasons == (said,) and plain.practical.unidentifiable == said and plain.practical.rank == 3
+    assert (
+        plain.reasons == (said,)
+        and plain.practical.unidentifiable == said
+        and plain.practical.rank == 3
+    )
     assert found.selected is None or found.selected.chain != chain
     rows = json.loads(json.dumps(selection_to_dict(found), allow_nan=False))["candidates"]
     row = next(r for r in rows if not r["ground_dampers"])
-    assert (row["unidentifiable"], row["condition_index"], row["collinearity"]) == (said, None, None)
+    assert (row["unidentifiable"], row["condition_index"], row["collinearity"]) == (
+        said,
+        None,
+        None,
+    )
     errors = {r.name: r.standard_error / r.value for r in physical(plain, found.task)}
-    assert errors["total inertia"] < 0.01 and errors["stiffness k12"] == np.inf and errors["resonance 1"] < 0.01
+    assert (
+        errors["total inertia"] < 0.01
+        and errors["stiffness k12"] == np.inf
+        and errors["resonance 1"] < 0.01
+    )
 
 
 def test_known_parameters_make_it_identifiable():
@@ -166,9 +237,15 @@ def test_a_reversed_sensor_is_found():
 
 
 def test_a_parameter_at_its_bound_excludes_and_a_fixed_one_does_not_count():
-    found = select(planted(1), [PLANTED], test=planted(2), bounds={"k12": (0.0, 2e4)}, fixed={"Td": 4e-4})
+    found = select(
+        planted(1), [PLANTED], test=planted(2), bounds={"k12": (0.0, 2e4)}, fixed={"Td": 4e-4}
+    )
     (candidate,) = found.candidates
-    assert candidate.at_bound == ("k12",) and "k12 is at its bound" in candidate.reasons and candidate.n_parameters == 5
+    assert (
+        candidate.at_bound == ("k12",)
+        and "k12 is at its bound" in candidate.reasons
+        and candidate.n_parameters == 5
+    )
 
 
 def test_input_that_does_not_fit_together_is_refused():
@@ -197,9 +274,18 @@ def test_the_bench_is_a_two_mass_drive_and_predicts_the_load_that_it_never_saw()
     chosen = found.selected
     assert chosen.chain.n_masses == 2
     results = {r.name: r for r in physical(chosen, found.task)}
-    assert 52.0 < results["antiresonance 1"].value < 56.0 and 75.0 < results["resonance 1"].value < 79.0
+    assert (
+        52.0 < results["antiresonance 1"].value < 56.0
+        and 75.0 < results["resonance 1"].value < 79.0
+    )
     load = bench("A", "load")
-    chain = Chain(2, meas_plus=2, damped=True, ground_dampers=chosen.chain.ground_dampers, dead_time=chosen.chain.dead_time)
+    chain = Chain(
+        2,
+        meas_plus=2,
+        damped=True,
+        ground_dampers=chosen.chain.ground_dampers,
+        dead_time=chosen.chain.dead_time,
+    )
     seen = predicted(chain, chosen.estimate.parameters, load.omega)
     band = load.omega < 2 * np.pi * 150
     assert np.median(np.abs(np.log(np.abs(seen / load.G))[band])) < 0.1

@@ -1,4 +1,6 @@
-"""The sign of a sensor: found by more than one model, the same in training and test; and what ports mean with one mass."""
+"""The sign of a sensor: found by more than one model, the same in training and test; and what
+ports mean with one mass.
+"""
 
 from dataclasses import replace
 
@@ -15,7 +17,8 @@ from tests.measurement.bench_data import measured_data
 
 ONE, TWO = Chain(1, damped=True), Chain(2, 0, 0, 1, 0, 2, damped=True)
 VALUES = {"m1": 1.0, "m2": 0.5, "k12": 2e4, "d12": 3.0}
-ABOVE = 2 * np.pi * np.geomspace(20.0, 200.0, 60)  # most lines above the resonance at 39 Hz, where the load moves against
+# most lines above the resonance at 39 Hz, where the load moves against
+ABOVE = 2 * np.pi * np.geomspace(20.0, 200.0, 60)
 
 
 def load(sign=1, noise=0.01, seed=0, omega=ABOVE):
@@ -29,7 +32,8 @@ def test_the_smallest_candidate_alone_would_take_the_wrong_sign(sign):
     both = select(measured, [ONE, TWO], test=again, sign=0)
     assert alone.task.sign == -sign and both.task.sign == sign
     found = both.candidates[0].estimate.parameters
-    # No data determine more of this chain than m1 + m2, k12/d12 and k12/(m1 m2): a stiffness alone may come out anywhere.
+    # No data determine more of this chain than m1 + m2, k12/d12 and k12/(m1 m2): a stiffness alone
+    # may come out anywhere.
     assert found["k12"] / (found["m1"] * found["m2"]) == pytest.approx(4e4, rel=0.02)
     assert found["m1"] + found["m2"] == pytest.approx(1.5, rel=0.02)
 
@@ -39,7 +43,8 @@ def test_training_and_test_of_opposite_sign_are_refused():
         select(load(), [TWO], test=load(-1, seed=1))
     assert are_opposite(load(), load(-1, seed=1, omega=ABOVE * 1.003))
     assert not are_opposite(load(), load(seed=1, noise=0.5))
-    assert not are_opposite(load(), load(-1, omega=ABOVE + 10 * ABOVE[-1]))  # no shared frequencies, nothing known
+    # no shared frequencies, nothing known
+    assert not are_opposite(load(), load(-1, omega=ABOVE + 10 * ABOVE[-1]))
 
 
 def test_sensor_last_is_not_the_driven_mass():
@@ -53,6 +58,8 @@ def test_sensor_last_is_not_the_driven_mass():
 def test_the_two_experiments_of_the_bench_have_one_sign():
     from disting.measurement import read
 
-    one, other = (read(measured_data(f"fditools_motorbench_frf_{x}.csv"), column="ReG_load") for x in "AB")
+    one, other = (
+        read(measured_data(f"fditools_motorbench_frf_{x}.csv"), column="ReG_load") for x in "AB"
+    )
     assert not are_opposite(one, other) and are_opposite(one, other.sign_reversed())
     assert not are_opposite(one, replace(other, G=other.G * np.exp(0.8j)))

@@ -16,15 +16,25 @@ OMEGA = 2 * np.pi * np.geomspace(2.0, 200.0, 240)
 
 
 def drive(n, source):
-    """A random chain of n masses and its parameters: inertias over a decade, resonances in the band, little damping."""
+    """A random chain of n masses and its parameters: inertias over a decade, resonances in the
+    band, little damping.
+    """
     dampers = tuple(i for i in range(1, n + 1) if source.random() < 0.4)
-    chain = Chain(n, damped=True, ground_dampers=dampers, lag=source.random() < 0.3, dead_time=source.random() < 0.5)
+    chain = Chain(
+        n,
+        damped=True,
+        ground_dampers=dampers,
+        lag=source.random() < 0.3,
+        dead_time=source.random() < 0.5,
+    )
 
     def between(low, high):
         return float(np.exp(source.uniform(np.log(low), np.log(high))))
 
     masses = [between(0.1, 1.0) for _ in range(n)]
-    values = {f"m{i}": m for i, m in enumerate(masses, 1)} | {f"b{i}": between(0.3, 10.0) * m for i, m in enumerate(masses, 1)}
+    values = {f"m{i}": m for i, m in enumerate(masses, 1)} | {
+        f"b{i}": between(0.3, 10.0) * m for i, m in enumerate(masses, 1)
+    }
     for i, (left, right) in enumerate(pairwise(masses), 1):
         omega = 2 * np.pi * between(8.0, 120.0)
         values[f"k{i}{i + 1}"] = left * right / (left + right) * omega**2
@@ -49,7 +59,9 @@ def test_the_cost_of_the_truth_is_always_reached(n):
 
 
 def test_a_mode_that_hardly_shows_is_found():
-    """Drive 36 of four masses: its third pole lies a thousandth beside a zero, and all other starts end 4 % above the truth."""
+    """Drive 36 of four masses: its third pole lies a thousandth beside a zero, and all other
+    starts end 4 % above the truth.
+    """
     source = np.random.default_rng(4)
     for _ in range(37):
         chain, p = drive(4, source)

@@ -23,4 +23,6 @@ def test_the_box_holds_natural_sizes_and_the_bounds_of_the_user():
     chain = Chain(2, damped=True)
     task = Task(Cost(response(chain, truth(chain, 1))), bounds={"k12": (10.0, 20.0)})
     low, high = search_box(chain, task)
-    assert all(low < high) and low[2] == pytest.approx(2.302585) and high[2] == pytest.approx(2.995732)
+    assert (
+        all(low < high) and low[2] == pytest.approx(2.302585) and high[2] == pytest.approx(2.995732)
+    )

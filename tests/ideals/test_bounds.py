@@ -15,7 +15,11 @@ def test_bounds_shrink_with_size_and_grow_with_the_prime():
     members = [safety_of_member(*ends(n)) for n in (2, 3, 4, 5)]
     assert empties == sorted(empties, reverse=True) and empties[-1] > 0
     assert members == sorted(members, reverse=True) and members[-1] > 0
-    assert safety_of_empty(*ends(3), True, 31) < safety_of_empty(*ends(3), True, 61) < safety_of_empty(*ends(3), True)
+    assert (
+        safety_of_empty(*ends(3), True, 31)
+        < safety_of_empty(*ends(3), True, 61)
+        < safety_of_empty(*ends(3), True)
+    )
 
 
 def test_small_primes_give_no_bound_for_large_models():

@@ -22,7 +22,10 @@ def computed(generators, size, modulus=P):
 
 def leading_by_sympy(generators, size, modulus=P):
     xs = sympy.symbols(f"x0:{size}")
-    written = [sum(c * sympy.prod(x**e for x, e in zip(xs, m, strict=True)) for m, c in g.items()) for g in generators]
+    written = [
+        sum(c * sympy.prod(x**e for x, e in zip(xs, m, strict=True)) for m, c in g.items())
+        for g in generators
+    ]
     basis = sympy.groebner(written, *xs, order="grevlex", modulus=modulus)
     return {p.monoms(order="grevlex")[0] for p in basis.polys}
 
@@ -36,10 +39,15 @@ def polynomials(size):
 @settings(max_examples=60, deadline=None)
 def test_leading_monomials_are_those_of_sympy(generators):
     basis = computed(generators, 3)
-    assert {basis.order.decode(row.codes[0]) for row in basis.rows} == leading_by_sympy(generators, 3)
+    assert {basis.order.decode(row.codes[0]) for row in basis.rows} == leading_by_sympy(
+        generators, 3
+    )
 
 
-@given(st.lists(polynomials(2), min_size=2, max_size=4), st.tuples(st.integers(1, 99), st.integers(1, 99)))
+@given(
+    st.lists(polynomials(2), min_size=2, max_size=4),
+    st.tuples(st.integers(1, 99), st.integers(1, 99)),
+)
 @settings(max_examples=60, deadline=None)
 def test_a_planted_solution_is_found(generators, planted):
     def at(polynomial, q):
@@ -94,7 +102,10 @@ def test_order_is_degrevlex():
     order = Order(3)
     expected = sorted(monomials, key=sympy.polys.orderings.grevlex)
     assert sorted(monomials, key=order.encode) == expected
-    assert all(order.decode(order.encode(m)) == m and order.degree(order.encode(m)) == sum(m) for m in monomials)
+    assert all(
+        order.decode(order.encode(m)) == m and order.degree(order.encode(m)) == sum(m)
+        for m in monomials
+    )
     assert order.encode((1, 2, 0)) + order.encode((0, 1, 1)) == order.encode((1, 3, 1))
     assert order.divides(order.encode((1, 0, 2)), order.encode((1, 1, 2)))
     assert not order.divides(order.encode((0, 2, 0)), order.encode((2, 1, 2)))

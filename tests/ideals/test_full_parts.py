@@ -1,4 +1,6 @@
-"""Parts that can have any receptance: against SymPy's ranks, and against what the other methods decide."""
+"""Parts that can have any receptance: against SymPy's ranks, and against what the other methods
+decide.
+"""
 
 from dataclasses import replace
 from itertools import combinations
@@ -27,10 +29,19 @@ def rank_and_coefficients(dampers: tuple[int, ...], at: int) -> tuple[int, int]:
     own = [b for number, b in ((1, b1), (2, b2)) if number in dampers]
     friction = sympy.diag(*(b if b in own else 0 for b in (b1, b2)))
     joints = [k1 + d1 * s, k2 + d2 * s]
-    motion = sympy.Matrix([[m1 * s**2 + joints[0] + joints[1], -joints[1]], [-joints[1], m2 * s**2 + joints[1]]]) + s * friction
+    motion = (
+        sympy.Matrix(
+            [[m1 * s**2 + joints[0] + joints[1], -joints[1]], [-joints[1], m2 * s**2 + joints[1]]]
+        )
+        + s * friction
+    )
     numerator, denominator = motion.cofactor(at - 1, at - 1), motion.det()
     lead = m1 * m2
-    coefficients = [c / lead for p in (numerator, denominator) for c in sympy.Poly(sympy.expand(p), s).all_coeffs()]
+    coefficients = [
+        c / lead
+        for p in (numerator, denominator)
+        for c in sympy.Poly(sympy.expand(p), s).all_coeffs()
+    ]
     coefficients.remove(1)
     names = [m1, m2, k1, k2, d1, d2, *own]
     point = dict(zip(names, map(sympy.Rational, (3, 5, 7, 11, 13, 17, 19, 23)), strict=False))
@@ -49,9 +60,10 @@ def test_what_it_says():
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(2,)) for at in (1, 2))
     evidence = found(a, b)
     assert evidence == FullParts((7, 0))
-    assert evidence.sentence("A", "B") == (
-        "In A and B both grounded parts have as many determinable parameters as coefficients (7) and the free parts are equal, "
-        "so each can have the parts of the other."
+    assert (
+        evidence.sentence("A", "B")
+        == "In A and B both grounded parts have as many determinable parameters as coefficients (7)"
+        " and the free parts are equal, so each can have the parts of the other."
     )
     assert evidence.formula == "N_R = 7 = |Φ_R|"
 
@@ -83,7 +95,11 @@ def test_it_speaks_of_chains_with_one_gap():
 @pytest.mark.parametrize("damped", [False, True])
 def test_ideals_say_the_same_of_three_masses(damped):
     chains = [replace(c, ground_dampers=s) for c in Family(3, damped) for s in DamperSets.ALL.of(3)]
-    proven = [(a, b) for a, b in combinations(chains, 2) if a.gap and a.indices != b.indices and found(a, b)]
+    proven = [
+        (a, b)
+        for a, b in combinations(chains, 2)
+        if a.gap and a.indices != b.indices and found(a, b)
+    ]
     assert len(proven) > 10
     said = [by_ideals(a, b, Settings(), LIMITS).outcome for a, b in proven]
     assert Outcome.FAILS not in said

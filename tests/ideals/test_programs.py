@@ -12,7 +12,8 @@ from tests.oracles.rational import Emptiness, fibre_over_rationals
 
 LONG = 600  # seconds: never the reason of an answer, however busy the machine is
 POINT = [3, 7, 2, 5, 11, 13, 4]
-CASES = [(6, Emptiness.EMPTY), (11, Emptiness.NOT_EMPTY)]  # model 1 of three damped masses searched in them
+# model 1 of three damped masses searched in them
+CASES = [(6, Emptiness.EMPTY), (11, Emptiness.NOT_EMPTY)]
 
 
 def pair(number):
@@ -41,7 +42,10 @@ def test_programs_where_installed(program, number, expected):
 
 def test_what_is_not_installed_is_said(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
-    assert [(name, version) for name, version, _ in installed()] == [("msolve", ""), ("Singular", "")]
+    assert [(name, version) for name, version, _ in installed()] == [
+        ("msolve", ""),
+        ("Singular", ""),
+    ]
     found = emptiness(MSOLVE, fibre_ideal(*pair(6), "test", True, 31), 5)
     assert found == (Emptiness.UNKNOWN, "msolve is not installed")
 

@@ -1,4 +1,6 @@
-"""Bounds of algebraic relations against relations that plain SymPy finds, and against known ones."""
+"""Bounds of algebraic relations against relations that plain SymPy finds, and against known
+ones.
+"""
 
 from math import log2
 
@@ -59,9 +61,13 @@ def test_relations_of_two_polynomials_in_one_variable(p, q):
     ids=str,
 )
 def test_relations_of_three_polynomials_in_two_variables(polynomials):
-    """By elimination; the second and the last ones have infinitely many common zeros at infinity."""
+    """By elimination; the second and the last ones have infinitely many common zeros at
+    infinity.
+    """
     names = (A, B, C)
-    basis = sp.groebner([n - q for n, q in zip(names, polynomials, strict=True)], X, Y, *names, order="lex")
+    basis = sp.groebner(
+        [n - q for n, q in zip(names, polynomials, strict=True)], X, Y, *names, order="lex"
+    )
     found = [g for g in basis.exprs if not g.free_symbols & {X, Y}]
     assert len(found) == 1
     check(sp.primitive(found[0])[1], polynomials, (X, Y), names)
@@ -71,7 +77,10 @@ def test_constants_are_allowed():
     check(A - 5, (sp.Integer(5), X), (X,), (A, B))
 
 
-@given(st.lists(st.builds(Bounded, st.integers(1, 6), st.floats(0, 40)), min_size=2, max_size=12), st.integers(0, 11))
+@given(
+    st.lists(st.builds(Bounded, st.integers(1, 6), st.floats(0, 40)), min_size=2, max_size=12),
+    st.integers(0, 11),
+)
 def test_larger_degrees_and_norms_give_larger_bounds(polynomials, at):
     """So that bounds of degrees and norms serve for polynomials that are smaller."""
     at %= len(polynomials)

@@ -1,4 +1,6 @@
-"""Rows told apart by sharing out the numerator's roots: against plain SymPy, against models that are known to be the same."""
+"""Rows told apart by sharing out the numerator's roots: against plain SymPy, against models
+that are known to be the same.
+"""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -28,7 +30,9 @@ def model(name):
     """A chain by its name, such as 5:59+b2."""
     head, *dampers = name.split("+")
     n, number = map(int, head.split(":"))
-    return canonical(replace(Family(n, damped=True)[number], ground_dampers=tuple(int(b[1:]) for b in dampers))).chain
+    return canonical(
+        replace(Family(n, damped=True)[number], ground_dampers=tuple(int(b[1:]) for b in dampers))
+    ).chain
 
 
 def physical(structure, span, numbers):
@@ -71,7 +75,9 @@ def unknown(kind, i, found, ports):
     return (damper + (found.get(("b", i + 1), 0) if left is None else 0)) / near
 
 
-@pytest.mark.parametrize("name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"])
+@pytest.mark.parametrize(
+    "name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"]
+)
 def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name):
     structure = model(name).structure
     numbers = [sympy.Rational(x, 7) for x in residues(name, len(structure.elements), 97)]
@@ -107,8 +113,15 @@ def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
         found = [[int(z) for z, _ in f.roots()] for f in (at.left, at.right)]
         if [len(f) for f in found] == [2, 2]:
             break
-    types = [*((z, "joint") for z in at.joints), *((z, kind) for kind, f in zip("lr", found, strict=True) for z in f)]
-    own = [s for s in shares_by_type(types, 1, 2) if s.joints == at.joints and set(s.left) == set(found[0])]
+    types = [
+        *((z, "joint") for z in at.joints),
+        *((z, kind) for kind, f in zip("lr", found, strict=True) for z in f),
+    ]
+    own = [
+        s
+        for s in shares_by_type(types, 1, 2)
+        if s.joints == at.joints and set(s.left) == set(found[0])
+    ]
     assert len(own) == 1
     count, equations = shared_fibre(at, row, own[0], modulus)
     assert 0 < count < len(row.parameters)
@@ -126,7 +139,9 @@ def test_models_that_are_the_same_are_never_told_apart():
     assert tried == 58
 
 
-@pytest.mark.parametrize(("left", "right"), [("4:2+b1", "4:2+b2"), ("4:3+b1", "4:3+b2"), ("4:6+b1+b2", "4:2+b3+b4")])
+@pytest.mark.parametrize(
+    ("left", "right"), [("4:2+b1", "4:2+b2"), ("4:3+b1", "4:3+b2"), ("4:6+b1+b2", "4:2+b3+b4")]
+)
 def test_models_that_the_shipped_classes_tell_apart_are(left, right):
     a, b = model(left), model(right)
     told = chains_told_apart(a.structure, b.structure, "apart")
@@ -135,7 +150,9 @@ def test_models_that_the_shipped_classes_tell_apart_are(left, right):
     assert told[0].shares > 1
 
 
-@pytest.mark.parametrize(("left", "right"), [("5:59+b2", "5:59+b3"), ("5:15+b2", "5:15+b3"), ("5:60+b5", "5:65+b5")])
+@pytest.mark.parametrize(
+    ("left", "right"), [("5:59+b2", "5:59+b3"), ("5:15+b2", "5:15+b3"), ("5:60+b5", "5:65+b5")]
+)
 def test_five_masses_that_were_left_open_are_decided_by_the_part_that_differs(left, right):
     a, b = model(left), model(right)
     found = exact_finding(a, b, Settings())

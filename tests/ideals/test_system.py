@@ -39,8 +39,13 @@ def value(polynomial: fmpz_mpoly, values: dict[str, Fraction]) -> Fraction:
     return total
 
 
-def monic(model: CoefficientMap, values: dict[str, Fraction]) -> tuple[list[Fraction], list[Fraction]]:
-    num, den = ([value(p, values) for p in polynomials] for polynomials in (model.numerator, model.denominator))
+def monic(
+    model: CoefficientMap, values: dict[str, Fraction]
+) -> tuple[list[Fraction], list[Fraction]]:
+    num, den = (
+        [value(p, values) for p in polynomials]
+        for polynomials in (model.numerator, model.denominator)
+    )
     return [b / den[-1] for b in num], [a / den[-1] for a in den]
 
 
@@ -64,7 +69,9 @@ def in_quotients(chain: Chain, p: dict[str, Fraction]) -> dict[str, Fraction]:
 @given(chains(), st.randoms(use_true_random=False))
 @settings(max_examples=60, deadline=None)
 def test_normalised_is_the_same_transfer_function(chain, random):
-    values = {name: Fraction(random.randint(1, 50), random.randint(1, 50)) for name in chain.parameters}
+    values = {
+        name: Fraction(random.randint(1, 50), random.randint(1, 50)) for name in chain.parameters
+    }
     plain, quotients = coefficient_map(chain.structure), normalised(chain.structure)
     assert monic(quotients, in_quotients(chain, values)) == monic(plain, values)
 
@@ -75,7 +82,12 @@ def test_normalised_is_monic_linear_in_each_unknown_and_no_larger(chain):
     model = normalised(chain.structure)
     assert model.is_monic
     joints = [i for i, name in enumerate(model.parameters) if name[0] != "g"]
-    assert all(e[i] <= 1 for terms in model.coordinates[model.degrees[0] + 1 :] for e, _ in terms for i in joints)
+    assert all(
+        e[i] <= 1
+        for terms in model.coordinates[model.degrees[0] + 1 :]
+        for e, _ in terms
+        for i in joints
+    )
     assert len(model.parameters) == len(chain.parameters)
 
 
@@ -85,7 +97,10 @@ def test_a_worked_example():
     matrix = sympy.Matrix([[m1 * s**2 + stiff, -stiff], [-stiff, m2 * s**2 + stiff]])
     expected = sympy.cancel(s**2 * matrix.inv()[0, 0])
     model = coefficient_map(Chain(2, damped=True).structure)
-    num, den = (sum(sympy.sympify(str(c)) * s**i for i, c in enumerate(part)) for part in (model.numerator, model.denominator))
+    num, den = (
+        sum(sympy.sympify(str(c)) * s**i for i, c in enumerate(part))
+        for part in (model.numerator, model.denominator)
+    )
     assert sympy.simplify(num / den - expected) == 0
 
 
@@ -117,4 +132,8 @@ def test_a_shorter_numerator_is_compared_with_zeros():
 def test_the_scale_makes_functions_comparable():
     x, y = symbols(["x", "y"]).values()
     model = CoefficientMap(("x", "y"), (x,), (x**0, y)).with_scale()
-    assert [str(p) for p in (*model.numerator, *model.denominator)] == ["x*scale", "scale", "y*scale"]
+    assert [str(p) for p in (*model.numerator, *model.denominator)] == [
+        "x*scale",
+        "scale",
+        "y*scale",
+    ]

@@ -1,4 +1,6 @@
-"""Identifiability in plain SymPy: solutions counted by a Groebner basis, kernels of symbolic Jacobians."""
+"""Identifiability in plain SymPy: solutions counted by a Groebner basis, kernels of symbolic
+Jacobians.
+"""
 
 import random
 
@@ -11,10 +13,15 @@ PRIME = 32003
 
 
 def solutions(chain, modulus=PRIME, seed=1):
-    """Number of non-zero parameter vectors, with multiplicities, over the closure of GF(modulus) (0: of the rationals) that
-    have the transfer function of a random point; None if there are infinitely many."""
+    """Number of non-zero parameter vectors, with multiplicities, over the closure of GF(modulus)
+    (0: of the rationals) that have the transfer function of a random point; None if there are
+    infinitely many.
+    """
     draw = random.Random(seed)
-    point = {name: draw.randrange(1, modulus) if modulus else draw.randrange(2, 9) for name in chain.parameters}
+    point = {
+        name: draw.randrange(1, modulus) if modulus else draw.randrange(2, 9)
+        for name in chain.parameters
+    }
     names, inverse = symbols(chain.parameters), Symbol("inverse")
     equations = [_equation(entry, point, modulus) for entry in summary(chain).entries]
     system = [*(e for e in equations if e != 0), prod(names) * inverse - 1]
@@ -42,14 +49,18 @@ def _below(leading, size):
         here = waiting.pop()
         for i in range(size):
             there = tuple(e + (i == j) for j, e in enumerate(here))
-            if there not in seen and not any(all(a >= b for a, b in zip(there, m, strict=True)) for m in leading):
+            if there not in seen and not any(
+                all(a >= b for a, b in zip(there, m, strict=True)) for m in leading
+            ):
                 seen.add(there)
                 waiting.append(there)
     return len(seen)
 
 
 def symbolic_kernel(chain):
-    """Field of fractions of the parameters, and the kernel of the Jacobian over it: one row a vector."""
+    """Field of fractions of the parameters, and the kernel of the Jacobian over it: one row a
+    vector.
+    """
     entries = summary(chain).entries
     field = entries[0].field
     rows = [[entry.diff(x) for x in field.gens] for entry in entries]
@@ -58,6 +69,11 @@ def symbolic_kernel(chain):
 
 def derivative_along(field, kernel, text):
     """Derivatives of a formula along all kernel vectors."""
-    function = field.from_expr(sympify(text.replace("^", "**"), locals={str(s): s for s in field.symbols}))
+    function = field.from_expr(
+        sympify(text.replace("^", "**"), locals={str(s): s for s in field.symbols})
+    )
     gradient = [function.diff(x) for x in field.gens]
-    return [sum((g * v for g, v in zip(gradient, vector, strict=True)), field.zero) for vector in kernel.to_list()]
+    return [
+        sum((g * v for g, v in zip(gradient, vector, strict=True)), field.zero)
+        for vector in kernel.to_list()
+    ]

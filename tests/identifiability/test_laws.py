@@ -1,4 +1,6 @@
-"""Laws: equivalent forms say the same in other names, the seed changes nothing, derivatives are derivatives."""
+"""Laws: equivalent forms say the same in other names, the seed changes nothing, derivatives are
+derivatives.
+"""
 
 from fractions import Fraction
 
@@ -21,7 +23,12 @@ def test_equivalent_forms_say_the_same_in_other_names(chain):
     found = identifiability(chain)
     for form in forms(chain):
         there = identifiability(form.chain)
-        assert (there.level, there.rank, there.least, there.most) == (found.level, found.rank, found.least, found.most)
+        assert (there.level, there.rank, there.least, there.most) == (
+            found.level,
+            found.rank,
+            found.least,
+            found.most,
+        )
         renamed = {form.renaming[c.text]: (c.unique, c.certainty) for c in found.singles}
         assert renamed == {c.text: (c.unique, c.certainty) for c in there.singles}
         if found.renamings:
@@ -39,7 +46,12 @@ def _values(basis, at):
 @given(chains(max_masses=3), st.text("abc", min_size=1, max_size=3))
 def test_the_seed_changes_nothing_but_the_point(chain, seed):
     one, other = identifiability(chain), identifiability(chain, Settings(seed=seed))
-    assert (one.level, one.rank, one.most, one.combinations) == (other.level, other.rank, other.most, other.combinations)
+    assert (one.level, one.rank, one.most, one.combinations) == (
+        other.level,
+        other.rank,
+        other.most,
+        other.combinations,
+    )
     assert [c.text for c in one.singles] == [c.text for c in other.singles]
     assert one.point != other.point
 
@@ -59,7 +71,10 @@ def test_a_family_at_once_is_each_model_alone():
 
 
 terms = st.tuples(
-    st.integers(1, 5), st.dictionaries(st.sampled_from(["m1", "m2", "k12"]), st.integers(-3, 3).filter(bool), min_size=1)
+    st.integers(1, 5),
+    st.dictionaries(
+        st.sampled_from(["m1", "m2", "k12"]), st.integers(-3, 3).filter(bool), min_size=1
+    ),
 )
 
 
@@ -69,7 +84,9 @@ def test_gradients(given_terms):
     at = {"k12": 3, "m1": 5, "m2": 7}
     function = sympify(formula.text)
     slopes = [diff(function, Symbol(name)).subs(at) for name in at]
-    assert formula.gradient(at, MODULUS) == [int(s.p) * pow(int(s.q), -1, MODULUS) % MODULUS for s in slopes]
+    assert formula.gradient(at, MODULUS) == [
+        int(s.p) * pow(int(s.q), -1, MODULUS) % MODULUS for s in slopes
+    ]
     assert formula.value({name: sympify(x) for name, x in at.items()}) == function.subs(at)
 
 

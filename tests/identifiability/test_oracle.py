@@ -1,4 +1,6 @@
-"""Ranks, kernels and numbers of solutions against plain SymPy, which shares no code with what it checks."""
+"""Ranks, kernels and numbers of solutions against plain SymPy, which shares no code with what
+it checks.
+"""
 
 import pytest
 
@@ -7,8 +9,14 @@ from disting.identifiability import Level, identifiability
 from tests.identifiability.oracle import PRIME, derivative_along, solutions, symbolic_kernel
 from tests.oracles.sympy_twin import summary
 
-SMALL = [(n, damped, number) for n in (2, 3) for damped in (False, True) for number in range(1, len(Family(n)) + 1)]
-LONG = {(3, True, number) for number in range(1, 12) if number not in (1, 4, 7)}  # seconds to minutes for a Groebner basis
+SMALL = [
+    (n, damped, number)
+    for n in (2, 3)
+    for damped in (False, True)
+    for number in range(1, len(Family(n)) + 1)
+]
+# seconds to minutes for a Groebner basis
+LONG = {(3, True, number) for number in range(1, 12) if number not in (1, 4, 7)}
 
 
 def marked(cases):
@@ -21,7 +29,9 @@ def test_number_of_solutions_modulo_a_prime(n_masses, damped, number):
     assert solutions(chain) == identifiability(chain).most
 
 
-@pytest.mark.parametrize(("n_masses", "damped", "number"), [case for case in SMALL if case[:2] != (3, True)])
+@pytest.mark.parametrize(
+    ("n_masses", "damped", "number"), [case for case in SMALL if case[:2] != (3, True)]
+)
 def test_number_of_solutions_over_the_rationals(n_masses, damped, number):
     chain = Family(n_masses, damped)[number]
     assert solutions(chain, modulus=0) == identifiability(chain).most
@@ -35,7 +45,9 @@ def test_number_of_solutions_of_four_masses(number):
     assert solutions(chain, PRIME) == identifiability(chain).most
 
 
-@pytest.mark.parametrize(("n_masses", "damped"), [(2, False), (2, True), (3, False), (3, True), (4, False)])
+@pytest.mark.parametrize(
+    ("n_masses", "damped"), [(2, False), (2, True), (3, False), (3, True), (4, False)]
+)
 def test_ranks(n_masses, damped):
     for chain in list(Family(n_masses, damped))[:: 5 if n_masses == 4 else 1]:
         assert identifiability(chain).rank == summary(chain).rank, chain
@@ -44,7 +56,9 @@ def test_ranks(n_masses, damped):
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("n_masses", [2, 3])
 def test_combinations_are_constant_along_the_symbolic_kernel(n_masses, damped):
-    """An identity of formulas; and a parameter that is not listed as identifiable changes along the kernel."""
+    """An identity of formulas; and a parameter that is not listed as identifiable changes along
+    the kernel.
+    """
     for chain in Family(n_masses, damped):
         found = identifiability(chain)
         if found.level is not Level.NOT:
@@ -52,10 +66,16 @@ def test_combinations_are_constant_along_the_symbolic_kernel(n_masses, damped):
         field, kernel = symbolic_kernel(chain)
         assert kernel.shape[0] == len(chain.parameters) - found.rank
         for combination in (*found.basis, *found.singles):
-            assert not any(derivative_along(field, kernel, combination.formula.text)), (chain, combination.text)
+            assert not any(derivative_along(field, kernel, combination.formula.text)), (
+                chain,
+                combination.text,
+            )
         singles = {c.text for c in found.singles}
         for name in chain.parameters:
-            assert (name in singles) == (not any(derivative_along(field, kernel, name))), (chain, name)
+            assert (name in singles) == (not any(derivative_along(field, kernel, name))), (
+                chain,
+                name,
+            )
 
 
 @pytest.mark.parametrize("damped", [False, True])

@@ -1,4 +1,6 @@
-"""Inclusion of chains in chains with more masses: all pairs of small sizes, evidence true and false, and laws."""
+"""Inclusion of chains in chains with more masses: all pairs of small sizes, evidence true and
+false, and laws.
+"""
 
 from collections import Counter
 from dataclasses import replace
@@ -7,7 +9,14 @@ from itertools import product
 import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
-from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PartLimit, PoleSharing, TooLarge
+from disting.evidence.across_sizes import (
+    Limit,
+    LimitFibre,
+    Meeting,
+    PartLimit,
+    PoleSharing,
+    TooLarge,
+)
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Solved
 from disting.inclusion import Sense, confirms, inclusions
@@ -52,10 +61,14 @@ def found(sizes, damped):
     ],
 )  # fmt: skip
 def test_every_pair_is_settled(sizes, damped, inside, outside):
-    """Of equal ranks, which only the undamped ones have, the verdict itself says that neither lies in the other."""
+    """Of equal ranks, which only the undamped ones have, the verdict itself says that neither
+    lies in the other.
+    """
     findings = found(sizes, damped)
     counts = Counter(f.inclusion for f in findings.values())
-    assert counts == {k: n for k, n in ((Inclusion.LEFT_IN_RIGHT, inside), (Inclusion.NEITHER, outside)) if n}
+    assert counts == {
+        k: n for k, n in ((Inclusion.LEFT_IN_RIGHT, inside), (Inclusion.NEITHER, outside)) if n
+    }
     for (a, b), finding in findings.items():
         assert confirms(finding.evidence, a, b) and not confirms(finding.evidence, b, a)
         assert inclusion_from_json(inclusion_to_json(finding)) == finding
@@ -85,7 +98,9 @@ def test_findings_turn_round_with_the_pair(damped):
 def test_one_mass_is_a_limit_of_every_model():
     for damped in (False, True):
         larger = (canonical(c).chain for n in (2, 3, 4) for c in Family(n, damped))
-        assert all(isinstance(included(Chain(1, damped=damped), chain, False), Limit) for chain in larger)
+        assert all(
+            isinstance(included(Chain(1, damped=damped), chain, False), Limit) for chain in larger
+        )
 
 
 def test_a_chain_grows_by_its_last_mass():
@@ -111,12 +126,18 @@ def test_a_limit_by_a_theorem():
 
 
 def test_a_row_by_a_count():
-    """A free row of two masses, ports together, lies in that of three with ports apart, by dimensions."""
+    """A free row of two masses, ports together, lies in that of three with ports apart, by
+    dimensions.
+    """
     small, large = subject(3, 6, True), subject(4, 10, True)
     evidence = limits(small, large).evidence
     free = next(p for p in evidence.parts if p.wanted == "free")
     assert free == PartLimit("free", "free", (), (6, 8, 1, 1)) and free.formula == "6 + 1 + 1 ≥ 8"
-    for false in (free._replace(room=(7, 8, 1, 1)), free._replace(room=()), free._replace(steps=(("k12", "∞"),))):
+    for false in (
+        free._replace(room=(7, 8, 1, 1)),
+        free._replace(room=()),
+        free._replace(steps=(("k12", "∞"),)),
+    ):
         parts = tuple(false if p.wanted == "free" else p for p in evidence.parts)
         assert not confirms(replace(evidence, parts=parts), small, large)
 
@@ -126,7 +147,12 @@ def test_false_limits_are_refused():
     true = limits(small, large).evidence
     part = true.parts[0]
     assert confirms(true, small, large)
-    for parts in ((), (part, part), (part._replace(given="free"),), (part._replace(wanted="grounded"),)):
+    for parts in (
+        (),
+        (part, part),
+        (part._replace(given="free"),),
+        (part._replace(wanted="grounded"),),
+    ):
         assert not confirms(replace(true, parts=parts), small, large)
     for steps in ((), (("k01", "∞"),), (("m1", "∞"),), (("k99", "0"),)):
         assert not confirms(replace(true, parts=(part._replace(steps=steps),)), small, large)
@@ -139,19 +165,39 @@ def test_false_limits_are_refused():
 def test_false_counts_are_refused():
     small, large = subject(2, 1), subject(3, 7)
     true = limits(small, large).evidence
-    assert true == Meeting(False, 4, 6, 2, False) and true.formula == "4 + 2 ≥ 6" and confirms(true, small, large)
-    for false in ({"rank": 5}, {"coordinates": 5}, {"factors": 3}, {"same_mass": True}, {"left_is_larger": True}):
+    assert (
+        true == Meeting(False, 4, 6, 2, False)
+        and true.formula == "4 + 2 ≥ 6"
+        and confirms(true, small, large)
+    )
+    for false in (
+        {"rank": 5},
+        {"coordinates": 5},
+        {"factors": 3},
+        {"same_mass": True},
+        {"left_is_larger": True},
+    ):
         assert not confirms(replace(true, **false), small, large)
-    for evidence in (Counts((4, 4), (2, 6)), TooLarge(5, 7), PoleSharing(False, "x", ((1, 2, 3),)), true):
+    for evidence in (
+        Counts((4, 4), (2, 6)),
+        TooLarge(5, 7),
+        PoleSharing(False, "x", ((1, 2, 3),)),
+        true,
+    ):
         assert not confirms(evidence, subject(3, 1), subject(4, 1))
 
 
 @pytest.mark.parametrize("number", [14, 20])
 def test_a_limit_and_then_a_fibre(number):
-    """The grounded row is let go: two free rows, one of negative mass, are a free and a grounded one."""
+    """The grounded row is let go: two free rows, one of negative mass, are a free and a
+    grounded one.
+    """
     small, large = subject(3, 6, True), subject(4, number, True)
     finding, turned = limits(small, large), limits(large, small)
-    assert (finding.inclusion, turned.inclusion) == (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+    assert (finding.inclusion, turned.inclusion) == (
+        Inclusion.LEFT_IN_RIGHT,
+        Inclusion.RIGHT_IN_LEFT,
+    )
     assert isinstance(finding.evidence, LimitFibre) and finding.safety >= 100
     assert finding.evidence.steps == (("grounded", (("k01", "0"),)), ("free", ()))
     assert finding.evidence.formula.startswith("grounded: k01 → 0")
@@ -159,7 +205,12 @@ def test_a_limit_and_then_a_fibre(number):
     assert confirms(finding.evidence, small, large) and confirms(turned.evidence, large, small)
     assert inclusion_from_json(inclusion_to_json(turned)) == turned
     solutions = tuple(tuple(x + 1 for x in q) for q in finding.evidence.solutions)
-    for false in ({"solutions": solutions}, {"steps": ()}, {"steps": finding.evidence.steps[:1]}, {"left_is_larger": True}):
+    for false in (
+        {"solutions": solutions},
+        {"steps": ()},
+        {"steps": finding.evidence.steps[:1]},
+        {"left_is_larger": True},
+    ):
         assert not confirms(replace(finding.evidence, **false), small, large)
 
 
@@ -172,7 +223,9 @@ def test_more_zeros_refute():
 
 
 def test_larger_ranks_refute():
-    """Four masses with force and sensor together have 7 parameters, five with ports 1 and 2 apart in the rows only 6."""
+    """Four masses with force and sensor together have 7 parameters, five with ports 1 and 2
+    apart in the rows only 6.
+    """
     small, large = ENGINE.subject("4:1", Chain(4)), ENGINE.subject("5", Chain(5, 2, 1, 3, 2, 5))
     finding = limits(small, large)
     assert (finding.inclusion, finding.evidence) == (Inclusion.NEITHER, TooLarge(7, 6))
@@ -182,7 +235,9 @@ def test_larger_ranks_refute():
 
 
 def test_as_many_poles_are_left_open():
-    """A damper to the ground and a lag give the smaller chain as many poles: nothing is said against the larger one in it."""
+    """A damper to the ground and a lag give the smaller chain as many poles: nothing is said
+    against the larger one in it.
+    """
     small = ENGINE.subject("small", Chain(2, ground_dampers=(1,), lag=True))
     large = ENGINE.subject("large", Chain(3, meas_plus=3, damped=True))
     assert not exceeds(small.chain, small.chain)
@@ -194,26 +249,39 @@ def test_a_large_common_factor_is_refuted_too():
     """Three masses fewer, but the grounded mass can share one pole only."""
     small, large = subject(3, 1), ENGINE.subject("6", Chain(6, 1, 1, 2, 1, 6))
     finding = limits(small, large)
-    assert finding.inclusion is Inclusion.NEITHER and finding.certainty == "proven" and confirms(finding.evidence, small, large)
+    assert (
+        finding.inclusion is Inclusion.NEITHER
+        and finding.certainty == "proven"
+        and confirms(finding.evidence, small, large)
+    )
 
 
 @pytest.mark.slow
 def test_undamped_models_of_up_to_six_masses():
     models = [s for n in range(1, 7) for s in subjects(n)]
-    pairs = [(a, b) for a, b in product(models, repeat=2) if a.chain.n_masses < b.chain.n_masses and a.rank != b.rank]
+    pairs = [
+        (a, b)
+        for a, b in product(models, repeat=2)
+        if a.chain.n_masses < b.chain.n_masses and a.rank != b.rank
+    ]
     counts = Counter(limits(a, b).inclusion for a, b in pairs)
     assert counts == {Inclusion.LEFT_IN_RIGHT: 15484, Inclusion.NEITHER: 4403}
 
 
 def test_twins():
-    assert twins(canonical(Chain(2, damped=True)).chain) == (Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
+    assert twins(canonical(Chain(2, damped=True)).chain) == (
+        Chain(2, damped=True),
+        Chain(2, 1, 1, 2, 1, 2, damped=True),
+    )
     lagging = Chain(2, lag=True)
     assert twins(lagging) == (lagging,)
 
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_inclusion_is_transitive_across_sizes(damped):
-    """Through all sizes, with the inclusions and equalities of one size: what follows is never refuted."""
+    """Through all sizes, with the inclusions and equalities of one size: what follows is never
+    refuted.
+    """
     models = [s for n in (1, 2, 3) for s in subjects(n, damped)]
     models += [subject(4, i, damped) for i in (4, 10, 16, 18, 23, 27)]
     decided = ENGINE.decisions(models, Query())
@@ -221,11 +289,19 @@ def test_inclusion_is_transitive_across_sizes(damped):
     for i, j in product(range(len(models)), repeat=2):
         low, high = min(i, j), max(i, j)
         inclusion = decided.inclusion(low, high, Sense.CLOSURE)
-        if i != j and inclusion in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT):
+        if i != j and inclusion in (
+            Inclusion.EQUAL,
+            Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT,
+        ):
             inside.add((i, j))
         elif inclusion is Inclusion.NEITHER:
             apart.add((i, j))
-    assert not [(i, j, k) for i, j in inside for k in range(len(models)) if (j, k) in inside and (i, k) in apart]
+    assert not [
+        (i, j, k)
+        for i, j in inside
+        for k in range(len(models))
+        if (j, k) in inside and (i, k) in apart
+    ]
     assert len(inside) > 100 and len(apart) > 20
 
 
@@ -235,7 +311,9 @@ def test_compare_says_the_same_as_a_matrix():
     assert verdict.closure is Inclusion.LEFT_IN_RIGHT and turned.closure is Inclusion.RIGHT_IN_LEFT
     assert verdict.inclusions.closure == limits(subject(2, 1, True), subject(3, 4, True))
     refused = compare(Family(3)[2], Family(4)[10], engine=ENGINE)
-    assert refused.closure is Inclusion.NEITHER and isinstance(refused.inclusions.closure.evidence, PoleSharing)
+    assert refused.closure is Inclusion.NEITHER and isinstance(
+        refused.inclusions.closure.evidence, PoleSharing
+    )
 
 
 def test_each_limit_is_shown_as_an_identity_when_it_is_found():
@@ -246,9 +324,13 @@ def test_each_limit_is_shown_as_an_identity_when_it_is_found():
     assert is_limit.cache_info().currsize >= sum(len(part.steps) for part in evidence.parts)
 
 
-@pytest.mark.parametrize(("chain", "is_proven"), [(Chain(3, damped=True), True), (Chain(5, 4, 1, 5, 2, 5), False)])
+@pytest.mark.parametrize(
+    ("chain", "is_proven"), [(Chain(3, damped=True), True), (Chain(5, 4, 1, 5, 2, 5), False)]
+)
 def test_a_solution_in_the_larger_chain_alone_needs_a_rank_without_chance(chain, is_proven):
-    """In the second eight of nine parameters are determined, by nine coefficients: points alone say that it is not more."""
+    """In the second eight of nine parameters are determined, by nine coefficients: points alone
+    say that it is not more.
+    """
     structure = chain.structure
     assert (most_rank(structure) == least_rank(structure)) is is_proven
     for left_given in (True, False):

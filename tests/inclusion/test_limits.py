@@ -39,7 +39,9 @@ def moved(row, s, numbers):
     out = dict.fromkeys(s.row.structure.parameters, 0)
     for name, value in numbers.items():
         kind, at = name[0], int(name[1])
-        if name == s.element.parameter or (isinstance(s.element, Spring) and kind == "d" and at == s.element.at):
+        if name == s.element.parameter or (
+            isinstance(s.element, Spring) and kind == "d" and at == s.element.at
+        ):
             continue
         if kind in "mb":
             new = f"{kind}{s.nodes[at]}"
@@ -66,7 +68,10 @@ def test_limits_against_sympy(row):
 
 def test_the_limits_of_a_free_row_of_three():
     """Force at mass 1, sensor at mass 2: springs between, the end let go, the end held fast."""
-    found = {(s.step, s.row.n_masses, s.row.walled, s.row.act, s.row.meas) for s in specialised(Row(3, False, 1, 2))}
+    found = {
+        (s.step, s.row.n_masses, s.row.walled, s.row.act, s.row.meas)
+        for s in specialised(Row(3, False, 1, 2))
+    }
     assert found == {
         (("k12", INFINITE), 2, False, 1, 1),
         (("k23", INFINITE), 2, False, 1, 2),
@@ -94,7 +99,9 @@ def test_every_way_checks_again_and_leads_to_one_row(row):
 
 def test_false_limits_are_seen():
     row = Row(2, False, 1, 1)
-    rigid = next(s for s in specialised(row) if s.limit == INFINITE and isinstance(s.element, Spring))
+    rigid = next(
+        s for s in specialised(row) if s.limit == INFINITE and isinstance(s.element, Spring)
+    )
     assert is_limit(row, rigid)
     assert not is_limit(row, replace(rigid, limit=ZERO))
     assert not is_limit(row, replace(rigid, row=Row(1, True, 1, 1)))
@@ -105,7 +112,9 @@ def test_false_limits_are_seen():
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_rows_add_up_to_the_chain(damped):
-    """The receptance at s = 2 of a chain, with unit masses and different springs, is the sum of its rows'."""
+    """The receptance at s = 2 of a chain, with unit masses and different springs, is the sum of
+    its rows'.
+    """
     for chain in (*Family(2, damped), *Family(3, damped)):
         rows = rows_of(chain)
         assert list(rows) == [FREE, GROUNDED][: 2 if chain.gap else 1]
@@ -113,4 +122,7 @@ def test_rows_add_up_to_the_chain(damped):
         assert (rows[FREE].walled, GROUNDED in rows) == (False, chain.gap > 0)
         assert all(row.canonical == row for row in rows.values())
     grounded = rows_of(Chain(4, 2, 2, 3, 1, 4, ground_dampers=(1, 4)))
-    assert grounded == {FREE: Row(2, False, 1, 2, False, (1,)), GROUNDED: Row(2, True, 1, 2, False, (1,))}
+    assert grounded == {
+        FREE: Row(2, False, 1, 2, False, (1,)),
+        GROUNDED: Row(2, True, 1, 2, False, (1,)),
+    }

@@ -1,4 +1,6 @@
-"""Dimensions that add up: the numbers by hand and by SymPy, and models that come as near as one likes."""
+"""Dimensions that add up: the numbers by hand and by SymPy, and models that come as near as one
+likes.
+"""
 
 import numpy as np
 import pytest
@@ -19,7 +21,10 @@ def response(chain, values):
     """Acceleration by force at complex frequencies, from the equation of motion."""
     v, n = dict(zip(chain.parameters, values, strict=True)), chain.n_masses
     act, meas = np.zeros(n), np.zeros(n)
-    for vector, plus, minus in ((act, chain.act_plus, chain.act_minus), (meas, chain.meas_plus, chain.meas_minus)):
+    for vector, plus, minus in (
+        (act, chain.act_plus, chain.act_minus),
+        (meas, chain.meas_plus, chain.meas_minus),
+    ):
         vector[plus - 1] += 1
         if minus:
             vector[minus - 1] -= 1
@@ -38,7 +43,9 @@ def response(chain, values):
 
 
 def nearest(small, large, tries=4):
-    """Relative distance of complex models of the larger kind to one of the smaller kind: the first small one found."""
+    """Relative distance of complex models of the larger kind to one of the smaller kind: the
+    first small one found.
+    """
     rng, k = np.random.default_rng(0), len(large.parameters)
     wanted = response(small, rng.uniform(0.5, 2, len(small.parameters)))
     reach = np.concatenate([np.full(k, 12.0), np.full(k, 60.0)])
@@ -58,7 +65,8 @@ def nearest(small, large, tries=4):
 @pytest.mark.parametrize(
     ("small", "large", "damped", "expected"),
     [
-        (1, 3, True, Room(6, 8, 1, True)),  # 2:1 in 3:3: n and d fit without a common factor; masses are equal
+        # 2:1 in 3:3: n and d fit without a common factor; masses are equal
+        (1, 3, True, Room(6, 8, 1, True)),
         (1, 7, True, Room(6, 10, 3, True)),
         (1, 7, False, Room(4, 6, 2, False)),
         (2, 1, False, Room(5, 6, 2, False)),
@@ -75,7 +83,10 @@ def test_the_inequality():
     assert not Room(6, 8, 1, False).suffices and not Room(8, 8, 0, True).suffices
 
 
-@pytest.mark.parametrize("chain", [Chain(3, 1, 1, 2, 1, 3, damped=True), Chain(2, meas_plus=2), Chain(2, ground_dampers=(1,))])
+@pytest.mark.parametrize(
+    "chain",
+    [Chain(3, 1, 1, 2, 1, 3, damped=True), Chain(2, meas_plus=2), Chain(2, ground_dampers=(1,))],
+)
 def test_powers_and_rank_against_sympy(chain):
     num, den = symbolic(chain)
     assert tuple(frozenset(m[0] for m in p.monoms()) for p in (num, den)) == powers(chain.structure)
@@ -102,16 +113,26 @@ def symbolic(chain):
     if chain.gap:
         a[0, 0] += p["k01"] + p.get("d01", 0) * s
     act, meas = sp.zeros(n, 1), sp.zeros(1, n)
-    for vector, plus, minus in ((act, chain.act_plus, chain.act_minus), (meas, chain.meas_plus, chain.meas_minus)):
+    for vector, plus, minus in (
+        (act, chain.act_plus, chain.act_minus),
+        (meas, chain.meas_plus, chain.meas_minus),
+    ):
         vector[plus - 1] += 1
         if minus:
             vector[minus - 1] -= 1
-    quotient = sp.fraction(sp.cancel(s**2 * (meas * a.adjugate() * act)[0] / a.det(method="berkowitz")))
+    quotient = sp.fraction(
+        sp.cancel(s**2 * (meas * a.adjugate() * act)[0] / a.det(method="berkowitz"))
+    )
     return tuple(sp.Poly(part, s) for part in quotient)
 
 
 @pytest.mark.parametrize(
-    "chain", [Chain(3, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True), Chain(2, meas_plus=2, damped=True)]
+    "chain",
+    [
+        Chain(3, damped=True),
+        Chain(2, 1, 1, 2, 1, 2, damped=True),
+        Chain(2, meas_plus=2, damped=True),
+    ],
 )
 def test_the_mass_is_in_two_pairs_of_coefficients(chain):
     num, den = (p.all_coeffs()[::-1] for p in symbolic(chain))
@@ -132,7 +153,10 @@ def test_dampers_to_the_ground_and_a_lag_hide_the_mass(small, large):
 
 @pytest.mark.parametrize("sensor", list(Sensor))
 def test_every_sensor_counts_alike(sensor):
-    chains = [Chain(2, damped=True, sensor=sensor), Chain(3, 1, 1, 2, 1, 3, sensor=sensor, damped=True)]
+    chains = [
+        Chain(2, damped=True, sensor=sensor),
+        Chain(3, 1, 1, 2, 1, 3, sensor=sensor, damped=True),
+    ]
     assert room(*(c.structure for c in chains)) == Room(6, 10, 3, True)
 
 
@@ -141,11 +165,16 @@ def test_every_sensor_counts_alike(sensor):
     [
         (1, 7, False),
         (1, 7, True),
-        *(pytest.param(*x, marks=pytest.mark.slow) for x in ((2, 11, False), (1, 9, False), (3, 4, True), (2, 6, True))),
+        *(
+            pytest.param(*x, marks=pytest.mark.slow)
+            for x in ((2, 11, False), (1, 9, False), (3, 4, True), (2, 6, True))
+        ),
     ],
 )
 def test_models_come_near_where_dimensions_add_up(small, large, damped):
-    """A search over complex parameters, which knows nothing of dimensions, finds models that are nearly the same."""
+    """A search over complex parameters, which knows nothing of dimensions, finds models that
+    are nearly the same.
+    """
     chains = Family(2, damped)[small], Family(3, damped)[large]
     assert room(*(c.structure for c in chains)).suffices
     assert nearest(*chains) < NEAR

@@ -1,4 +1,6 @@
-"""Poles of a smaller model among two rows: SymPy's Groebner bases, known limits that must not be refuted, and row equations."""
+"""Poles of a smaller model among two rows: SymPy's Groebner bases, known limits that must not
+be refuted, and row equations.
+"""
 
 from dataclasses import replace
 from itertools import product
@@ -22,25 +24,37 @@ def pair(small, large, damped=False):
 @pytest.mark.parametrize(
     ("small", "zeros", "grounded", "is_limit"),
     [
-        (2, 1, 1, False),  # force and sensor one mass apart, poles in a grounded mass and a free row of three, ends apart
+        # force and sensor one mass apart, poles in a grounded mass and a free row of three, ends
+        # apart
+        (2, 1, 1, False),
         (3, 0, 1, True),
         (2, 1, 3, False),
         (3, 0, 3, True),
     ],
 )
 def test_against_groebner_bases(small, zeros, grounded, is_limit):
-    """All c, D_1, D_2 and l_1, l_2 at once, for one model in fractions: n/d = l_1/D_1 + l_2/(t D_2) after cancelling c."""
+    """All c, D_1, D_2 and l_1, l_2 at once, for one model in fractions: n/d = l_1/D_1 + l_2/(t
+    D_2) after cancelling c.
+    """
     t = sp.Symbol("t")
     free = 4 - grounded
     c, p, q = sp.symbols("c0:2"), sp.symbols(f"p0:{grounded + 1}"), sp.symbols(f"q0:{free}")
     u, v = sp.symbols("u v")  # both rows have force and sensor at their ends, or one mass alone
     n = (2 * t + 5) if zeros else sp.Integer(3)
     d = t * (t + 1) * (t + 4)
-    first, second = sum(x * t**i for i, x in enumerate(p)), t * sum(x * t**i for i, x in enumerate(q))
+    first, second = (
+        sum(x * t**i for i, x in enumerate(p)),
+        t * sum(x * t**i for i, x in enumerate(q)),
+    )
     factor = c[0] + c[1] * t
-    equations = [sp.expand(factor * n - u * second - v * first), sp.expand(factor * d - first * second)]
+    equations = [
+        sp.expand(factor * n - u * second - v * first),
+        sp.expand(factor * d - first * second),
+    ]
     rows = [x for e in equations for x in sp.Poly(e, t).all_coeffs()]
-    bases = [sp.groebner([*rows, at], *c, *p, *q, u, v, order="grevlex") for at in (c[1] - 1, c[0] - 1)]
+    bases = [
+        sp.groebner([*rows, at], *c, *p, *q, u, v, order="grevlex") for at in (c[1] - 1, c[0] - 1)
+    ]
     assert any(b.exprs != [1] for b in bases) == is_limit
     chains = pair(small, 10 if grounded == 1 else 23)
     assert (excluding_points(*chains, "oracle") == ()) == is_limit
@@ -49,7 +63,9 @@ def test_against_groebner_bases(small, zeros, grounded, is_limit):
 @pytest.mark.parametrize("damped", [False, True])
 def test_no_limit_is_refuted(damped):
     chains = [canonical(c).chain for n in (1, 2, 3) for c in Family(n, damped)]
-    larger = [canonical(Family(4, damped)[i]).chain for i in (10, 16, 23)] + [c for c in chains if c.n_masses == 3]
+    larger = [canonical(Family(4, damped)[i]).chain for i in (10, 16, 23)] + [
+        c for c in chains if c.n_masses == 3
+    ]
     seen = [
         (included(a, b, False) is not None, excluding_points(a, b, "law") != ())
         for a, b in product(chains, larger)
@@ -67,7 +83,10 @@ def test_one_point_is_a_proof_and_is_checked_again():
     assert not excludes(small, large, "one", (points[0][:-1],))
     inside = canonical(Family(3, True)[2]).chain
     assert included(inside, large, False) is not None
-    assert not any(excludes(inside, large, f"trial {k}", (tuple(residues(f"{k}", 7, 10**6)),)) for k in range(20))
+    assert not any(
+        excludes(inside, large, f"trial {k}", (tuple(residues(f"{k}", 7, 10**6)),))
+        for k in range(20)
+    )
 
 
 def test_an_equation_of_the_grounded_row_refutes_with_a_bound():
@@ -87,15 +106,23 @@ def test_what_is_not_covered_is_not_refuted(more):
 
 
 def test_the_equation_of_two_grounded_masses_by_hand():
-    """Force and sensor at the inner mass: D = -w^2 modulo N, up to a factor, where w is the linear part of N."""
+    """Force and sensor at the inner mass: D = -w^2 modulo N, up to a factor, where w is the
+    linear part of N.
+    """
     s = sp.Symbol("s")
     b, a = sp.symbols("b0:3"), sp.symbols("a0:5")
     num, linear = b[0] + b[1] * s + b[2] * s**2, b[0] + b[1] * s
-    rests = [sp.Poly(sp.rem(x, num, s), s).all_coeffs() for x in (sum(x * s**i for i, x in enumerate(a)), linear**2)]
+    rests = [
+        sp.Poly(sp.rem(x, num, s), s).all_coeffs()
+        for x in (sum(x * s**i for i, x in enumerate(a)), linear**2)
+    ]
     by_hand = sp.fraction(sp.factor(rests[0][0] * rests[1][1] - rests[0][1] * rests[1][0]))[0]
     found = row_equation(Row(2, True, 1, 1, True), "hand")
     names = (*b, *a)
-    terms = [int(c) * sp.prod(names[i] for i in m) for c, m in zip(found.numbers, found.monomials, strict=True)]
+    terms = [
+        int(c) * sp.prod(names[i] for i in m)
+        for c, m in zip(found.numbers, found.monomials, strict=True)
+    ]
     theirs = sp.Poly(sum(terms), *names, modulus=found.modulus)
     factors = [sp.Poly(f, *names, modulus=found.modulus) for f, _ in sp.factor_list(by_hand)[1]]
     assert any(f.monic() == theirs.monic() for f in factors)
@@ -107,7 +134,9 @@ def test_equations_hold_in_other_models_and_not_elsewhere():
     found = row_equation(row, "models")
     m1, m2, k0, k1, d0, d1 = residues("models", 6, 10**6)
     inner, outer = [k0 + k1, d0 + d1, m1], [k1, d1, m2]
-    den = [sum(inner[i] * outer[j] for i in range(3) for j in range(3) if i + j == n) for n in range(5)]
+    den = [
+        sum(inner[i] * outer[j] for i in range(3) for j in range(3) if i + j == n) for n in range(5)
+    ]
     den = [x - y for x, y in zip(den, (k1 * k1, 2 * k1 * d1, d1 * d1, 0, 0), strict=True)]
     assert found.holds((*inner, *den)) and not found.holds((*inner, *den[:-1], den[-1] + 1))
     assert len(found.monomials[0]) == 8
@@ -127,5 +156,9 @@ def test_coefficients_are_polynomials_also_where_the_lowest_vanish():
             values = {"m1": m1, "m2": m2, "k01": k0, "k12": k1, "d01": d0, "d12": d1}
             outer, inner = sp.Poly([m2, d1, k1], s), sp.Poly([m1, d0 + d1, k0 + k1], s)
             den = outer * inner - sp.Poly([d1, k1], s) ** 2
-            plain = [p.coeff_monomial(s**i) % modulus for p, top in ((outer, 2), (den, 4)) for i in range(top + 1)]
+            plain = [
+                p.coeff_monomial(s**i) % modulus
+                for p, top in ((outer, 2), (den, 4))
+                for i in range(top + 1)
+            ]
             assert model_at(row, [values[name] for name in names], modulus) == tuple(plain)

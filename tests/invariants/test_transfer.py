@@ -1,4 +1,6 @@
-"""Transfer functions, Markov parameters and their derivatives against plain SymPy, and against each other."""
+"""Transfer functions, Markov parameters and their derivatives against plain SymPy, and against
+each other.
+"""
 
 from itertools import product
 from types import SimpleNamespace
@@ -40,16 +42,23 @@ def value(polynomial, numbers):
     return total % P
 
 
-# --- against the oracle ----------------------------------------------------------------------------------------------
+# --- against the oracle
+# ----------------------------------------------------------------------------------------------
 
 
 def as_fractions(chain):
-    """The expanded coefficients b0.., a0.. divided by the leading one, as elements of the oracle's field."""
+    """The expanded coefficients b0.., a0.. divided by the leading one, as elements of the
+    oracle's field.
+    """
     field = twin.transfer_function(chain).numerator[0].field
     pair = expanded(chain.structure)
-    tops, bottoms = ([field.ring.from_dict(without_s(c)) for c in coefficients(part, "s")] for part in pair)
+    tops, bottoms = (
+        [field.ring.from_dict(without_s(c)) for c in coefficients(part, "s")] for part in pair
+    )
     *others, leading = bottoms
-    return tuple(field(c) / field(leading) for c in tops), tuple(field(c) / field(leading) for c in others)
+    return tuple(field(c) / field(leading) for c in tops), tuple(
+        field(c) / field(leading) for c in others
+    )
 
 
 def without_s(polynomial):
@@ -61,10 +70,15 @@ def assert_equal_transfer_functions(chain):
 
 
 def assert_equal_samples(chain, representation, count):
-    one, other = seen(chain, representation, count), twin.summary(chain, representation.value, count)
+    one, other = (
+        seen(chain, representation, count),
+        twin.summary(chain, representation.value, count),
+    )
     numbers = dict(zip(chain.parameters, point(chain), strict=True))
     assert list(one.values) == twin.values(other.entries, numbers)
-    assert [list(row) for row in one.rows] == twin.jacobian(other.entries, chain.parameters, numbers).to_Matrix().tolist()
+    assert [list(row) for row in one.rows] == twin.jacobian(
+        other.entries, chain.parameters, numbers
+    ).to_Matrix().tolist()
 
 
 @pytest.mark.parametrize("chain", THREE, ids=str)
@@ -97,25 +111,43 @@ def test_a_chain_without_gap_is_the_oracle_s(damped):
     left, right = Chain(4, 1, 1, 3, 1, 4, damped=damped), Chain(4, 2, 1, 3, 1, 4, damped=damped)
     whole = left.structure.united(right.structure)
     assert len(whole.parameters) == (12 if damped else 8)
-    plain = SimpleNamespace(**{f: getattr(left, f) for f in ("act_minus", "act_plus", "meas_minus", "meas_plus", "sensor")})
-    plain.n_masses, plain.gap, plain.damped, plain.ground_dampers, plain.lag = 4, -1, damped, (), False
+    plain = SimpleNamespace(
+        **{
+            f: getattr(left, f)
+            for f in ("act_minus", "act_plus", "meas_minus", "meas_plus", "sensor")
+        }
+    )
+    plain.n_masses, plain.gap, plain.damped, plain.ground_dampers, plain.lag = (
+        4,
+        -1,
+        damped,
+        (),
+        False,
+    )
     plain.parameters = whole.parameters
     numbers = residues("whole", len(whole.parameters), P)
     found = sample(whole, Representation.TF, 0, numbers, P)
     entries = twin.summary(plain).entries
     named = dict(zip(whole.parameters, numbers, strict=True))
     assert list(found.values) == twin.values(entries, named)
-    assert [list(row) for row in found.rows] == twin.jacobian(entries, whole.parameters, named).to_Matrix().tolist()
+    assert [list(row) for row in found.rows] == twin.jacobian(
+        entries, whole.parameters, named
+    ).to_Matrix().tolist()
 
 
-# --- against the definition (32), by numbers -------------------------------------------------------------------------
+# --- against the definition (32), by numbers
+# -------------------------------------------------------------------------
 
 
 def markov_by_definition(chain, count):
     """G_0 = D, G_i = C A^(i-1) B modulo P."""
-    inverted = [pow(x, -1, P) if name[0] in "mT" else x for name, x in zip(chain.parameters, point(chain), strict=True)]
+    inverted = [
+        pow(x, -1, P) if name[0] in "mT" else x
+        for name, x in zip(chain.parameters, point(chain), strict=True)
+    ]
     a, column, c, d = (
-        [[poly_value(entry, inverted) for entry in row] for row in part.to_list()] for part in twin.polynomial_form(chain)
+        [[poly_value(entry, inverted) for entry in row] for row in part.to_list()]
+        for part in twin.polynomial_form(chain)
     )
     found = [d[0][0]]
     for _ in range(count):
@@ -126,12 +158,20 @@ def markov_by_definition(chain, count):
 
 def poly_value(entry, numbers):
     return (
-        entry if isinstance(entry, int) else twin._value(entry, dict(zip(map(str, entry.ring.symbols), numbers, strict=True)))
+        entry
+        if isinstance(entry, int)
+        else twin._value(entry, dict(zip(map(str, entry.ring.symbols), numbers, strict=True)))
     )
 
 
 def product_of(left, right):
-    return [[sum(x * y for x, y in zip(row, column, strict=True)) % P for column in zip(*right, strict=True)] for row in left]
+    return [
+        [
+            sum(x * y for x, y in zip(row, column, strict=True)) % P
+            for column in zip(*right, strict=True)
+        ]
+        for row in left
+    ]
 
 
 @settings(max_examples=20, deadline=None)
@@ -140,12 +180,14 @@ def test_markov_parameters_are_powers_of_the_system_matrix(chain):
     assert list(seen(chain, Representation.MARKOV, 11).values) == markov_by_definition(chain, 11)
 
 
-# --- against each other ----------------------------------------------------------------------------------------------
+# --- against each other
+# ----------------------------------------------------------------------------------------------
 
 
 def series(top, bottom, count):
-    """G_0..G_count of top/bottom, coefficients (value, derivatives..) from low to high, the leading one being 1, at infinity:
-    sum_j a_(m-j) G_(i-j) = b_(m-i)."""
+    """G_0..G_count of top/bottom, coefficients (value, derivatives..) from low to high, the
+    leading one being 1, at infinity: sum_j a_(m-j) G_(i-j) = b_(m-i).
+    """
     m, width = len(bottom), len(bottom[0]) if bottom else len(top[0])
     found = []
     for i in range(count + 1):
@@ -158,7 +200,10 @@ def series(top, bottom, count):
 
 def times(left, right):
     """Product rule on (value, derivatives..)."""
-    return [left[0] * right[0], *(left[0] * y + x * right[0] for x, y in zip(left[1:], right[1:], strict=True))]
+    return [
+        left[0] * right[0],
+        *(left[0] * y + x * right[0] for x, y in zip(left[1:], right[1:], strict=True)),
+    ]
 
 
 @quick
@@ -182,7 +227,10 @@ def test_derivatives_are_those_of_the_expanded_formulas(chain):
     bottom, inverse = value(leading, numbers), pow(value(leading, numbers), -2, P)
     for row, c in zip(tf.rows, [*tops, *others], strict=True):
         top = value(c, numbers)
-        slopes = [(value(c.derivative(i), numbers), value(leading.derivative(i), numbers)) for i in range(1, len(numbers))]
+        slopes = [
+            (value(c.derivative(i), numbers), value(leading.derivative(i), numbers))
+            for i in range(1, len(numbers))
+        ]
         assert list(row) == [(up * bottom - top * down) * inverse % P for up, down in slopes]
 
 
@@ -209,7 +257,8 @@ def test_a_dead_time_is_one_more_invariant():
         assert other.rows == (*((*row, 0) for row in one.rows), (0, 0, 0, 0, 1))
 
 
-# --- lowest terms and degrees ----------------------------------------------------------------------------------------
+# --- lowest terms and degrees
+# ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("chain", [*THREE, *Family(4), *Family(4, damped=True)], ids=str)
@@ -265,20 +314,29 @@ def test_other_sensors_shift_the_markov_parameters(n_masses, sensor, shift):
 
 
 def test_the_transfer_function_of_two_masses_written_out():
-    """Force and sensor at mass 1 of a free pair: (m2 s^2 + d s + k)/(m1 m2 s^2 + (m1 + m2)(d s + k)), by hand."""
-    found = [[str(c) for c in coefficients(part, "s")] for part in expanded(Chain(2, damped=True).structure)]
+    """Force and sensor at mass 1 of a free pair: (m2 s^2 + d s + k)/(m1 m2 s^2 + (m1 + m2)(d s
+    + k)), by hand.
+    """
+    found = [
+        [str(c) for c in coefficients(part, "s")]
+        for part in expanded(Chain(2, damped=True).structure)
+    ]
     assert found == [["k12", "d12", "m2"], ["m1*k12 + m2*k12", "m1*d12 + m2*d12", "m1*m2"]]
 
 
 @pytest.mark.parametrize(("free", "grounded"), list(product((1, 2), repeat=2)))
 def test_with_a_gap_the_two_parts_add(free, grounded):
-    """G = response of the free part + response of the grounded part, each as if alone (values at a point)."""
+    """G = response of the free part + response of the grounded part, each as if alone (values
+    at a point).
+    """
     n = free + grounded
     chain = Chain(n, grounded, grounded, n, 1, n, damped=True, sensor="position")
     q = quotient(chain.structure, point(chain), P)
     numbers = dict(zip(chain.parameters, point(chain), strict=True))
     s = 12345
-    stiffness = {i: numbers[f"k{i}{i + 1}"] + s * numbers[f"d{i}{i + 1}"] for i in range(n) if i != grounded}
+    stiffness = {
+        i: numbers[f"k{i}{i + 1}"] + s * numbers[f"d{i}{i + 1}"] for i in range(n) if i != grounded
+    }
     inertia = {i: numbers[f"m{i}"] * s * s for i in range(1, n + 1)}
     low = [inertia[i] + stiffness.get(i - 1, 0) + stiffness.get(i, 0) for i in range(1, n + 1)]
     parts = one_part(low[:grounded], stiffness.get(1), 0, grounded - 1)

@@ -1,4 +1,6 @@
-"""G(s) of a chain as a SymPy expression: against complex numbers, against a plain determinant, and as a general model."""
+"""G(s) of a chain as a SymPy expression: against complex numbers, against a plain determinant,
+and as a general model.
+"""
 
 from random import Random
 
@@ -15,7 +17,9 @@ S = sympy.Symbol("s")
 
 
 def motion(chain, values, s, zero):
-    """Dynamic stiffness of all masses, force, and sensor, from the definition: element by element, with a ground node."""
+    """Dynamic stiffness of all masses, force, and sensor, from the definition: element by
+    element, with a ground node.
+    """
     n = chain.n_masses
     matrix = [[zero for _ in range(n + 1)] for _ in range(n + 1)]
     for i in range(1, n + 1):
@@ -41,10 +45,17 @@ def test_at_random_numbers(chain, seed):
     values = {name: draw.uniform(0.5, 2.0) for name in chain.parameters}
     s = complex(draw.uniform(0.1, 1.0), draw.uniform(0.1, 1.0))
     matrix, force, sensor = motion(chain, values, s, 0j)
-    expected = s**chain.sensor.order * np.array(sensor) @ np.linalg.solve(np.array(matrix), np.array(force, dtype=complex))
+    expected = (
+        s**chain.sensor.order
+        * np.array(sensor)
+        @ np.linalg.solve(np.array(matrix), np.array(force, dtype=complex))
+    )
     expected *= np.exp(-s * values.get("Td", 0.0)) / (1 + s * values.get("T1", 0.0))
     found = transfer_function(chain)
-    assert found.free_symbols <= {S, *(sympy.Symbol(name, positive=True) for name in chain.parameters)}
+    assert found.free_symbols <= {
+        S,
+        *(sympy.Symbol(name, positive=True) for name in chain.parameters),
+    }
     numbers = {sympy.Symbol(name, positive=True): value for name, value in values.items()}
     assert complex(found.subs(numbers).subs(S, s)) == pytest.approx(expected, rel=1e-9)
 
@@ -63,8 +74,15 @@ def test_by_cramers_rule(chain):
     """Exactly: two determinants, written out."""
     values = {name: sympy.Symbol(name, positive=True) for name in chain.parameters}
     matrix, force, sensor = motion(chain, values, S, sympy.Integer(0))
-    whole = sympy.Matrix([[*row, -f] for row, f in zip(matrix, force, strict=True)] + [[*sensor, 0]])
-    expected = S**chain.sensor.order * whole.det() / sympy.Matrix(matrix).det() / (1 + S * values.get("T1", 0))
+    whole = sympy.Matrix(
+        [[*row, -f] for row, f in zip(matrix, force, strict=True)] + [[*sensor, 0]]
+    )
+    expected = (
+        S**chain.sensor.order
+        * whole.det()
+        / sympy.Matrix(matrix).det()
+        / (1 + S * values.get("T1", 0))
+    )
     assert sympy.cancel(transfer_function(chain) - expected) == 0
 
 
@@ -74,6 +92,8 @@ def test_lag_and_dead_time():
     assert sympy.simplify(transfer_function(chain) - sympy.exp(-S * td) / (m1 * (1 + t1 * S))) == 0
 
 
-@pytest.mark.parametrize("chain", [*Family(3, damped=True), Chain(2, ground_dampers=(1,), lag=True)], ids=str)
+@pytest.mark.parametrize(
+    "chain", [*Family(3, damped=True), Chain(2, ground_dampers=(1,), lag=True)], ids=str
+)
 def test_read_again_it_is_the_model_of_the_chain(chain):
     assert Model.from_transfer_function(transfer_function(chain)) == Model.from_chain(chain)

@@ -14,7 +14,8 @@ from disting.verdict import audit, decide
 from tests.laws.strategies import chains
 
 ENGINE = Engine()
-PAPER = Query(View.COMBINED)  # the exact decision of ground dampers is slow: it has laws of its own in test_exact_laws.py
+# the exact decision of ground dampers is slow: it has laws of its own in test_exact_laws.py
+PAPER = Query(View.COMBINED)
 WITNESS = Witness()
 BY_CONDITIONS = (View.TF, View.MARKOV, View.COMBINED)
 SMALL = [(n, damped) for n in (1, 2, 3, 4) for damped in (False, True)]
@@ -56,11 +57,16 @@ EXAMPLES = [
     (Family(3)[9], Family(3)[10]),  # 6
     (Chain(1), Chain(1, damped=True)),  # 6, no symmetry
     (Family(4)[11], Family(4)[13]),  # 7
-    (Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,)), Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,), damped=True)),  # 8
+    # 8
+    (
+        Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,)),
+        Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,), damped=True),
+    ),
     tuple(Chain(3, 2, 1, 3, 2, 3, damped=True, ground_dampers=(i,)) for i in (1, 2)),  # 9
     (Family(3, damped=True)[1], Family(3, damped=True)[4]),  # 5 on Markov parameters
     (Chain(1), Chain(1, dead_time=True)),  # 3
-    (Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(2,))),  # undecided
+    # undecided
+    (Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(2,))),
 ]
 
 

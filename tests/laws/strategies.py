@@ -1,4 +1,6 @@
-"""Random chains for hypothesis: any admissible indices (also outside (38)), ground dampers, lag, sensor."""
+"""Random chains for hypothesis: any admissible indices (also outside (38)), ground dampers,
+lag, sensor.
+"""
 
 from hypothesis import strategies as st
 

@@ -47,18 +47,30 @@ def test_buckets_decide_as_pairs_do_for_some_models_of_four_masses(damped, view)
 @pytest.mark.parametrize("limit", [0, 36, 84])
 def test_buckets_decide_as_pairs_do_where_matroids_are_too_large(limit):
     engine = Engine(Settings(subset_limit=limit))
-    assert_bucketed_as_pairwise([subject(chain, engine) for chain in Family(3, damped=True)], Query(), engine)
+    assert_bucketed_as_pairwise(
+        [subject(chain, engine) for chain in Family(3, damped=True)], Query(), engine
+    )
 
 
 def queries():
     """Conditions 1 to 4 and any of the others, any view, any number of Markov parameters."""
-    some = st.sets(st.sampled_from(ALL_CONDITIONS[4:])).map(lambda chosen: (*"1234", *sorted(chosen)))
-    few = st.sets(st.sampled_from([c for c in ALL_CONDITIONS if c != "5"])).map(lambda chosen: tuple(sorted(chosen)))
-    return st.builds(Query, st.sampled_from(BY_CONDITIONS), st.one_of(some, few), st.integers(0, 14))
+    some = st.sets(st.sampled_from(ALL_CONDITIONS[4:])).map(
+        lambda chosen: (*"1234", *sorted(chosen))
+    )
+    few = st.sets(st.sampled_from([c for c in ALL_CONDITIONS if c != "5"])).map(
+        lambda chosen: tuple(sorted(chosen))
+    )
+    return st.builds(
+        Query, st.sampled_from(BY_CONDITIONS), st.one_of(some, few), st.integers(0, 14)
+    )
 
 
 @settings(max_examples=25, deadline=None)
-@given(query=queries(), damped=st.booleans(), chosen=st.sets(st.integers(0, 10), min_size=2, max_size=5))
+@given(
+    query=queries(),
+    damped=st.booleans(),
+    chosen=st.sets(st.integers(0, 10), min_size=2, max_size=5),
+)
 def test_buckets_decide_as_pairs_do_for_any_query(query, damped, chosen):
     assert_bucketed_as_pairwise([family(3, damped)[i] for i in sorted(chosen)], query)
 

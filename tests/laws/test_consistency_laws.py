@@ -9,7 +9,17 @@ from hypothesis import given
 from disting import ContradictionError, Family, Query, Relation, View
 from disting.conditions import Subject
 from disting.verdict import audit, decide
-from tests.laws.pairs import ENGINE, PAPER, SMALL, any_pair, audited, family, often, subject, with_examples
+from tests.laws.pairs import (
+    ENGINE,
+    PAPER,
+    SMALL,
+    any_pair,
+    audited,
+    family,
+    often,
+    subject,
+    with_examples,
+)
 
 
 @pytest.mark.parametrize("view", [View.COMBINED, View.EXACT])
@@ -56,7 +66,10 @@ def assert_transitive(relations, n):
 @pytest.mark.parametrize("view", View)
 @pytest.mark.parametrize(("n_masses", "damped"), [(3, False), (3, True), (4, False), (4, True)])
 def test_indistinguishability_is_transitive(n_masses, damped, view):
-    assert_transitive(ENGINE.decisions(family(n_masses, damped), Query(view)).relation, len(family(n_masses, damped)))
+    assert_transitive(
+        ENGINE.decisions(family(n_masses, damped), Query(view)).relation,
+        len(family(n_masses, damped)),
+    )
 
 
 @pytest.mark.parametrize("model", range(1, 12))

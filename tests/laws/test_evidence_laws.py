@@ -7,7 +7,15 @@ from hypothesis import given
 
 from disting import Chain, Family, Query, Relation, View
 from disting.conditions.verify import Witness
-from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming, Supermodel
+from disting.evidence.conditions import (
+    Counts,
+    Embedding,
+    Forms,
+    FreeChoice,
+    Ranks,
+    Renaming,
+    Supermodel,
+)
 from disting.verdict import steps
 from tests.laws.pairs import (
     EXAMPLES,
@@ -31,7 +39,9 @@ def test_evidence_checks_again(pair):
     found = verdict(*pair)
     if found.evidence:
         assert WITNESS.confirms(found.evidence, found.representation, *pair)
-        assert WITNESS.confirms(mirrored_renaming(found.evidence), found.representation, *reversed(pair))
+        assert WITNESS.confirms(
+            mirrored_renaming(found.evidence), found.representation, *reversed(pair)
+        )
 
 
 @often
@@ -112,7 +122,9 @@ def test_tampered_evidence_is_refused(kind, tamper):
 OTHER = (Family(3, damped=True)[3], Family(3, damped=True)[7])
 
 
-@pytest.mark.parametrize("kind", [Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel])
+@pytest.mark.parametrize(
+    "kind", [Counts, Forms, Ranks, Renaming, FreeChoice, Embedding, Supermodel]
+)
 def test_evidence_of_another_pair_is_refused(kind):
     found, pair = evidence_of(kind)
     assert not WITNESS.confirms(found.evidence, found.representation, *OTHER)
@@ -123,13 +135,21 @@ def test_a_supermodel_of_larger_rank_is_refused():
     """The chain without gap has rank 8, its two parts have 7."""
     left, right = Family(4)[11], Family(4)[13]
     names = left.structure.united(right.structure).parameters
-    assert not any(WITNESS.confirms(Supermodel(names, rank), "structure", left, right) for rank in (6, 7, 8))
+    assert not any(
+        WITNESS.confirms(Supermodel(names, rank), "structure", left, right) for rank in (6, 7, 8)
+    )
 
 
 def test_a_whole_of_larger_rank_is_refused():
-    part, whole = Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(1, 2))
+    part, whole = (
+        Chain(2, damped=True, ground_dampers=(1,)),
+        Chain(2, damped=True, ground_dampers=(1, 2)),
+    )
     numbering = ((0, 0), (1, 1), (2, 2))
-    assert not any(WITNESS.confirms(Embedding(True, numbering, rank), "structure", part, whole) for rank in (5, 6))
+    assert not any(
+        WITNESS.confirms(Embedding(True, numbering, rank), "structure", part, whole)
+        for rank in (5, 6)
+    )
 
 
 @quick
@@ -161,4 +181,6 @@ def test_every_condition_reports_in_order_under_its_own_number(pair):
     for count in (0, 3):
         found = list(steps(*(subject(chain) for chain in pair), Query(View.COMBINED, markov=count)))
         assert [(s.representation, s.finding.rule.name) for s in found] == expected
-        assert all(bool(s.finding.evidence) == (s.relation is not Relation.UNDECIDED) for s in found)
+        assert all(
+            bool(s.finding.evidence) == (s.relation is not Relation.UNDECIDED) for s in found
+        )

@@ -1,4 +1,6 @@
-"""Laws of the exact decision: what the conditions leave open, it settles alike from both sides, with evidence that holds."""
+"""Laws of the exact decision: what the conditions leave open, it settles alike from both sides,
+with evidence that holds.
+"""
 
 import json
 from dataclasses import replace
@@ -16,7 +18,8 @@ from disting.verdict import audit, decide, steps
 from tests.laws.pairs import ENGINE, PAPER, WITNESS, family, quick, similar_pairs, subject
 
 ONLY = Query(View.EXACT, inclusion=False)
-FAMILIES = [(3, True, 6), (4, False, 9)]  # masses, damped, pairs that conditions 1 to 9 leave open (facts of the paper)
+# masses, damped, pairs that conditions 1 to 9 leave open (facts of the paper)
+FAMILIES = [(3, True, 6), (4, False, 9)]
 RUBBED = [Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(2,))]
 
 
@@ -27,7 +30,11 @@ def open_pairs():
     for n, damped, count in FAMILIES:
         subjects = family(n, damped)
         paper = ENGINE.decisions(subjects, PAPER)
-        left = [pair for pair in combinations(range(len(subjects)), 2) if paper.relation(*pair) is Relation.UNDECIDED]
+        left = [
+            pair
+            for pair in combinations(range(len(subjects)), 2)
+            if paper.relation(*pair) is Relation.UNDECIDED
+        ]
         assert len(left) == count
         found += [(subjects[i], subjects[j]) for i, j in left]
     return found
@@ -78,7 +85,9 @@ def test_a_tampered_fibre_is_refused(tamper):
     found = decide(left, right, ONLY)
     assert isinstance(found.evidence, FibreAt) and found.relation is Relation.DISTINGUISHABLE
     assert WITNESS.confirms(found.evidence, found.representation, left.chain, right.chain)
-    assert not WITNESS.confirms(tamper(found.evidence), found.representation, left.chain, right.chain)
+    assert not WITNESS.confirms(
+        tamper(found.evidence), found.representation, left.chain, right.chain
+    )
 
 
 def rigid(pair):
@@ -91,19 +100,26 @@ def rigid(pair):
 def test_it_never_contradicts_a_condition(pair):
     subjects = [subject(chain) for chain in pair]
     assert audit(*subjects, ONLY) == decide(*subjects, ONLY)
-    assert decide(*subjects, PAPER).relation in (decide(*subjects, ONLY).relation, Relation.UNDECIDED)
+    assert decide(*subjects, PAPER).relation in (
+        decide(*subjects, ONLY).relation,
+        Relation.UNDECIDED,
+    )
 
 
 @quick
 @given(pair=similar_pairs().map(rigid), markov=st.sampled_from([0, 3]))
 def test_it_is_the_last_to_report(pair, markov):
     found = list(steps(*(subject(chain) for chain in pair), Query(markov=markov)))
-    assert [(s.representation, s.finding.rule) for s in found].index(("fibre", EXACT)) == len(found) - 1
+    assert [(s.representation, s.finding.rule) for s in found].index(("fibre", EXACT)) == len(
+        found
+    ) - 1
     assert bool(found[-1].finding.evidence) == (found[-1].relation is not Relation.UNDECIDED)
 
 
 @quick
 @given(pair=similar_pairs().map(rigid))
 def test_the_mirrored_pair_has_the_mirrored_verdict(pair):
-    there, back = (decide(*(subject(chain) for chain in order), ONLY) for order in (pair, pair[::-1]))
+    there, back = (
+        decide(*(subject(chain) for chain in order), ONLY) for order in (pair, pair[::-1])
+    )
     assert (there.relation, there.decided_by) == (back.relation, back.decided_by)

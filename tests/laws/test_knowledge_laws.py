@@ -6,14 +6,27 @@ from hypothesis import given
 
 from disting import Engine, Family, Query, Relation, Settings, View
 from disting.verdict import ALL_CONDITIONS
-from tests.laws.pairs import BY_CONDITIONS, ENGINE, SMALL, any_pair, family, quick, subject, verdict, with_examples
+from tests.laws.pairs import (
+    BY_CONDITIONS,
+    ENGINE,
+    SMALL,
+    any_pair,
+    family,
+    quick,
+    subject,
+    verdict,
+    with_examples,
+)
 
 
 @quick
 @with_examples
 @given(pair=any_pair)
 def test_more_markov_parameters_never_turn_a_relation_round(pair):
-    relations = [verdict(*pair, Query(View.MARKOV, markov=count)).relation for count in (1, 2, 3, 4, 6, 8, 11, 12, 16)]
+    relations = [
+        verdict(*pair, Query(View.MARKOV, markov=count)).relation
+        for count in (1, 2, 3, 4, 6, 8, 11, 12, 16)
+    ]
     decided = [r for r in relations if r is not Relation.UNDECIDED]
     assert len(set(decided)) <= 1
     first = relations.index(decided[0]) if decided else len(relations)
@@ -25,7 +38,9 @@ def test_more_markov_parameters_never_turn_a_relation_round(pair):
 @given(pair=any_pair)
 def test_more_conditions_and_views_never_turn_a_relation_round(pair):
     whole = verdict(*pair).relation
-    for query in [Query(view) for view in BY_CONDITIONS] + [Query(View.COMBINED, conditions=(c,)) for c in ALL_CONDITIONS]:
+    for query in [Query(view) for view in BY_CONDITIONS] + [
+        Query(View.COMBINED, conditions=(c,)) for c in ALL_CONDITIONS
+    ]:
         assert verdict(*pair, query).relation in (whole, Relation.UNDECIDED)
 
 

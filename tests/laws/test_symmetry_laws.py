@@ -6,7 +6,16 @@ from disting import Relation
 from disting.certainty import Certainty
 from disting.evidence.conditions import Renaming
 from disting.model.symmetry import forms
-from tests.laws.pairs import WITNESS, any_pair, mirrored, often, quick, similar_pairs, verdict, with_examples
+from tests.laws.pairs import (
+    WITNESS,
+    any_pair,
+    mirrored,
+    often,
+    quick,
+    similar_pairs,
+    verdict,
+    with_examples,
+)
 from tests.laws.strategies import chains
 
 
@@ -29,7 +38,11 @@ def test_the_mirrored_pair_has_the_mirrored_verdict(pair):
 def test_reciprocity_and_reflection_give_indistinguishable_models(chain):
     for form in forms(chain):
         found = verdict(chain, form.chain)
-        assert (found.relation, found.decided_by, found.certainty) == (Relation.INDISTINGUISHABLE, "6", Certainty.THEOREM)
+        assert (found.relation, found.decided_by, found.certainty) == (
+            Relation.INDISTINGUISHABLE,
+            "6",
+            Certainty.THEOREM,
+        )
         assert WITNESS.confirms(found.evidence, found.representation, chain, form.chain)
 
 

@@ -32,7 +32,10 @@ def test_other_data_is_no_verdict(data):
         Verdict.from_dict(data)
 
 
-@pytest.mark.parametrize("data", [{}, {"kind": "other"}, {"kind": "counts"}, {"kind": "counts", "left": 1, "right": 2, "x": 3}])
+@pytest.mark.parametrize(
+    "data",
+    [{}, {"kind": "other"}, {"kind": "counts"}, {"kind": "counts", "left": 1, "right": 2, "x": 3}],
+)
 def test_other_data_is_no_evidence(data):
     with pytest.raises((KeyError, TypeError)):
         evidence_from(data)
@@ -76,7 +79,8 @@ def test_an_undecided_verdict_has_no_proof():
     with pytest.raises(ValueError, match="exactly a decided verdict"):
         Verdict("a", "b", Relation.UNDECIDED, **DECIDED)
     assert (
-        Verdict("a", "b", Relation.UNDECIDED).sentence == "a and b are undecided over complex parameters: nothing settles them."
+        Verdict("a", "b", Relation.UNDECIDED).sentence
+        == "a and b are undecided over complex parameters: nothing settles them."
     )
 
 
@@ -94,4 +98,7 @@ def test_every_kind_of_evidence_of_the_exact_decision_has_words_for_the_rule():
 
     assert {kind.kind for kind in get_args(ByDecision)} <= GROUNDS.keys()
     dual = compare(Family(3, damped=True)[1], Family(3, damped=True)[11], query=Query(View.EXACT))
-    assert dual.rule == "exact decision, a theorem" and f"over complex parameters ({dual.rule})" in dual.sentence
+    assert (
+        dual.rule == "exact decision, a theorem"
+        and f"over complex parameters ({dual.rule})" in dual.sentence
+    )

@@ -4,7 +4,8 @@ import struct
 
 import numpy as np
 
-NUMBERS = {"f8": (6, 9), "u4": (13, 6), "i4": (12, 5), "u1": (9, 2)}  # class of the matrix, type of the element
+# class of the matrix, type of the element
+NUMBERS = {"f8": (6, 9), "u4": (13, 6), "i4": (12, 5), "u1": (9, 2)}
 
 
 def element(kind, content):
@@ -16,31 +17,51 @@ def whole(*values):
 
 
 def head(kind, shape, name, complex_=False):
-    return element(6, struct.pack("<II", kind | 0x800 * complex_, 0)) + whole(*shape) + element(1, name.encode())
+    return (
+        element(6, struct.pack("<II", kind | 0x800 * complex_, 0))
+        + whole(*shape)
+        + element(1, name.encode())
+    )
 
 
 def matrix(value, name=""):
-    """A variable: an array, a text, a list (cells), a dictionary (a struct), or a tuple (an object: its number, its class)."""
+    """A variable: an array, a text, a list (cells), a dictionary (a struct), or a tuple (an
+    object: its number, its class).
+    """
     if isinstance(value, tuple):
-        return opaque(matrix(np.array([[0xDD000000], [2], [1], [1], [value[0]], [value[1]]], "u4")), name, "frd")
+        return opaque(
+            matrix(np.array([[0xDD000000], [2], [1], [1], [value[0]], [value[1]]], "u4")),
+            name,
+            "frd",
+        )
     if isinstance(value, str):
         return element(14, head(4, (1, len(value)), name) + element(4, value.encode("utf-16-le")))
     if isinstance(value, list):
-        return element(14, head(1, (len(value), 1), name) + b"".join(matrix(part) for part in value))
+        return element(
+            14, head(1, (len(value), 1), name) + b"".join(matrix(part) for part in value)
+        )
     if isinstance(value, dict):
         fields = b"".join(field.encode().ljust(32, b"\0") for field in value)
         inner = b"".join(matrix(part) for part in value.values())
-        return element(14, head(2, (1, 1), name) + struct.pack("<HHi", 5, 4, 32) + element(1, fields) + inner)
+        return element(
+            14, head(2, (1, 1), name) + struct.pack("<HHi", 5, 4, 32) + element(1, fields) + inner
+        )
     value = np.atleast_2d(value)
     complex_ = np.iscomplexobj(value)
     of, kind = NUMBERS["f8" if complex_ else value.dtype.str[1:]]
     parts = (value.real, value.imag) if complex_ else (value,)
-    return element(14, head(of, value.shape, name, complex_) + b"".join(element(kind, p.tobytes("F")) for p in parts))
+    return element(
+        14,
+        head(of, value.shape, name, complex_)
+        + b"".join(element(kind, p.tobytes("F")) for p in parts),
+    )
 
 
 def opaque(inner, name, class_):
     flags = element(6, struct.pack("<II", 17, 0))
-    return element(14, flags + b"".join(element(1, text.encode()) for text in (name, "MCOS", class_)) + inner)
+    return element(
+        14, flags + b"".join(element(1, text.encode()) for text in (name, "MCOS", class_)) + inner
+    )
 
 
 def tables(objects):

@@ -1,4 +1,6 @@
-"""Records of closed loops: the reference gives what the input alone cannot; and lines that tell nothing are left out."""
+"""Records of closed loops: the reference gives what the input alone cannot; and lines that tell
+nothing are left out.
+"""
 
 import numpy as np
 import pytest
@@ -11,7 +13,8 @@ from disting.measurement.closed_loop import follows_output
 from tests.measurement.bench_data import measured_data
 
 RATE, N = 1000.0, 100_000
-POLE, GAIN, FEEDBACK = 0.9, 0.1, 4.0  # of y = GAIN z^-1 / (1 - POLE z^-1) u, u = r - FEEDBACK z^-1 (y + noise)
+# of y = GAIN z^-1 / (1 - POLE z^-1) u, u = r - FEEDBACK z^-1 (y + noise)
+POLE, GAIN, FEEDBACK = 0.9, 0.1, 4.0
 
 
 def closed_loop(noise=0.5, seed=0):
@@ -42,7 +45,10 @@ def test_the_reference_gives_the_plant_and_its_deviation_in_closed_loop():
 def test_a_reference_that_is_the_input_changes_nothing():
     u = np.random.default_rng(1).normal(size=20_000)
     y = lfilter([0, GAIN], [1, -POLE], u) + np.random.default_rng(2).normal(size=20_000)
-    one, other = (TimeSeries(u, y, RATE, reference=r).response(segment=500, least_coherence=0) for r in (None, u))
+    one, other = (
+        TimeSeries(u, y, RATE, reference=r).response(segment=500, least_coherence=0)
+        for r in (None, u)
+    )
     np.testing.assert_allclose(one.G, other.G, rtol=1e-12)
     np.testing.assert_allclose(one.deviation, other.deviation, rtol=1e-9)
     ordinary = np.abs(one.G) * np.sqrt((1 - one.coherence) / one.coherence * (1 + 2 / 36) / 79)
@@ -80,16 +86,31 @@ def test_lines_without_coherence_are_left_out_and_counted():
     kept = TimeSeries(u, y, RATE).response(segment=1000)
     assert len(whole) == 499 and 50 < len(kept) < 150 and kept.frequency[0] == 1.0
     assert np.quantile(kept.frequency, 0.9) < 130  # the excitation ends at 50 Hz, 24 dB per octave
-    assert any(f"{499 - len(kept)} of 499 lines left out" in note and "nine tenths" in note for note in kept.notes)
+    assert any(
+        f"{499 - len(kept)} of 499 lines left out" in note and "nine tenths" in note
+        for note in kept.notes
+    )
 
 
 def test_too_few_lines_say_why():
     u, y, r = closed_loop()
     noise = np.random.default_rng(5).normal(size=N)
     for series, options, words in (
-        (TimeSeries(u, y, RATE), {"segment": 1000, "band": (100, 102)}, r"3 frequencies are too few.*band 100..102 Hz"),
-        (TimeSeries(r, noise, RATE), {"segment": 100}, r"all 49 lines left out|of 49 lines left out"),
-        (TimeSeries(np.sin(0.1 * np.pi * np.arange(4000)), y[:4000], RATE), {}, r"1 frequencies are too few.*1 excited line"),
+        (
+            TimeSeries(u, y, RATE),
+            {"segment": 1000, "band": (100, 102)},
+            r"3 frequencies are too few.*band 100..102 Hz",
+        ),
+        (
+            TimeSeries(r, noise, RATE),
+            {"segment": 100},
+            r"all 49 lines left out|of 49 lines left out",
+        ),
+        (
+            TimeSeries(np.sin(0.1 * np.pi * np.arange(4000)), y[:4000], RATE),
+            {},
+            r"1 frequencies are too few.*1 excited line",
+        ),
         (TimeSeries(u, y, RATE), {"least_coherence": 0.5}, "belongs to Welch"),
     ):
         with pytest.raises(InputError, match=words):
@@ -100,14 +121,17 @@ def test_too_few_lines_say_why():
 
 def test_a_periodic_reference_tells_period_and_lines():
     lines = np.arange(5, 60, 3)
-    r = np.tile(np.cos(2 * np.pi * np.outer(np.arange(1000) / 1000, lines) + lines**2).sum(axis=1), 20)
+    r = np.tile(
+        np.cos(2 * np.pi * np.outer(np.arange(1000) / 1000, lines) + lines**2).sum(axis=1), 20
+    )
     opened, closed = [1, -POLE], [1, -POLE, FEEDBACK * GAIN]
     e = 2.0 * np.random.default_rng(6).normal(size=len(r))
     u = lfilter(opened, closed, r - FEEDBACK * np.roll(e, 1))
     y = lfilter([0, GAIN], opened, u) + e
     found = TimeSeries(u, y, RATE, reference=r).response()
     assert (
-        np.allclose(found.frequency, lines) and np.mean(np.abs(found.G - true(found.frequency)) ** 2 / found.deviation**2) < 3
+        np.allclose(found.frequency, lines)
+        and np.mean(np.abs(found.G - true(found.frequency)) ** 2 / found.deviation**2) < 3
     )
 
 

@@ -22,8 +22,19 @@ ROUND = "in which they are the round numbers"
 def frd(grid=HERTZ, response=G[:, None, :], **properties):
     """Objects 1 and 2: an frd and its data."""
     data = {"Frequency": grid[:, None], "Response": response, "Ts": np.zeros((1, 1))}
-    moved = {name: properties.pop(name) for name in ("Delay", "Ts", "CovarianceData") if name in properties}
-    return [{"InputName_": [], "Data_": np.array([[0xDD000000], [2], [1], [1], [2], [2]], "u4"), **properties}, data | moved]
+    moved = {
+        name: properties.pop(name)
+        for name in ("Delay", "Ts", "CovarianceData")
+        if name in properties
+    }
+    return [
+        {
+            "InputName_": [],
+            "Data_": np.array([[0xDD000000], [2], [1], [1], [2], [2]], "u4"),
+            **properties,
+        },
+        data | moved,
+    ]
 
 
 def stored(tmp_path, objects, **variables):
@@ -41,10 +52,16 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
         193.5, abs=0.1
     )  # pole of its model: 191
     assert any("taken as rad/s although Hz is said" in note for note in found.notes)
-    assert read(path, response="frf.Pp[1,1]", sensor="position") == found != read(path, response="frf.Pp[2]", sensor="position")
+    assert (
+        read(path, response="frf.Pp[1,1]", sensor="position")
+        == found
+        != read(path, response="frf.Pp[2]", sensor="position")
+    )
     told = read(path, response="frf.Pv[1]", frequency_unit="Hz", sensor="velocity")
     assert told.notes == () and told.frequency[0] == pytest.approx(0.2 * np.pi)
-    with pytest.raises(InputError, match=r"several frequency responses; choose one by response=: frf\.Pp, frf\.Pv"):
+    with pytest.raises(
+        InputError, match=r"several frequency responses; choose one by response=: frf\.Pp, frf\.Pv"
+    ):
         read(path)
     with pytest.raises(InputError, match=r"2 x 1 responses \(outputs x inputs\); choose one"):
         read(path, response="frf.Pv")
@@ -52,19 +69,32 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
         read(path, response="mdl.Pv")
 
 
-@pytest.mark.parametrize(("unit", "omega"), [("Hz", 2 * np.pi), ("kHz", 2e3 * np.pi), ("rad/s", 1.0), ("rad/TimeUnit", 1.0)])
+@pytest.mark.parametrize(
+    ("unit", "omega"),
+    [("Hz", 2 * np.pi), ("kHz", 2e3 * np.pi), ("rad/s", 1.0), ("rad/TimeUnit", 1.0)],
+)
 def test_units_of_the_grid_are_those_of_the_object(tmp_path, unit, omega):
     path = stored(tmp_path, frd(HERTZ / 7, FrequencyUnit_=unit))
     found = read(path, response="frf[2]", sensor="velocity")
-    assert np.allclose(found.omega, HERTZ / 7 * omega) and np.array_equal(found.G, G[1]) and found.notes == ()
+    assert (
+        np.allclose(found.omega, HERTZ / 7 * omega)
+        and np.array_equal(found.G, G[1])
+        and found.notes == ()
+    )
 
 
 def test_round_numbers_are_held_against_the_unit(tmp_path):
-    circular = read(stored(tmp_path, frd(2 * np.pi * HERTZ, FrequencyUnit_="Hz")), response="frf[1]")
+    circular = read(
+        stored(tmp_path, frd(2 * np.pi * HERTZ, FrequencyUnit_="Hz")), response="frf[1]"
+    )
     assert np.allclose(circular.frequency, HERTZ) and any(ROUND in note for note in circular.notes)
     doubtful = read(stored(tmp_path, frd(HERTZ)), response="frf[1]")
-    assert np.array_equal(doubtful.omega, HERTZ) and any("if Hz, give frequency_unit" in note for note in doubtful.notes)
-    assert np.allclose(read(stored(tmp_path, frd(HERTZ)), response="frf[1]", frequency_unit="Hz").frequency, HERTZ)
+    assert np.array_equal(doubtful.omega, HERTZ) and any(
+        "if Hz, give frequency_unit" in note for note in doubtful.notes
+    )
+    assert np.allclose(
+        read(stored(tmp_path, frd(HERTZ)), response="frf[1]", frequency_unit="Hz").frequency, HERTZ
+    )
     for wrong in ("furlong", "rpm with time in minutes"):
         with pytest.raises(InputError, match="frequency_unit is"):
             read(stored(tmp_path, frd(FrequencyUnit_=wrong)), response="frf[1]")
@@ -74,8 +104,19 @@ def test_names_units_delays_and_covariances(tmp_path):
     covariance = np.zeros((2, 1, 12, 2, 2))
     covariance[..., 0, 0], covariance[..., 1, 1] = 9.0, 16.0
     delay = {"Input": np.array([[2.0]]), "Output": np.array([[0.0], [3.0]]), "IO": np.zeros((2, 1))}
-    words = {"InputName_": ["torque"], "InputUnit_": ["Nm"], "OutputName_": ["a", "b"], "OutputUnit_": ["rad", "rad"]}
-    objects = frd(FrequencyUnit_="rad/s", Delay=delay, Ts=np.array([[0.01]]), CovarianceData=covariance, **words)
+    words = {
+        "InputName_": ["torque"],
+        "InputUnit_": ["Nm"],
+        "OutputName_": ["a", "b"],
+        "OutputUnit_": ["rad", "rad"],
+    }
+    objects = frd(
+        FrequencyUnit_="rad/s",
+        Delay=delay,
+        Ts=np.array([[0.01]]),
+        CovarianceData=covariance,
+        **words,
+    )
     found = read(stored(tmp_path, objects), response="frf[2]", sensor="position", sign=-1)
     np.testing.assert_allclose(found.G, -G[1] * np.exp(-0.05j * HERTZ), rtol=1e-14)
     assert np.array_equal(found.deviation, np.full(12, 5.0)) and found.sensor is Sensor.POSITION
@@ -84,14 +125,22 @@ def test_names_units_delays_and_covariances(tmp_path):
 
 def test_the_only_response_needs_no_name_and_structs_have_fields(tmp_path):
     objects = frd(response=G[:1, None, :], FrequencyUnit_="rad/s")
-    record = {"u": np.sin(np.arange(50.0))[:, None], "both": np.random.default_rng(0).normal(size=(50, 2)), "fs": np.eye(1)}
+    record = {
+        "u": np.sin(np.arange(50.0))[:, None],
+        "both": np.random.default_rng(0).normal(size=(50, 2)),
+        "fs": np.eye(1),
+    }
     path = stored(tmp_path, objects, bench={"x": {"response": (1, 1)}}, record=record)
     found = read(path)
     assert np.array_equal(found.G, G[0]) and found.origin == "objects.mat, bench.x.response"
     series = read_time_series(path, "record.u", "record.both[2]", sampling_rate="record.fs")
-    assert np.array_equal(series.y, record["both"][:, 1]) and np.array_equal(series.u, record["u"][:, 0])
+    assert np.array_equal(series.y, record["both"][:, 1]) and np.array_equal(
+        series.u, record["u"][:, 0]
+    )
     for wrong in ("record.both", "record.both[3]", "record.both[0]", "record.both[1,2]"):
-        with pytest.raises(InputError, match=r"holds 2 signals; choose one, from 1, as record\.both\[2\]"):
+        with pytest.raises(
+            InputError, match=r"holds 2 signals; choose one, from 1, as record\.both\[2\]"
+        ):
             read_time_series(path, "record.u", wrong, sampling_rate=10)
     with pytest.raises(InputError, match=r"record\.u\[2\] is no single signal"):
         read_time_series(path, "record.u[2]", "record.u", sampling_rate=10)
@@ -105,7 +154,9 @@ def test_an_object_that_holds_itself_comes_to_an_end(tmp_path):
 
 
 @given(st.floats(0, 1), st.integers(0, 12), st.binary(max_size=8))
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None
+)
 def test_a_damaged_object_is_refused_or_still_a_response(tmp_path, share, length, filling):
     content = file_of({"frf": (1, 1)}, frd(FrequencyUnit_="Hz"))
     start = int(share * len(content))

@@ -35,7 +35,11 @@ def universal(pyuff, kind, data, node, quantity):
 
 def test_arrays():
     found = from_arrays(FREQUENCY, G, deviation=COHERENCE, sensor="velocity", sign=-1)
-    assert np.array_equal(found.G, -G) and np.array_equal(found.deviation, COHERENCE) and found.sensor is Sensor.VELOCITY
+    assert (
+        np.array_equal(found.G, -G)
+        and np.array_equal(found.deviation, COHERENCE)
+        and found.sensor is Sensor.VELOCITY
+    )
     assert np.array_equal(from_arrays(FREQUENCY, G, frequency_unit="rad/s").omega, FREQUENCY)
     for wrong in ({"frequency_unit": "furlong"}, {"sign": 2}, {"coherence": "a"}):
         with pytest.raises(InputError):
@@ -48,12 +52,24 @@ def test_arrays():
 @pytest.mark.parametrize("compressed", [False, True])
 def test_matlab_files_of_scipy(tmp_path, format, compressed):
     path = tmp_path / "a.mat"
-    scipy.io.savemat(path, {"f": FREQUENCY, "G": G, "coh": COHERENCE, "C": 1.0}, format=format, do_compression=compressed)
+    scipy.io.savemat(
+        path,
+        {"f": FREQUENCY, "G": G, "coh": COHERENCE, "C": 1.0},
+        format=format,
+        do_compression=compressed,
+    )
     found = read(path)
-    assert np.array_equal(found.G, G) and np.array_equal(found.coherence, COHERENCE) and found.deviation is None
+    assert (
+        np.array_equal(found.G, G)
+        and np.array_equal(found.coherence, COHERENCE)
+        and found.deviation is None
+    )
     assert np.allclose(found.frequency, FREQUENCY, rtol=1e-15) and found.output.label == "G"
     assert found.notes == (
-        'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"',
+        (
+            'sensor quantity taken as acceleration; if not, give sensor="position" or'
+            ' sensor="velocity"'
+        ),
         "frequencies of 'f' taken as Hz",
     )
     assert read(path, sensor="position", frequency_unit="Hz").notes == ()
@@ -65,7 +81,16 @@ def test_matlab_files_of_scipy(tmp_path, format, compressed):
 def test_several_responses_in_one_matlab_array(tmp_path):
     path = tmp_path / "a.mat"
     several = np.stack([[G, 2 * G, 3 * G], [4 * G, 5 * G, 6 * G]])
-    scipy.io.savemat(path, {"w": FREQUENCY, "several": several, "sd": np.abs(several), "name": "bench", "parts": {"x": 1}})
+    scipy.io.savemat(
+        path,
+        {
+            "w": FREQUENCY,
+            "several": several,
+            "sd": np.abs(several),
+            "name": "bench",
+            "parts": {"x": 1},
+        },
+    )
     found = read(path, response="several", deviation="sd", index=(1, 2))
     assert np.array_equal(found.G, 6 * G) and np.array_equal(found.omega, FREQUENCY)
     assert np.array_equal(found.deviation, np.abs(6 * G))
@@ -75,7 +100,10 @@ def test_several_responses_in_one_matlab_array(tmp_path):
     for name in ("name", "parts"):
         with pytest.raises(InputError, match=f"{name} .*no array of numbers"):
             read(path, response=name)
-    with pytest.raises(InputError, match=r"which variable is the response.*variables: name, parts, parts.x, sd, several, w"):
+    with pytest.raises(
+        InputError,
+        match=r"which variable is the response.*variables: name, parts, parts.x, sd, several, w",
+    ):
         read(path)
 
 
@@ -86,8 +114,15 @@ def test_time_series_of_a_matlab_file(tmp_path):
         scipy.io.savemat(path, signals | rate)
         found = read_time_series(path, "u", "y", sensor="velocity")
         assert found.sampling_rate == pytest.approx(100) and np.array_equal(found.y, np.cos(TIME))
-        assert (found.input, found.output, found.sensor) == (Signal("u"), Signal("y"), Sensor.VELOCITY)
-    assert found.notes == () and "output taken as a position" in read_time_series(path, "u", "y").notes[0]
+        assert (found.input, found.output, found.sensor) == (
+            Signal("u"),
+            Signal("y"),
+            Sensor.VELOCITY,
+        )
+    assert (
+        found.notes == ()
+        and "output taken as a position" in read_time_series(path, "u", "y").notes[0]
+    )
     assert read_time_series(path, "u", "y", sampling_rate=7).sampling_rate == 7
     with pytest.raises(InputError, match=r"two holds 2 signals; choose one, from 1, as two\[2\]"):
         read_time_series(path, "u", "two")
@@ -101,10 +136,20 @@ def test_time_series_of_a_matlab_file(tmp_path):
 def test_matlab_7_3_files_of_h5py(tmp_path):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "a.mat"
-    pairs = np.zeros((12, 2), dtype=[("real", "f8"), ("imag", "f8")])  # MATLAB's 2 x 12, axes reversed
-    pairs["real"], pairs["imag"] = np.stack([G.real, 2 * G.real], axis=1), np.stack([G.imag, 2 * G.imag], axis=1)
+    # MATLAB's 2 x 12, axes reversed
+    pairs = np.zeros((12, 2), dtype=[("real", "f8"), ("imag", "f8")])
+    pairs["real"], pairs["imag"] = (
+        np.stack([G.real, 2 * G.real], axis=1),
+        np.stack([G.imag, 2 * G.imag], axis=1),
+    )
     with h5py.File(path, "w", userblock_size=512) as file:
-        file["f"], file["G"], file["u"], file["y"], file["fs"] = FREQUENCY[:, None], pairs, np.sin(TIME), np.cos(TIME), 100.0
+        file["f"], file["G"], file["u"], file["y"], file["fs"] = (
+            FREQUENCY[:, None],
+            pairs,
+            np.sin(TIME),
+            np.cos(TIME),
+            100.0,
+        )
         file.create_group("settings")["x"] = 1.0
         file.create_group("#refs#")
     with path.open("r+b") as stream:
@@ -152,7 +197,9 @@ def test_universal_files_of_pyuff(tmp_path):
     assert (first.sensor, first.notes) == (Sensor.VELOCITY, ())
     assert (first.output, first.input) == (Signal("node 3 +z", "m/s"), Signal("node 1 -z", "N"))
     assert second.coherence is None and "taken as acceleration" in second.notes[0]
-    with pytest.raises(InputError, match=r"number 3; there are: 1: node 3 .z per node 1 -z; 2: node 5"):
+    with pytest.raises(
+        InputError, match=r"number 3; there are: 1: node 3 .z per node 1 -z; 2: node 5"
+    ):
         read(path, record=3)
 
 
@@ -165,7 +212,9 @@ def test_universal_files_of_pyuff(tmp_path):
     ],
 )
 def test_universal_files_whose_columns_are_shifted_or_missing(tmp_path, good, bad, words):
-    """One blank more at the beginning of a line moved the exponents out of their columns: 1e+01 was read as 1e+0."""
+    """One blank more at the beginning of a line moved the exponents out of their columns: 1e+01
+    was read as 1e+0.
+    """
     pyuff = pytest.importorskip("pyuff")
     path = tmp_path / "a.uff"
     pyuff.UFF(str(path)).write_sets(universal(pyuff, 4, G, 3, 11), "add")
@@ -193,7 +242,9 @@ def test_frequency_response_data_of_python_control():
             wrong()
 
 
-@pytest.mark.parametrize(("module", "name", "extra"), [("h5py", "a.mat", "hdf5"), ("pyuff", "a.uff", "uff")])
+@pytest.mark.parametrize(
+    ("module", "name", "extra"), [("h5py", "a.mat", "hdf5"), ("pyuff", "a.uff", "uff")]
+)
 def test_a_missing_library_is_named_with_its_extra(tmp_path, monkeypatch, module, name, extra):
     monkeypatch.setitem(__import__("sys").modules, module, None)
     path = tmp_path / name
@@ -215,15 +266,21 @@ def whole(tmp_path_factory):
 
 
 @given(st.integers(0, 3), st.floats(0, 1), st.integers(0, 40), st.binary(max_size=8))
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None)
-def test_a_damaged_file_is_refused_or_still_a_response(tmp_path, whole, which, share, length, filling):
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None
+)
+def test_a_damaged_file_is_refused_or_still_a_response(
+    tmp_path, whole, which, share, length, filling
+):
     name, content = whole[which]
     start = int(share * len(content))
     refused(tmp_path / name, content[:start] + filling + content[start + length :])
 
 
 @given(st.integers(0, 3), st.floats(0, 1))
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50, deadline=None)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50, deadline=None
+)
 def test_a_cut_file_is_refused_or_still_a_response(tmp_path, whole, which, share):
     name, content = whole[which]
     refused(tmp_path / name, content[: int(share * len(content))])
@@ -234,7 +291,9 @@ def test_a_cut_file_is_refused_or_still_a_response(tmp_path, whole, which, share
     st.sampled_from([b"", b"\x89HDF\r\n\x1a\n", b"    -1\n    58\n"]),
     st.binary(max_size=200),
 )
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None
+)
 def test_random_bytes_are_refused(tmp_path, name, head, content):
     refused(tmp_path / name, head + content)
 
@@ -256,15 +315,24 @@ NUMERIC = ["f8", "f4", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "c16", "c
     st.integers(0, 2**32),
     st.data(),
 )
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=100, deadline=None)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=100, deadline=None
+)
 def test_version_5_arrays_are_those_that_scipy_wrote(tmp_path, kind, shape, compressed, seed, data):
     source = np.random.default_rng(seed)
     values = (
-        source.normal(size=shape) * 100 + 1j * source.normal(size=shape) if kind[0] == "c" else source.normal(size=shape) * 100
+        source.normal(size=shape) * 100 + 1j * source.normal(size=shape)
+        if kind[0] == "c"
+        else source.normal(size=shape) * 100
     )
     values = np.abs(values).astype(kind) if kind[0] == "u" else values.astype(kind)
     name = data.draw(st.from_regex(r"[a-zA-Z][a-zA-Z0-9_]{0,30}", fullmatch=True))
-    others = {"text": "abc", "cells": np.array([1, "a"], dtype=object), "parts": {"x": 1.0}, "none": np.zeros((0, 0))}
+    others = {
+        "text": "abc",
+        "cells": np.array([1, "a"], dtype=object),
+        "parts": {"x": 1.0},
+        "none": np.zeros((0, 0)),
+    }
     scipy.io.savemat(tmp_path / "a.mat", others | {name: values}, do_compression=compressed)
     arrays = variables(tmp_path / "a.mat")
     assert set(arrays) == {*others, name, "parts.x"}

@@ -1,4 +1,6 @@
-"""A real two-mass bench: its frequency responses from its records, as they were derived independently."""
+"""A real two-mass bench: its frequency responses from its records, as they were derived
+independently.
+"""
 
 import numpy as np
 import pytest
@@ -17,9 +19,13 @@ SIDES = [("theta_mx", 1, "ReG_mot"), ("theta_my", -1, "ReG_load")]
 def test_the_records_give_the_published_responses(experiment, lines, angle, sign, header):
     record = measured_data(f"fditools_motorbench_{experiment}.mat")
     derived = read(measured_data(f"fditools_motorbench_frf_{experiment}.csv"), column=header)
-    found = read(record, input="iq_adx", output=angle, sign=sign, sensor="position", to="acceleration")
+    found = read(
+        record, input="iq_adx", output=angle, sign=sign, sensor="position", to="acceleration"
+    )
     assert found.sensor == derived.sensor == Sensor.ACCELERATION and found.suspicions == ()
-    assert len(found) == {"A": 240, "B": 60}[experiment] and (lines is None or np.allclose(found.frequency, lines))
+    assert len(found) == {"A": 240, "B": 60}[experiment] and (
+        lines is None or np.allclose(found.frequency, lines)
+    )
     np.testing.assert_allclose(found.omega, derived.omega, rtol=1e-14)
     np.testing.assert_allclose(found.G, derived.G, rtol=PRINTED)
     np.testing.assert_allclose(found.deviation, derived.deviation, rtol=PRINTED)
@@ -28,7 +34,12 @@ def test_the_records_give_the_published_responses(experiment, lines, angle, sign
 
 
 def test_the_load_angle_of_the_bench_is_seen_to_be_reversed():
-    found = read(measured_data("fditools_motorbench_A.mat"), input="iq_adx", output="theta_my", to="acceleration")
+    found = read(
+        measured_data("fditools_motorbench_A.mat"),
+        input="iq_adx",
+        output="theta_my",
+        to="acceleration",
+    )
     assert "reversed sensor" in found.suspicions[0]
 
 
@@ -38,7 +49,9 @@ def test_an_object_that_cannot_be_read_does_not_hide_the_rest():
     assert (len(series), series.sampling_rate, series.sensor) == (50000, 2500.0, Sensor.VELOCITY)
     with pytest.raises(InputError, match=r"ms .*no array of numbers"):
         read_time_series(path, "iq_adx", "ms")
-    with pytest.raises(InputError, match=r"no variable 'theta'; variables: .*omega_may, .*theta_mx"):
+    with pytest.raises(
+        InputError, match=r"no variable 'theta'; variables: .*omega_may, .*theta_mx"
+    ):
         read_time_series(path, "iq_adx", "theta")
 
 
@@ -58,5 +71,7 @@ def test_a_real_response_is_written_and_read_bit_by_bit(tmp_path):
 
 
 def test_a_wrong_column_lists_the_headers():
-    with pytest.raises(InputError, match=r"no columns are called 'G'; headers: f_Hz, ReG_mot, .*, coh_load"):
+    with pytest.raises(
+        InputError, match=r"no columns are called 'G'; headers: f_Hz, ReG_mot, .*, coh_load"
+    ):
         read(measured_data("fditools_motorbench_frf_A.csv"), column="G")

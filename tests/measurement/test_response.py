@@ -81,12 +81,21 @@ def test_unsorted_frequencies_are_sorted_with_all_columns_and_said():
 
 
 def test_a_mass_seen_by_three_sensors():
-    position = FrequencyResponse(OMEGA, -1 / (0.25 * OMEGA**2), np.ones(20), sensor="position", output=Signal("x", "rad"))
-    velocity, acceleration = position.to_quantity("velocity"), position.to_quantity(Sensor.ACCELERATION)
+    position = FrequencyResponse(
+        OMEGA, -1 / (0.25 * OMEGA**2), np.ones(20), sensor="position", output=Signal("x", "rad")
+    )
+    velocity, acceleration = (
+        position.to_quantity("velocity"),
+        position.to_quantity(Sensor.ACCELERATION),
+    )
     np.testing.assert_allclose(velocity.G, 1 / (0.25j * OMEGA), rtol=1e-15)
     np.testing.assert_allclose(acceleration.G, 4.0, rtol=1e-15)
     np.testing.assert_allclose(acceleration.deviation, OMEGA**2, rtol=1e-15)
-    assert (velocity.output.unit, acceleration.output.unit, acceleration.sensor) == ("rad/s", "rad/s^2", Sensor.ACCELERATION)
+    assert (velocity.output.unit, acceleration.output.unit, acceleration.sensor) == (
+        "rad/s",
+        "rad/s^2",
+        Sensor.ACCELERATION,
+    )
     assert acceleration.to_quantity("acceleration") is acceleration
 
 
@@ -101,7 +110,9 @@ def test_conversions_are_undone_by_their_reverse(first, second):
 def test_lines_are_chosen_by_band_number_or_truth():
     response = FrequencyResponse(OMEGA, MASS + 1j * OMEGA, OMEGA)
     band = response.masked(30 / (2 * np.pi), 150 / (2 * np.pi))
-    assert (band.omega[0], band.omega[-1], len(band)) == (30.0, 150.0, 13) and np.array_equal(band.deviation, band.omega)
+    assert (band.omega[0], band.omega[-1], len(band)) == (30.0, 150.0, 13) and np.array_equal(
+        band.deviation, band.omega
+    )
     assert response.subset(OMEGA > 50) == response.subset(np.arange(5, 20))
     with pytest.raises(InputError, match="too few"):
         response.masked(low=1e3)
@@ -113,7 +124,11 @@ def test_lines_are_chosen_by_band_number_or_truth():
 def test_thinned_lines_are_some_of_the_measured_ones_even_on_a_logarithmic_scale():
     response = FrequencyResponse(np.arange(1.0, 1001.0), np.ones(1000))
     thin = response.thinned(31)
-    assert len(thin) == 31 and np.isin(thin.omega, response.omega).all() and thin.omega[[0, -1]].tolist() == [1.0, 1000.0]
+    assert (
+        len(thin) == 31
+        and np.isin(thin.omega, response.omega).all()
+        and thin.omega[[0, -1]].tolist() == [1.0, 1000.0]
+    )
     assert np.ptp(np.diff(np.log(thin.omega[thin.omega > 20]))) < 0.1
     assert response.thinned(2000) is response
     for count in range(8, 20):
@@ -125,7 +140,8 @@ def test_thinned_lines_are_some_of_the_measured_ones_even_on_a_logarithmic_scale
 def test_a_reversed_sensor_is_suspected_at_a_free_mass_and_not_at_a_mass_on_a_spring():
     s = 1j * OMEGA
     free = FrequencyResponse(OMEGA, s**2 / (2 * s**2 + 3 * s))
-    sprung = FrequencyResponse(OMEGA, s**2 / (2 * s**2 + 3 * s + 1e5))  # phase 180 degrees too, and right
+    # phase 180 degrees too, and right
+    sprung = FrequencyResponse(OMEGA, s**2 / (2 * s**2 + 3 * s + 1e5))
     assert abs(np.angle(sprung.G[0])) > 3
     assert free.suspicions == () == sprung.suspicions
     assert "sign_reversed" in free.sign_reversed().suspicions[0]
@@ -140,9 +156,14 @@ def test_a_reversed_sensor_is_suspected_in_any_unit(size):
 
 
 def test_copies_for_other_processes_are_equal_and_read_only():
-    response = FrequencyResponse(OMEGA[::-1], MASS, MASS.real, sensor="velocity", output=Signal("v", "m/s"), origin="a")
+    response = FrequencyResponse(
+        OMEGA[::-1], MASS, MASS.real, sensor="velocity", output=Signal("v", "m/s"), origin="a"
+    )
     for found in (pickle.loads(pickle.dumps(response)), copy.deepcopy(response)):
-        assert found == response and (found.origin, found.notes) == (response.origin, response.notes)
+        assert found == response and (found.origin, found.notes) == (
+            response.origin,
+            response.notes,
+        )
         assert not found.G.flags.writeable and not found.deviation.flags.writeable
 
 

@@ -33,8 +33,15 @@ def test_a_delay_is_found_exactly_with_period_and_lines_detected():
     found = TimeSeries(u, filtered(u), RATE, sensor="velocity").response()
     np.testing.assert_allclose(found.frequency, LINES * RATE / PERIOD, rtol=1e-14)
     np.testing.assert_allclose(found.G, 0.5 * np.exp(-3j * found.omega / RATE), rtol=1e-10)
-    assert found.coherence.min() > 1 - 1e-12 and found.deviation.max() < 1e-10 and found.sensor is Sensor.VELOCITY
-    assert found.notes == ("period of 500 samples (0.5 s) detected in the input", "55 excited lines detected in the input")
+    assert (
+        found.coherence.min() > 1 - 1e-12
+        and found.deviation.max() < 1e-10
+        and found.sensor is Sensor.VELOCITY
+    )
+    assert found.notes == (
+        "period of 500 samples (0.5 s) detected in the input",
+        "55 excited lines detected in the input",
+    )
 
 
 def test_the_transient_is_dropped():
@@ -62,7 +69,8 @@ def test_deviation_and_coherence_are_those_of_the_noise():
     source = np.random.default_rng(3)
     found = TimeSeries(u, filtered(u) + 2.0 * source.normal(size=len(u)), RATE).response()
     true = 0.5 * np.exp(-3j * found.omega / RATE)
-    expected = 2.0 * np.sqrt(PERIOD) / (PERIOD / 2) / np.sqrt(200)  # |U| = N/2 of a line of amplitude 1
+    # |U| = N/2 of a line of amplitude 1
+    expected = 2.0 * np.sqrt(PERIOD) / (PERIOD / 2) / np.sqrt(200)
     np.testing.assert_allclose(found.deviation, expected, rtol=0.2)
     assert 0.85 < np.mean(np.abs((found.G - true) / expected) ** 2) < 1.25
     share = PERIOD * 4.0 / (PERIOD / 2) ** 2 / 0.25  # noise power per power of the output
@@ -72,7 +80,10 @@ def test_deviation_and_coherence_are_those_of_the_noise():
 def test_given_lines_band_and_period():
     u = multisine()
     series = TimeSeries(u, filtered(u), RATE)
-    assert np.allclose(series.response(period=PERIOD, lines=np.arange(22.0, 100.0, 4.0)).frequency, np.arange(22.0, 100.0, 4.0))
+    assert np.allclose(
+        series.response(period=PERIOD, lines=np.arange(22.0, 100.0, 4.0)).frequency,
+        np.arange(22.0, 100.0, 4.0),
+    )
     assert series.response(band=(30, 90)).frequency[[0, -1]].round(9).tolist() == [30.0, 90.0]
     one = TimeSeries(u[:PERIOD], filtered(u)[:PERIOD], RATE).response(period=PERIOD, transient=0)
     assert one.deviation is None and one.coherence is None and "one period alone" in one.notes[-1]
@@ -111,14 +122,20 @@ def test_an_input_that_does_not_repeat_needs_welch():
 @given(st.integers(40, 400), st.integers(2, 7), st.integers(0, 10**6), st.floats(0, 0.1))
 def test_the_shortest_period_is_detected_under_noise(period, periods, seed, noise):
     source = np.random.default_rng(seed)
-    lines = np.unique(np.append(source.integers(1, period // 2 - 1, 12), [1, 2]))  # line 1: no shorter period
+    # line 1: no shorter period
+    lines = np.unique(np.append(source.integers(1, period // 2 - 1, 12), [1, 2]))
     u = multisine(lines, period, periods, seed) + noise * source.normal(size=period * periods)
     assert detected_period(u) == period
 
 
 def test_slow_signals_have_no_short_period():
     time = np.arange(8000) / 1000
-    assert detected_period(np.sin(2 * np.pi * time) + 1e-4 * np.random.default_rng(0).normal(size=8000)) == 1000
+    assert (
+        detected_period(
+            np.sin(2 * np.pi * time) + 1e-4 * np.random.default_rng(0).normal(size=8000)
+        )
+        == 1000
+    )
     for signal in (time, time**2, np.where(time > 4, 1.0, 0.0)):
         with pytest.raises(InputError, match="does not repeat"):
             detected_period(signal)
@@ -159,12 +176,17 @@ def test_welch_of_a_filter_with_noise_on_the_output():
 )
 def test_what_is_no_record_is_refused(changed, words):
     with pytest.raises(InputError, match=words):
-        TimeSeries(**({"u": np.arange(100.0), "y": np.arange(100.0), "sampling_rate": RATE} | changed))
+        TimeSeries(
+            **({"u": np.arange(100.0), "y": np.arange(100.0), "sampling_rate": RATE} | changed)
+        )
 
 
 def test_records_are_equal_by_content_and_cannot_change():
     record = TimeSeries(np.arange(100.0), np.arange(100.0), RATE, origin="a")
-    assert record == TimeSeries(list(range(100)), np.arange(100.0), 1000, origin="b") and len({record, record}) == 1
+    assert (
+        record == TimeSeries(list(range(100)), np.arange(100.0), 1000, origin="b")
+        and len({record, record}) == 1
+    )
     assert record != record.sign_reversed() and record != "record"
     assert pickle.loads(pickle.dumps(record)) == record
     with pytest.raises(ValueError, match="read-only"):

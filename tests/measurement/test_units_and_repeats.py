@@ -23,7 +23,12 @@ def written(path, header, rows, comment=""):
 
 
 def parts(tmp_path, comment, header="f [Hz],Re,Im"):
-    return written(tmp_path / "a.csv", header, [(f, g.real, g.imag) for f, g in zip(FREQUENCY, G, strict=True)], comment)
+    return written(
+        tmp_path / "a.csv",
+        header,
+        [(f, g.real, g.imag) for f, g in zip(FREQUENCY, G, strict=True)],
+        comment,
+    )
 
 
 @pytest.mark.parametrize(
@@ -40,8 +45,12 @@ def test_units_of_comments_are_taken_to_si(tmp_path, comment, output, input, sen
     found = in_si(read(parts(tmp_path, comment + "\n")))
     assert (found.output.unit, found.input.unit, found.sensor) == (output, input, sensor)
     np.testing.assert_allclose(found.G, G * factor, rtol=1e-14)
-    assert unit_of("m", found) == mass and not any("sensor quantity" in note for note in found.notes)
-    assert any("output taken from" in note for note in found.notes) == (factor != 1 or "mm" in comment)
+    assert unit_of("m", found) == mass and not any(
+        "sensor quantity" in note for note in found.notes
+    )
+    assert any("output taken from" in note for note in found.notes) == (
+        factor != 1 or "mm" in comment
+    )
 
 
 def test_what_is_no_unit_is_left_alone(tmp_path):
@@ -53,11 +62,19 @@ def test_what_is_no_unit_is_left_alone(tmp_path):
 def test_units_that_the_caller_gives():
     plain = FrequencyResponse(2 * np.pi * FREQUENCY, G, deviation=np.ones(12), sensor="position")
     found = in_si(plain.to_quantity("velocity"), output="deg", input="mNm")
-    np.testing.assert_allclose(found.G, plain.to_quantity("velocity").G * np.pi / 180 * 1e3, rtol=1e-14)
+    np.testing.assert_allclose(
+        found.G, plain.to_quantity("velocity").G * np.pi / 180 * 1e3, rtol=1e-14
+    )
     np.testing.assert_allclose(found.deviation, plain.omega * np.pi / 180 * 1e3, rtol=1e-14)
-    assert (found.output.unit, unit_of("k", found), unit_of("b", found)) == ("rad/s", "Nm/rad", "N m s/rad")
+    assert (found.output.unit, unit_of("k", found), unit_of("b", found)) == (
+        "rad/s",
+        "Nm/rad",
+        "N m s/rad",
+    )
     speed = in_si(plain.to_quantity("velocity"), output="rpm")
-    np.testing.assert_allclose(speed.G, plain.to_quantity("velocity").G * 2 * np.pi / 60, rtol=1e-14)
+    np.testing.assert_allclose(
+        speed.G, plain.to_quantity("velocity").G * 2 * np.pi / 60, rtol=1e-14
+    )
     for wrong in ({"output": "furlong"}, {"input": "rad"}, {"output": "rpm"}):
         with pytest.raises(InputError, match=r"no unit that is known|is a velocity"):
             in_si(plain, **wrong)
@@ -67,11 +84,19 @@ def test_a_torque_constant_makes_a_current_a_torque_or_a_force():
     data = {"omega": 2 * np.pi * FREQUENCY, "G": G, "input": Signal("iq", "A")}
     linear = with_constant(FrequencyResponse(**data, output=Signal("x", "m/s^2")), 35.0)
     np.testing.assert_allclose(linear.G, G / 35, rtol=1e-14)
-    assert [unit_of(kind, linear) for kind in "mkd"] == ["kg", "N/m", "N s/m"] and linear.notes == ()
+    assert [unit_of(kind, linear) for kind in "mkd"] == [
+        "kg",
+        "N/m",
+        "N s/m",
+    ] and linear.notes == ()
     unknown = with_constant(FrequencyResponse(**data), 0.5)
     assert [unit_of(kind, unknown) for kind in "mkd"] == ["kg m²", "Nm/rad", "N m s/rad"]
     assert any("taken to be in rad" in note for note in unknown.notes)
-    for response, constant in ((linear, 1.0), (FrequencyResponse(**data), 0.0), (FrequencyResponse(**data), np.nan)):
+    for response, constant in (
+        (linear, 1.0),
+        (FrequencyResponse(**data), 0.0),
+        (FrequencyResponse(**data), np.nan),
+    ):
         with pytest.raises(InputError, match=r"leave --torque-constant away|is positive"):
             with_constant(response, constant)
     np.testing.assert_allclose(scaled(linear, 1e-3).G, G / 35e3, rtol=1e-14)
@@ -85,7 +110,9 @@ def test_the_real_bench_has_units_in_its_header():
     assert unit_of("m", with_constant(found, 0.3)) == "kg m²"
 
 
-@pytest.mark.parametrize("header", ["f [Hz],mag,phase", "f [Hz],amplitude,phase [deg]", "f [Hz],Gain,Phase"])
+@pytest.mark.parametrize(
+    "header", ["f [Hz],mag,phase", "f [Hz],amplitude,phase [deg]", "f [Hz],Gain,Phase"]
+)
 def test_negative_magnitudes_with_degrees_are_decibels_and_said(tmp_path, header):
     rows = [(f, 20 * np.log10(abs(g)), 30 * f - 180) for f, g in zip(FREQUENCY, G, strict=True)]
     found = read(written(tmp_path / "a.csv", header, rows))
@@ -104,20 +131,28 @@ def test_the_unit_of_a_column_of_frequencies(tmp_path):
     assert np.array_equal(read(path, frequency_unit="rad/s").omega, FREQUENCY)
     assert np.allclose(read(path, frequency_unit="rpm").frequency, FREQUENCY / 60)
     circular = written(tmp_path / "b.csv", "f,Re,Im", [(2 * np.pi * f, 1, f) for f in FREQUENCY])
-    assert np.allclose(read(circular).frequency, FREQUENCY) and any("round numbers 1, 2, 3" in n for n in read(circular).notes)
-    assert in_omega(FREQUENCY * 1.2345678, None, None, "f")[0][0] == pytest.approx(2 * np.pi * 1.2345678)
+    assert np.allclose(read(circular).frequency, FREQUENCY) and any(
+        "round numbers 1, 2, 3" in n for n in read(circular).notes
+    )
+    assert in_omega(FREQUENCY * 1.2345678, None, None, "f")[0][0] == pytest.approx(
+        2 * np.pi * 1.2345678
+    )
 
 
 def test_repeats_have_a_mean_and_a_scatter(tmp_path):
     source = np.random.default_rng(0)
-    several = G * (1 + 0.02 * (source.normal(size=(200, 12)) + 1j * source.normal(size=(200, 12))) / np.sqrt(2))
+    several = G * (
+        1 + 0.02 * (source.normal(size=(200, 12)) + 1j * source.normal(size=(200, 12))) / np.sqrt(2)
+    )
     repeats = [FrequencyResponse(FREQUENCY, one) for one in several]
     found = mean_of(repeats)
     np.testing.assert_allclose(found.G, several.mean(axis=0), rtol=1e-13)
     np.testing.assert_allclose(found.deviation, 0.02 * np.abs(G) / np.sqrt(200), rtol=0.25)
     assert any("mean of 200 repeats, which scatter by 2" in note for note in found.notes)
     assert mean_of(repeats[:1]) == repeats[0]
-    columns = [(f, *(x for g in several[:3, i] for x in (g.real, g.imag))) for i, f in enumerate(FREQUENCY)]
+    columns = [
+        (f, *(x for g in several[:3, i] for x in (g.real, g.imag))) for i, f in enumerate(FREQUENCY)
+    ]
     path = written(tmp_path / "a.csv", "f [Hz],Re 1,Im 1,Re 2,Im 2,Re 3,Im 3", columns)
     assert np.allclose(read(path, column="all").G, several[:3].mean(axis=0))
     for other in (repeats[0].sign_reversed().to_quantity("velocity"), repeats[0].masked(low=0.4)):
@@ -133,12 +168,33 @@ def test_signals_of_a_record_have_units_in_their_headers(tmp_path):
 
 
 def test_units_on_the_command_line(tmp_path, capsys):
-    path = written(tmp_path / "a.csv", "f,Re,Im", [(f, 5.0 + 0.1 * np.sin(f), 0.1 * np.cos(f)) for f in np.arange(1.0, 31.0)])
-    mass = ["fit", str(path), "--masses", "1", "--unit", "input=A", "--unit", "output=mm/s^2", "--unit", "frequency=rad/s"]
+    path = written(
+        tmp_path / "a.csv",
+        "f,Re,Im",
+        [(f, 5.0 + 0.1 * np.sin(f), 0.1 * np.cos(f)) for f in np.arange(1.0, 31.0)],
+    )
+    mass = [
+        "fit",
+        str(path),
+        "--masses",
+        "1",
+        "--unit",
+        "input=A",
+        "--unit",
+        "output=mm/s^2",
+        "--unit",
+        "frequency=rad/s",
+    ]
     assert main([*mass, "--torque-constant", "0.02", "--repeat", str(path), "--scale", "2"]) == 0
     said = capsys.readouterr()
-    assert "kg\n" in said.out and "mean of 2 repeats" in said.err and "output taken from mm/s^2 to m/s^2" in said.err
-    inertia = next(line for line in said.out.splitlines() if line.strip().startswith("total inertia"))
+    assert (
+        "kg\n" in said.out
+        and "mean of 2 repeats" in said.err
+        and "output taken from mm/s^2 to m/s^2" in said.err
+    )
+    inertia = next(
+        line for line in said.out.splitlines() if line.strip().startswith("total inertia")
+    )
     assert float(inertia.split()[2].strip("(")) == pytest.approx(0.02 / 0.01, rel=0.01)
     for wrong in (["--unit", "input=furlong"], ["--scale", "-1"], ["--torque-constant", "0"]):
         assert main(["fit", str(path), *wrong]) == 2

@@ -5,13 +5,24 @@ from dataclasses import FrozenInstanceError
 import pytest
 from hypothesis import given, settings
 
-from disting import Chain, ConstraintViolation, Family, InputError, Query, Relation, Sensor, View, compare
+from disting import (
+    Chain,
+    ConstraintViolation,
+    Family,
+    InputError,
+    Query,
+    Relation,
+    Sensor,
+    View,
+    compare,
+)
 from disting.model.constraints import CONSTRAINTS, Indices, violated
 from tests.laws.strategies import chains
 
 VALID = (3, 1, 1, 2, 1, 3)
 
-# --- (36) and (37): refused ------------------------------------------------------------------------------------------
+# --- (36) and (37): refused
+# ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -35,19 +46,29 @@ def test_a_broken_constraint_is_named(indices, equation, text):
     with pytest.raises(ConstraintViolation) as refusal:
         Chain(*indices)
     n, gap, act_minus, act_plus, meas_minus, meas_plus = indices
-    assert str(refusal.value) == (
-        f"constraint ({equation}) {text} is violated by N_B={n}, n_gap={gap}, "
+    assert (
+        str(refusal.value)
+        == f"constraint ({equation}) {text} is violated by N_B={n}, n_gap={gap}, "
         f"n_act-={act_minus}, n_act+={act_plus}, n_meas-={meas_minus}, n_meas+={meas_plus}"
     )
 
 
 def test_the_limits_themselves_are_allowed():
-    for indices in [VALID, (3, 2, 1, 3, 2, 3), (3, 2, 2, 3, 1, 3), (3, 0, 0, 1, 0, 3), (3, 0, 0, 3, 0, 1), (1, 0, 0, 1, 0, 1)]:
+    for indices in [
+        VALID,
+        (3, 2, 1, 3, 2, 3),
+        (3, 2, 2, 3, 1, 3),
+        (3, 0, 0, 1, 0, 3),
+        (3, 0, 0, 3, 0, 1),
+        (1, 0, 0, 1, 0, 1),
+    ]:
         assert Chain(*indices).indices == indices
 
 
 def test_the_example_of_fig_9_is_refused():
-    """N_B = 3, n_gap = 1, n_act+ = 3, n_act- = 1, n_meas+ = 2, n_meas- = 0: the sensor does not see mass 1."""
+    """N_B = 3, n_gap = 1, n_act+ = 3, n_act- = 1, n_meas+ = 2, n_meas- = 0: the sensor does not
+    see mass 1.
+    """
     with pytest.raises(ConstraintViolation, match=r"\(37\) n_gap = 0 or n_meas- > 0"):
         Chain(3, 1, 1, 3, 0, 2)
 
@@ -60,7 +81,8 @@ def test_the_example_of_fig_9_is_refused():
         ((3, 1, 1, 3, 1, 3), ["reflection-breaking"]),
         ((3, 0, 0, 3, 0, 3), ["reflection-breaking"]),
         ((4, 0, 0, 3, 0, 2), ["reciprocity-breaking", "reflection-breaking"]),
-        ((3, 1, 1, 3, 0, 2), ["sensitivity", "reciprocity-breaking", "reflection-breaking"]),  # Fig. 9
+        # Fig. 9
+        ((3, 1, 1, 3, 0, 2), ["sensitivity", "reciprocity-breaking", "reflection-breaking"]),
     ],
 )
 def test_which_constraints_are_broken(indices, names):
@@ -71,7 +93,8 @@ def test_nine_constraints():
     assert [c.equation for c in CONSTRAINTS] == [36] * 5 + [37] * 2 + [38] * 2
 
 
-# --- (38): another numbering -----------------------------------------------------------------------------------------
+# --- (38): another numbering
+# -----------------------------------------------------------------------------------------
 
 
 def test_a_chain_outside_38_is_a_model_with_another_number():
@@ -82,7 +105,8 @@ def test_a_chain_outside_38_is_a_model_with_another_number():
         Family(3).number(outside)
 
 
-# --- bad input -------------------------------------------------------------------------------------------------------
+# --- bad input
+# -------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -111,7 +135,10 @@ def test_bad_input(arguments):
 
 
 def test_chains_are_values():
-    one, other = Chain(2, ground_dampers=(2, 1, 2)), Chain(2, ground_dampers=[1, 2], sensor="acceleration")
+    one, other = (
+        Chain(2, ground_dampers=(2, 1, 2)),
+        Chain(2, ground_dampers=[1, 2], sensor="acceleration"),
+    )
     assert one == other
     assert hash(one) == hash(other)
     assert one.ground_dampers == (1, 2)
@@ -120,12 +147,25 @@ def test_chains_are_values():
         one.gap = 1
 
 
-# --- parameters, texts -----------------------------------------------------------------------------------------------
+# --- parameters, texts
+# -----------------------------------------------------------------------------------------------
 
 
 def test_parameters_in_fixed_order():
     chain = Chain(3, 1, 1, 2, 1, 3, damped=True, ground_dampers=(3, 1), lag=True, dead_time=True)
-    assert chain.parameters == ("m1", "m2", "m3", "k01", "k23", "d01", "d23", "b1", "b3", "T1", "Td")
+    assert chain.parameters == (
+        "m1",
+        "m2",
+        "m3",
+        "k01",
+        "k23",
+        "d01",
+        "d23",
+        "b1",
+        "b3",
+        "T1",
+        "Td",
+    )
 
 
 def test_parameters_beyond_nine_masses_stay_apart():
@@ -138,12 +178,20 @@ def test_parameters_beyond_nine_masses_stay_apart():
 @given(chains(dead_time=True))
 def test_numbers_of_parameters_and_states(chain):
     springs = chain.n_masses - 1
-    expected = chain.n_masses + springs * (1 + chain.damped) + len(chain.ground_dampers) + chain.lag + chain.dead_time
+    expected = (
+        chain.n_masses
+        + springs * (1 + chain.damped)
+        + len(chain.ground_dampers)
+        + chain.lag
+        + chain.dead_time
+    )
     assert len(set(chain.parameters)) == len(chain.parameters) == expected
     assert chain.structure.n_states == 2 * chain.n_masses + chain.lag
 
 
-@pytest.mark.parametrize(("sensor", "order"), [("position", 0), ("velocity", 1), ("acceleration", 2)])
+@pytest.mark.parametrize(
+    ("sensor", "order"), [("position", 0), ("velocity", 1), ("acceleration", 2)]
+)
 def test_sensor_orders(sensor, order):
     assert Sensor(sensor).order == order == Chain(1, sensor=sensor).structure.sensor_order
 
@@ -154,12 +202,29 @@ def test_collocated_models_of_table_3():
 
 def test_a_chain_in_words():
     assert str(Chain(2)) == "2 masses, gap 0, force 1-0, sensor 1-0"
-    assert str(Chain(2, 1, 1, 2, 1, 2, sensor="velocity", damped=True, ground_dampers=(1, 2), lag=True, dead_time=True)) == (
-        "2 masses, gap 1, force 2-1, sensor 2-1, velocity, damped, ground dampers 1+2, lag, dead time"
+    assert (
+        str(
+            Chain(
+                2,
+                1,
+                1,
+                2,
+                1,
+                2,
+                sensor="velocity",
+                damped=True,
+                ground_dampers=(1, 2),
+                lag=True,
+                dead_time=True,
+            )
+        )
+        == "2 masses, gap 1, force 2-1, sensor 2-1, velocity, damped, ground dampers 1+2, lag, dead"
+        " time"
     )
 
 
-# --- families --------------------------------------------------------------------------------------------------------
+# --- families
+# --------------------------------------------------------------------------------------------------------
 
 
 def test_three_masses():

@@ -17,10 +17,18 @@ def embeddings(part, whole):
 
 def without(structure, *elements):
     kept = tuple(e for e in structure.elements if e not in elements)
-    return Structure(structure.n_masses, kept, structure.ports, structure.sensor_order, structure.lag, structure.dead_time)
+    return Structure(
+        structure.n_masses,
+        kept,
+        structure.ports,
+        structure.sensor_order,
+        structure.lag,
+        structure.dead_time,
+    )
 
 
-# --- embeddings ------------------------------------------------------------------------------------------------------
+# --- embeddings
+# ------------------------------------------------------------------------------------------------------
 
 
 @quick
@@ -35,7 +43,9 @@ def test_a_structure_without_an_element_is_a_part_and_not_the_other_way_round(ch
     for element in chain.structure.elements:
         if element.kind != "m":
             part = without(chain.structure, element)
-            assert {i: i for i in range(chain.n_masses + 1)} in list(part.embeddings(chain.structure))
+            assert {i: i for i in range(chain.n_masses + 1)} in list(
+                part.embeddings(chain.structure)
+            )
             assert list(chain.structure.embeddings(part)) == []
 
 
@@ -47,7 +57,10 @@ def test_a_shorter_chain_is_a_part_of_a_longer_one():
 def test_a_shifted_run_in_the_middle():
     """Force and sensor at mass 2 of 3: the pair to its left and the pair to its right."""
     found = embeddings(Chain(2), Chain(3, act_plus=2, meas_plus=2))
-    assert sorted(sorted(m.items()) for m in found) == [[(0, 0), (1, 2), (2, 1)], [(0, 0), (1, 2), (2, 3)]]
+    assert sorted(sorted(m.items()) for m in found) == [
+        [(0, 0), (1, 2), (2, 1)],
+        [(0, 0), (1, 2), (2, 3)],
+    ]
 
 
 def test_a_grounded_part_stays_at_the_ground():
@@ -82,14 +95,21 @@ def test_other_ports_sensors_and_dead_times_are_no_whole(other):
 
 @pytest.mark.parametrize(
     ("mine", "theirs", "fits"),
-    [((), (1,), True), ((1,), (1,), True), ((1,), (2,), False), ((1,), (1, 3), True), ((1, 3), (3,), False)],
+    [
+        ((), (1,), True),
+        ((1,), (1,), True),
+        ((1,), (2,), False),
+        ((1,), (1, 3), True),
+        ((1, 3), (3,), False),
+    ],
 )
 def test_ground_dampers_must_be_there(mine, theirs, fits):
     left, right = (Chain(3, meas_plus=3, ground_dampers=masses) for masses in (mine, theirs))
     assert bool(embeddings(left, right)) == fits
 
 
-# --- unions ----------------------------------------------------------------------------------------------------------
+# --- unions
+# ----------------------------------------------------------------------------------------------------------
 
 
 @quick
@@ -98,29 +118,54 @@ def test_united_with_itself(chain):
     assert chain.structure.united(chain.structure) == chain.structure
 
 
-@pytest.mark.parametrize(("one", "other", "both"), [((1,), (2,), (1, 2)), ((), (3,), (3,)), ((1, 2), (2, 3), (1, 2, 3))])
+@pytest.mark.parametrize(
+    ("one", "other", "both"), [((1,), (2,), (1, 2)), ((), (3,), (3,)), ((1, 2), (2, 3), (1, 2, 3))]
+)
 def test_united_ground_dampers(one, other, both):
-    left, right, union = (Chain(3, damped=True, ground_dampers=masses).structure for masses in (one, other, both))
+    left, right, union = (
+        Chain(3, damped=True, ground_dampers=masses).structure for masses in (one, other, both)
+    )
     assert left.united(right) == right.united(left) == union
 
 
 def test_united_gaps_have_none():
     left, right = Family(4, damped=True)[11].structure, Family(4, damped=True)[13].structure
     whole = left.united(right)
-    assert whole.parameters == ("m1", "m2", "m3", "m4", "k01", "k12", "k23", "k34", "d01", "d12", "d23", "d34")
-    assert (left.blocks, right.blocks, whole.blocks) == (((1, 1), (2, 4)), ((1, 2), (3, 4)), ((1, 4),))
+    assert whole.parameters == (
+        "m1",
+        "m2",
+        "m3",
+        "m4",
+        "k01",
+        "k12",
+        "k23",
+        "k34",
+        "d01",
+        "d12",
+        "d23",
+        "d34",
+    )
+    assert (left.blocks, right.blocks, whole.blocks) == (
+        ((1, 1), (2, 4)),
+        ((1, 2), (3, 4)),
+        ((1, 4),),
+    )
     assert all(list(part.embeddings(whole)) for part in (left, right))
 
 
 def test_united_sizes_and_extras():
-    left, right = Chain(2, lag=True).structure, Chain(3, ground_dampers=(3,), dead_time=True).structure
+    left, right = (
+        Chain(2, lag=True).structure,
+        Chain(3, ground_dampers=(3,), dead_time=True).structure,
+    )
     whole = left.united(right)
     assert right.united(left).parameters == whole.parameters
     assert (whole.n_masses, whole.lag, whole.dead_time, whole.n_states) == (3, True, True, 7)
     assert whole.parameters == ("m1", "m2", "m3", "k12", "k23", "b3", "T1", "Td")
 
 
-# --- blocks ----------------------------------------------------------------------------------------------------------
+# --- blocks
+# ----------------------------------------------------------------------------------------------------------
 
 
 @quick
@@ -137,7 +182,8 @@ def test_blocks_of_a_structure_with_few_springs():
     assert without(chain, GroundDamper(1)).blocks == ((1, 4),)
 
 
-# --- drawings --------------------------------------------------------------------------------------------------------
+# --- drawings
+# --------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("damped", [False, True])
@@ -145,7 +191,10 @@ def test_blocks_of_a_structure_with_few_springs():
 def test_drawings_of_a_family_are_distinct(n_masses, damped):
     drawings = [text_drawing(chain) for chain in Family(n_masses, damped)]
     assert len(set(drawings)) == len(drawings)
-    assert not set(drawings) & {text_drawing(chain) for chain in Family(n_masses, not damped)} or n_masses == 1
+    assert (
+        not set(drawings) & {text_drawing(chain) for chain in Family(n_masses, not damped)}
+        or n_masses == 1
+    )
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""Reciprocity and reflection: every form has the same transfer function, and one of them is canonical."""
+"""Reciprocity and reflection: every form has the same transfer function, and one of them is
+canonical.
+"""
 
 import pytest
 from hypothesis import given, settings
@@ -23,7 +25,10 @@ def test_every_form_has_the_same_transfer_function(chain):
 
 @pytest.mark.parametrize(
     "chain",
-    [Chain(5, 2, 1, 3, 2, 4, damped=True, ground_dampers=(1, 3), lag=True), Chain(4, 0, 0, 2, 0, 3, damped=True)],
+    [
+        Chain(5, 2, 1, 3, 2, 4, damped=True, ground_dampers=(1, 3), lag=True),
+        Chain(4, 0, 0, 2, 0, 3, damped=True),
+    ],
     ids=str,
 )
 def test_forms_of_larger_chains_have_the_same_transfer_function(chain):
@@ -93,8 +98,15 @@ def test_the_eight_forms_of_a_chain():
         ("grounded", "mirror"): (2, 5, 1, 4, (1, 5)),
         ("free", "grounded", "mirror"): (2, 4, 1, 5, (1, 5)),
     }
-    short = {Symmetry.RECIPROCITY_FREE: "free", Symmetry.RECIPROCITY_GROUNDED: "grounded", Symmetry.REFLECTION: "mirror"}
-    found = {tuple(short[s] for s in f.symmetries): (*f.chain.structure.ports, f.chain.ground_dampers) for f in forms(chain)}
+    short = {
+        Symmetry.RECIPROCITY_FREE: "free",
+        Symmetry.RECIPROCITY_GROUNDED: "grounded",
+        Symmetry.REFLECTION: "mirror",
+    }
+    found = {
+        tuple(short[s] for s in f.symmetries): (*f.chain.structure.ports, f.chain.ground_dampers)
+        for f in forms(chain)
+    }
     assert found == expected
 
 
@@ -118,7 +130,11 @@ def test_a_false_renaming_is_none():
     left, right = Chain(3), Chain(3, act_plus=3, meas_plus=3)
     names = {p: p for p in left.parameters}
     assert not is_renaming(left.structure, right.structure, names | {"m1": "m3", "m3": "m1"})
-    assert is_renaming(left.structure, right.structure, names | {"m1": "m3", "m3": "m1", "k12": "k23", "k23": "k12"})
+    assert is_renaming(
+        left.structure,
+        right.structure,
+        names | {"m1": "m3", "m3": "m1", "k12": "k23", "k23": "k12"},
+    )
 
 
 def test_a_dead_time_is_renamed_to_a_dead_time_only():

@@ -1,6 +1,8 @@
-"""Random pairs of small general models as plain text: alike by substitution, nearly alike, of lower rank, constant, unrelated.
+"""Random pairs of small general models as plain text: alike by substitution, nearly alike, of
+lower rank, constant, unrelated.
 
-Every model is written twice: as the package reads it, and as the plain program does (`plain_models.Plain`).
+Every model is written twice: as the package reads it, and as the plain program does
+(`plain_models.Plain`).
 """
 
 from dataclasses import dataclass, field, replace
@@ -12,7 +14,9 @@ from tests.oracles.plain_models import Plain
 
 @dataclass(frozen=True)
 class Written:
-    """State space (A, B, C, D; row i of A and B over r_i) or, with `num` and `den`, a transfer function."""
+    """State space (A, B, C, D; row i of A and B over r_i) or, with `num` and `den`, a transfer
+    function.
+    """
 
     a: tuple[tuple[str, ...], ...] = ()
     b: tuple[str, ...] = ()
@@ -36,7 +40,10 @@ class Written:
         if self.den:
             return Plain(self.names, ((self.den,),), ("1",), ("1",), above=self.num)
         n = len(self.b)
-        rows = tuple(tuple(f"({r})*s*{int(i == j)}-({self.a[i][j]})" for j in range(n)) for i, r in enumerate(self.r))
+        rows = tuple(
+            tuple(f"({r})*s*{int(i == j)}-({self.a[i][j]})" for j in range(n))
+            for i, r in enumerate(self.r)
+        )
         return Plain(self.names, rows, self.b, self.c, through=self.d)
 
     def substituted(self, put: dict[str, str], names: tuple[str, ...]) -> "Written":
@@ -71,7 +78,9 @@ def pair(draw: Random) -> tuple[str, Written, Written]:
 
 
 def _used(of: Written) -> tuple[str, ...]:
-    """Names that are written anywhere, sorted, whether the transfer function depends on them or not."""
+    """Names that are written anywhere, sorted, whether the transfer function depends on them or
+    not.
+    """
     texts = [*(e for row in of.a for e in row), *of.b, *of.c, of.d, *of.r, of.num, of.den]
     words = "".join(x if x.isalnum() else " " for x in " ".join(texts)).split()
     return tuple(sorted({w for w in words if not w.isdigit() and w != "s"}))
@@ -107,7 +116,9 @@ def _quotient(draw: Random, names: tuple[str, ...]) -> Written:
     m = draw.choice([0, 1, 1, 2, 2, 2, 3])
     sides = []
     for degree in (draw.randint(0, m), m):
-        terms = [f"({_polynomial(draw, names, 0.25 * (i < degree))})*s**{i}" for i in range(degree + 1)]
+        terms = [
+            f"({_polynomial(draw, names, 0.25 * (i < degree))})*s**{i}" for i in range(degree + 1)
+        ]
         sides.append("+".join(terms))
     monic = f"s**{m}+" * (draw.random() < 0.5)
     return Written(num=sides[0], den=monic + sides[1], names=names)
@@ -129,9 +140,13 @@ def _unrelated(draw: Random) -> tuple[Written, Written]:
 
 
 def _alike(draw: Random) -> tuple[Written, Written]:
-    """A substitution by expressions: mostly dominant, so that the pair is the same; sometimes of lower rank."""
+    """A substitution by expressions: mostly dominant, so that the pair is the same; sometimes
+    of lower rank.
+    """
     left = _any(draw, "a", 3)
-    count = draw.choice([len(left.names), len(left.names), min(4, len(left.names) + 1), max(1, len(left.names) - 1)])
+    count = draw.choice(
+        [len(left.names), len(left.names), min(4, len(left.names) + 1), max(1, len(left.names) - 1)]
+    )
     names = tuple(f"b{i}" for i in range(1, count + 1))
     own = dict(zip(left.names, [*names, *names], strict=False))
     put = {name: _image(draw, own[name], names) for name in left.names}
@@ -140,7 +155,16 @@ def _alike(draw: Random) -> tuple[Written, Written]:
 
 def _image(draw: Random, own: str, names: tuple[str, ...]) -> str:
     other = draw.choice(names)
-    choices = [own, f"-{own}", f"{own}*{other}", f"{own}+{other}", f"{own}**2", f"{own}-2", f"{own}**2+{other}", f"2*{own}"]
+    choices = [
+        own,
+        f"-{own}",
+        f"{own}*{other}",
+        f"{own}+{other}",
+        f"{own}**2",
+        f"{own}-2",
+        f"{own}**2+{other}",
+        f"2*{own}",
+    ]
     return draw.choices(choices, [3, 1, 2, 2, 1, 1, 1, 1])[0]
 
 
@@ -149,7 +173,9 @@ def _perturbed(draw: Random) -> tuple[Written, Written]:
     left, right = _alike(draw)
     entry = _polynomial(draw, right.names)
     if right.den:
-        return left, replace(right, **{draw.choice(["num", "den"]): f"{draw.choice([right.num, right.den])}+{entry}"})
+        return left, replace(
+            right, **{draw.choice(["num", "den"]): f"{draw.choice([right.num, right.den])}+{entry}"}
+        )
     i, j = draw.randrange(len(right.a)), draw.randrange(len(right.a))
     rows = [list(row) for row in right.a]
     rows[i][j] = entry
@@ -157,7 +183,9 @@ def _perturbed(draw: Random) -> tuple[Written, Written]:
 
 
 def _shaped(draw: Random) -> tuple[Written, Written]:
-    """Two transfer functions of one shape with entries drawn anew, so that degrees and often ranks agree."""
+    """Two transfer functions of one shape with entries drawn anew, so that degrees and often
+    ranks agree.
+    """
     m = draw.choice([1, 2, 2, 3])
     top = draw.randint(0, m)
     zeros = [draw.random() < 0.3 for _ in range(m + 1)]
@@ -188,7 +216,9 @@ def _constant(draw: Random) -> tuple[Written, Written]:
     numbers = [draw.choice([2, 2, 3, -2, 10**30, 10**30 + 1]) for _ in range(2)]
     made = []
     for prefix, number in zip("ab", numbers, strict=True):
-        common = draw.choice([f"{prefix}1", f"({prefix}1+1)", f"{prefix}1*{prefix}2", f"({prefix}1-{prefix}2)**2"])
+        common = draw.choice(
+            [f"{prefix}1", f"({prefix}1+1)", f"{prefix}1*{prefix}2", f"({prefix}1-{prefix}2)**2"]
+        )
         free = draw.choice(["1", "1", "1", f"{prefix}1"])
         made.append(Written(num=f"{number}*{common}*{free}", den=f"{common}*(s+3)"))
     return made[0], made[1]
@@ -199,7 +229,9 @@ def _cancelling(draw: Random, model: Written) -> Written:
     if not model.den:
         return model
     names = tuple(n for n in model.names if n) or ("z1",)
-    factor = draw.choice([f"(s+{names[0]})", names[-1], f"({names[0]}+1)", f"(s**2+{names[-1]}*s+1)", "(z1*s+1)"])
+    factor = draw.choice(
+        [f"(s+{names[0]})", names[-1], f"({names[0]}+1)", f"(s**2+{names[-1]}*s+1)", "(z1*s+1)"]
+    )
     return replace(model, num=f"({model.num})*{factor}", den=f"({model.den})*{factor}")
 
 

@@ -1,7 +1,9 @@
-"""The truth of a pair of plain models by SymPy alone, where Singular is not installed: slower, so it is given small models.
+"""The truth of a pair of plain models by SymPy alone, where Singular is not installed: slower, so
+it is given small models.
 
-Ranks of the Jacobian matrices at a random point modulo 2^31 - 1, and a Groebner basis of the fibre over a random point. It runs
-in a process of its own, which ends when the time is up: `python -m tests.oracles.plain_by_sympy`, question and answer as JSON.
+Ranks of the Jacobian matrices at a random point modulo 2^31 - 1, and a Groebner basis of the fibre
+over a random point. It runs in a process of its own, which ends when the time is up: `python -m
+tests.oracles.plain_by_sympy`, question and answer as JSON.
 """
 
 import json
@@ -18,11 +20,17 @@ S, T = sp.symbols("s t")
 
 
 def same(left, right, draw: Random, seconds: float = 60.0) -> bool | None:
-    """Whether two `plain_models.Plain` are indistinguishable over complex parameters; None if the time is up."""
-    question = json.dumps([asdict(left.renamed("p")), asdict(right.renamed("q")), draw.randrange(PRIME)])
+    """Whether two `plain_models.Plain` are indistinguishable over complex parameters; None if
+    the time is up.
+    """
+    question = json.dumps(
+        [asdict(left.renamed("p")), asdict(right.renamed("q")), draw.randrange(PRIME)]
+    )
     command = [sys.executable, "-m", "tests.oracles.plain_by_sympy"]
     try:
-        done = subprocess.run(command, input=question, capture_output=True, text=True, timeout=seconds, check=True)
+        done = subprocess.run(
+            command, input=question, capture_output=True, text=True, timeout=seconds, check=True
+        )
     except subprocess.TimeoutExpired:
         return None
     return json.loads(done.stdout)
@@ -36,14 +44,20 @@ def decided(left: dict, right: dict, seed: int) -> bool:
         return False
     (p, here), (q, there) = ((_names(m), _monic(*c)) for m, c in ((left, one), (right, other)))
     at = {name: draw.randrange(1, PRIME) for name in p + q}
-    jacobians = [[[_at(c.diff(x), at) for x in names] for c in forms] for names, forms in ((p, here), (q, there))]
+    jacobians = [
+        [[_at(c.diff(x), at) for x in names] for c in forms]
+        for names, forms in ((p, here), (q, there))
+    ]
     kept = [_independent(rows) for rows in jacobians]
     if len(kept[0]) != len(kept[1]):
         return False
     fixed = {x: draw.randrange(1, PRIME) for i, x in enumerate(q) if i not in kept[1]}
     unknowns = [x for x in q if x not in fixed]
     pairs = [sp.fraction(sp.together(c)) for c in there]
-    equations = [(top - _at(c, at) * bottom).subs(fixed) for (top, bottom), c in zip(pairs, here, strict=True)]
+    equations = [
+        (top - _at(c, at) * bottom).subs(fixed)
+        for (top, bottom), c in zip(pairs, here, strict=True)
+    ]
     whole = sp.prod({bottom for _, bottom in pairs}).subs(fixed)
     basis = sp.groebner([*equations, T * whole - 1], T, *unknowns, modulus=PRIME, order="grevlex")
     return list(basis.exprs) != [1]
@@ -55,11 +69,19 @@ def _names(model: dict) -> list[sp.Symbol]:
 
 def _coefficients(model: dict) -> tuple[list[sp.Expr], list[sp.Expr]]:
     """Coefficients of numerator and denominator in lowest terms, the highest first."""
-    dynamics, force, output = (sp.Matrix(_read(model[name])) for name in ("dynamics", "force", "output"))
-    through, scale, above, below = (_read(model[name]) for name in ("through", "scale", "above", "below"))
+    dynamics, force, output = (
+        sp.Matrix(_read(model[name])) for name in ("dynamics", "force", "output")
+    )
+    through, scale, above, below = (
+        _read(model[name]) for name in ("through", "scale", "above", "below")
+    )
     bordered = dynamics.row_join(force).col_join((-output.T).row_join(sp.Matrix([[through]])))
     fraction = sp.fraction(
-        sp.cancel(above * bordered.det(method="berkowitz") / (below * scale * dynamics.det(method="berkowitz")))
+        sp.cancel(
+            above
+            * bordered.det(method="berkowitz")
+            / (below * scale * dynamics.det(method="berkowitz"))
+        )
     )
     top, bottom = (sp.Poly(side, S).all_coeffs() for side in fraction)
     return top, bottom
@@ -71,7 +93,9 @@ def _read(entry: object) -> object:
     text = str(entry).replace("^", "**")
     for i in range(1, 20):
         text = text.replace(f"p({i})", f"p{i}").replace(f"q({i})", f"q{i}")
-    return sp.sympify(text, locals={f"{x}{i}": sp.Symbol(f"{x}{i}") for x in "pq" for i in range(1, 20)})
+    return sp.sympify(
+        text, locals={f"{x}{i}": sp.Symbol(f"{x}{i}") for x in "pq" for i in range(1, 20)}
+    )
 
 
 def _monic(top: list[sp.Expr], bottom: list[sp.Expr]) -> list[sp.Expr]:

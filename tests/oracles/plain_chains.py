@@ -1,6 +1,8 @@
-"""Chains as plain bordered matrices: mass, damping and stiffness put together element by element; no code of the package.
+"""Chains as plain bordered matrices: mass, damping and stiffness put together element by element;
+no code of the package.
 
-A chain is read by its indices and flags alone: P = M s^2 + D s + K, force +1 on one mass and -1 on another, sensor likewise,
+A chain is read by its indices and flags alone: P = M s^2 + D s + K, force +1 on one mass and -1 on
+another, sensor likewise,
 
     G(s) = s^order c^T P^-1 b / (1 + T1 s)
 """
@@ -36,7 +38,9 @@ def plain_chain(chain: Any) -> Plain:
                 element(f"d{i}", 1, i, i + 1)
     for i in chain.ground_dampers:
         element(f"b{i}", 1, i, 0)
-    dynamics = tuple(tuple("+".join(f"({t})" for t in cell) or "0" for cell in row) for row in entries)
+    dynamics = tuple(
+        tuple("+".join(f"({t})" for t in cell) or "0" for cell in row) for row in entries
+    )
     port = lambda plus, minus: tuple(str((i == plus) - (i == minus)) for i in range(1, n + 1))  # noqa: E731
     order = ORDERS[str(chain.sensor)]
     lag = ["T1"] * chain.lag
@@ -51,7 +55,9 @@ def plain_chain(chain: Any) -> Plain:
 
 
 def drawn_chain(draw: Random, masses: int, damped: bool) -> dict[str, Any]:
-    """Arguments of a chain within (36) and (37) of the paper: any ports, some dampers to the ground, sometimes a lag."""
+    """Arguments of a chain within (36) and (37) of the paper: any ports, some dampers to the
+    ground, sometimes a lag.
+    """
     gap = draw.randrange(masses)
     reference = (lambda: draw.randint(1, gap)) if gap else (lambda: 0)
     mass = lambda: draw.randint(gap + 1, masses)  # noqa: E731

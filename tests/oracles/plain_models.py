@@ -1,14 +1,17 @@
-"""Random and literal models as plain text, decided by Singular alone: elimination over Q, fibres over Q and modulo a prime.
+"""Random and literal models as plain text, decided by Singular alone: elimination over Q, fibres
+over Q and modulo a prime.
 
-A model is a bordered matrix [[P, B], [-C, E]] of polynomials in s and the parameters, and a factor f/g in front:
+A model is a bordered matrix [[P, B], [-C, E]] of polynomials in s and the parameters, and a factor
+f/g in front:
 
-    G(s) = f/g det [[P, B], [-C, E]] / (e det P),    P (n x n), B (n x 1), C (1 x n), E = e d (1 x 1)
+    G(s) = f/g det [[P, B], [-C, E]] / (e det P),    P (n x n), B (n x 1), C (1 x n), E = e d (1 x
+    1)
 
-which holds state spaces (P = diag(r) (s I - A), rows multiplied by their denominators r), transfer functions (n = 1) and chains
-(P = M s^2 + D s + K). Nothing of the package is imported here.
+which holds state spaces (P = diag(r) (s I - A), rows multiplied by their denominators r), transfer
+functions (n = 1) and chains (P = M s^2 + D s + K). Nothing of the package is imported here.
 
-Truth of a pair: the sets of all monic coefficient vectors have irreducible closures; the models are indistinguishable exactly
-if these are the same (over complex parameters, for generic values).
+Truth of a pair: the sets of all monic coefficient vectors have irreducible closures; the models
+are indistinguishable exactly if these are the same (over complex parameters, for generic values).
 """
 
 import random
@@ -23,7 +26,9 @@ SECONDS = 20.0
 
 @dataclass(frozen=True)
 class Plain:
-    """Entries as Singular reads them (`^` for powers); `parameters` by name, not one of them `s`."""
+    """Entries as Singular reads them (`^` for powers); `parameters` by name, not one of them
+    `s`.
+    """
 
     parameters: tuple[str, ...]
     dynamics: tuple[tuple[str, ...], ...]
@@ -58,7 +63,9 @@ def _put(text: str, names: dict[str, str]) -> str:
 
 
 def _fraction(model: Plain, name: str) -> str:
-    """Statements that define polynomials `name`N and `name`D: numerator and denominator in lowest terms."""
+    """Statements that define polynomials `name`N and `name`D: numerator and denominator in
+    lowest terms.
+    """
     n = len(model.force)
     rows = [[*row, b] for row, b in zip(model.dynamics, model.force, strict=True)]
     whole = [e for row in rows for e in row] + [f"-({c})" for c in model.output] + [model.through]
@@ -77,7 +84,9 @@ def _named(model: Plain, prefix: str) -> str:
 
 @dataclass(frozen=True)
 class Truth:
-    """`same`: indistinguishable; None if the time was up. Degrees and dimensions where they were computed."""
+    """`same`: indistinguishable; None if the time was up. Degrees and dimensions where they
+    were computed.
+    """
 
     same: bool | None
     degrees: tuple[tuple[int, int], tuple[int, int]]
@@ -86,12 +95,16 @@ class Truth:
 
 
 def truth(left: Plain, right: Plain, draw: random.Random, seconds: float = SECONDS) -> Truth | None:
-    """By elimination over Q; by ranks and fibres modulo a prime if that takes too long. None if that does too."""
+    """By elimination over Q; by ranks and fibres modulo a prime if that takes too long. None if
+    that does too.
+    """
     return by_elimination(left, right, seconds) or by_fibres(left, right, draw, seconds)
 
 
 def by_elimination(left: Plain, right: Plain, seconds: float = SECONDS) -> Truth | None:
-    """Compares the ideals of all polynomial relations between the coefficients b0.., a0.. of the monic forms over Q."""
+    """Compares the ideals of all polynomial relations between the coefficients b0.., a0.. of
+    the monic forms over Q.
+    """
     one, other = left.renamed("p"), right.renamed("q")
     size = 2 * max(len(left.force), len(right.force)) + 4
     p, q = len(left.parameters), len(right.parameters)
@@ -125,10 +138,14 @@ def _degrees(found: dict[str, str]) -> tuple[tuple[int, int], tuple[int, int]]:
     return (a, b), (c, d)
 
 
-def by_fibres(left: Plain, right: Plain, draw: random.Random, seconds: float = SECONDS) -> Truth | None:
-    """Ranks at random points modulo a prime, and whether the fibre of each over a random point of the other is empty.
+def by_fibres(
+    left: Plain, right: Plain, draw: random.Random, seconds: float = SECONDS
+) -> Truth | None:
+    """Ranks at random points modulo a prime, and whether the fibre of each over a random point of
+    the other is empty.
 
-    Parameters that the rank does not need are set to random values first: the map that is left has the same closure.
+    Parameters that the rank does not need are set to random values first: the map that is left has
+    the same closure.
     """
     one, other = left.renamed("p"), right.renamed("q")
     p, q = len(left.parameters), len(right.parameters)
@@ -179,13 +196,16 @@ list lf = spare(LJ); list rf = spare(RJ);
     one_rank, other_rank = map(int, found["ranks"].split())
     if "there" not in found:
         return Truth(False, degrees, (one_rank, other_rank), "ranks")
-    assert found["there"] == found["back"], (found, left, right)  # equal ranks: both fibres are empty, or none is
+    # equal ranks: both fibres are empty, or none is
+    assert found["there"] == found["back"], (found, left, right)
     return Truth(found["there"] == "1", degrees, (one_rank, other_rank), "fibres")
 
 
 @dataclass(frozen=True)
 class Zeros:
-    """Parameter vectors over one transfer function: dimension (-1: none), and if finite how many, real, positive."""
+    """Parameter vectors over one transfer function: dimension (-1: none), and if finite how
+    many, real, positive.
+    """
 
     dimension: int
     count: int = 0
@@ -193,16 +213,25 @@ class Zeros:
     positive: int = 0
 
 
-def zeros(given: Plain, values: dict[str, str], searched: Plain, seconds: float = SECONDS) -> Zeros | None:
-    """All parameters of `searched` with the transfer function of `given` at these rational values and with its full order.
+def zeros(
+    given: Plain, values: dict[str, str], searched: Plain, seconds: float = SECONDS
+) -> Zeros | None:
+    """All parameters of `searched` with the transfer function of `given` at these rational values
+    and with its full order.
 
-    Real solutions are counted by the signature of the trace form; positive ones as the real solutions of the equations in
-    y_i, q_i = y_i^2, all y_i other than zero, of which there are 2^n for each.
+    Real solutions are counted by the signature of the trace form; positive ones as the real
+    solutions of the equations in y_i, q_i = y_i^2, all y_i other than zero, of which there are 2^n
+    for each.
     """
     one, other = given.renamed("p"), searched.renamed("q")
     p, n = len(given.parameters), len(searched.parameters)
-    put = " ".join(f"LN = subst(LN, p({i}), {v}); LD = subst(LD, p({i}), {v});" for i, v in _numbered(given, values))
-    squares = ",".join(["s", "t", *(f"p({i})" for i in range(1, p + 1)), *(f"q({i})^2" for i in range(1, n + 1))])
+    put = " ".join(
+        f"LN = subst(LN, p({i}), {v}); LD = subst(LD, p({i}), {v});"
+        for i, v in _numbered(given, values)
+    )
+    squares = ",".join(
+        ["s", "t", *(f"p({i})" for i in range(1, p + 1)), *(f"q({i})^2" for i in range(1, n + 1))]
+    )
     product = "*".join(f"q({i})" for i in range(1, n + 1))
     script = f"""
 LIB "primdec.lib"; LIB "rootsmr.lib";
@@ -239,15 +268,24 @@ def _numbered(model: Plain, values: dict[str, str]) -> list[tuple[int, str]]:
 
 
 def shaped_zeros(
-    given: Plain, values: dict[str, str], searched: Plain, draw: random.Random, seconds: float = SECONDS
+    given: Plain,
+    values: dict[str, str],
+    searched: Plain,
+    draw: random.Random,
+    seconds: float = SECONDS,
 ) -> Zeros | None:
-    """As `zeros`, for larger fibres: a lexicographic basis in a random linear form u, whose roots are found in 80 digits.
+    """As `zeros`, for larger fibres: a lexicographic basis in a random linear form u, whose roots
+    are found in 80 digits.
 
-    Signs are those of the 80 digits: plain numerics. None also where u does not tell the solutions apart.
+    Signs are those of the 80 digits: plain numerics. None also where u does not tell the solutions
+    apart.
     """
     one, other = given.renamed("p"), searched.renamed("q")
     p, n = len(given.parameters), len(searched.parameters)
-    put = " ".join(f"LN = subst(LN, p({i}), {v}); LD = subst(LD, p({i}), {v});" for i, v in _numbered(given, values))
+    put = " ".join(
+        f"LN = subst(LN, p({i}), {v}); LD = subst(LD, p({i}), {v});"
+        for i, v in _numbered(given, values)
+    )
     form = "+".join(f"{draw.randrange(-9, 10)}*q({i})" for i in range(1, n + 1))
     script = f"""
 LIB "primdec.lib"; option(redSB);
@@ -279,15 +317,32 @@ int i; for (i = 1; i <= size(S); i++) {{ print("@g"+string(i)+" "+string(S[i]));
 def _by_roots(basis: list[str], n: int, count: int) -> Zeros | None:
     u, t, *q = sp.symbols("u t " + " ".join(f"q{i}" for i in range(1, n + 1)))
     read = [
-        sp.Poly(sp.sympify(g.replace("(", "").replace(")", "").replace("^", "**"), locals={"u": u, "t": t}), t, *q, u)
+        sp.Poly(
+            sp.sympify(
+                g.replace("(", "").replace(")", "").replace("^", "**"), locals={"u": u, "t": t}
+            ),
+            t,
+            *q,
+            u,
+        )
         for g in basis
     ]
-    last = next(sp.Poly(g.as_expr(), u) for g in read if g.free_symbols_in_domain == set() and g.as_expr().free_symbols == {u})
+    last = next(
+        sp.Poly(g.as_expr(), u)
+        for g in read
+        if g.free_symbols_in_domain == set() and g.as_expr().free_symbols == {u}
+    )
     if last.degree() != count:
         return None
     images = []
     for x in q:
-        g = next(g for g in read if g.as_expr().free_symbols <= {x, u} and x in g.as_expr().free_symbols and g.degree(x) == 1)
+        g = next(
+            g
+            for g in read
+            if g.as_expr().free_symbols <= {x, u}
+            and x in g.as_expr().free_symbols
+            and g.degree(x) == 1
+        )
         slope = g.coeff_monomial(x)
         images.append(sp.Poly(-(g.as_expr() - slope * x) / slope, u))
     real = [z for z in last.nroots(n=80, maxsteps=500) if abs(sp.im(z)) < sp.Float(10) ** -50]

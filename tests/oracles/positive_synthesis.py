@@ -1,16 +1,21 @@
-"""Whether a chain with positive parameters has one given receptance: proven, at a rational point, or not known.
+"""Whether a chain with positive parameters has one given receptance: proven, at a rational point,
+or not known.
 
-A second route to `disting.positivity`: by the chains that the inverse synthesis finds, not by the order of poles and zeros.
+A second route to `disting.positivity`: by the chains that the inverse synthesis finds, not by the
+order of poles and zeros.
 
-Damped chains have finitely many solutions, all of which are listed. Undamped ones with force and sensor apart have families.
-There poles and zeros of a positive chain are real, and each part is looked at by itself:
+Damped chains have finitely many solutions, all of which are listed. Undamped ones with force and
+sensor apart have families. There poles and zeros of a positive chain are real, and each part is
+looked at by itself:
 
-Collocated: finitely many chains. Neighbours, b = a + 1: one chain for each spring kappa > 0 between the ports and each way to
-share out the roots of D + kappa N = Theta Phi and of N. No element changes its sign between two values of kappa where
-D + kappa N has a multiple root: an element passes zero or infinity only where a root of Theta or Phi meets a zero of N, which
-is a zero of D then, but H is in lowest terms. So one kappa between any two neighbours among the positive zeros of the
-discriminant stands for all, if these zeros are simple (then a double root is two real roots on one side). Farther apart: one
-random member of the family may be positive; that none is, is not proven.
+Collocated: finitely many chains. Neighbours, b = a + 1: one chain for each spring kappa > 0
+between the ports and each way to share out the roots of D + kappa N = Theta Phi and of N. No
+element changes its sign between two values of kappa where D + kappa N has a multiple root: an
+element passes zero or infinity only where a root of Theta or Phi meets a zero of N, which is a
+zero of D then, but H is in lowest terms. So one kappa between any two neighbours among the
+positive zeros of the discriminant stands for all, if these zeros are simple (then a double root is
+two real roots on one side). Farther apart: one random member of the family may be positive; that
+none is, is not proven.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -37,7 +42,8 @@ T = TypeVar("T")
 
 
 def positive_equivalent(given: Chain, point: Mapping[str, fmpq], other: Chain) -> Answer:
-    """Whether `other` has positive parameters with the receptance of `given` at this point; YES and NO are proven.
+    """Whether `other` has positive parameters with the receptance of `given` at this point; YES
+    and NO are proven.
 
     Both chains plain, of one size, damping and sensor; positive parameters are given.
     """
@@ -49,30 +55,44 @@ def positive_equivalent(given: Chain, point: Mapping[str, fmpq], other: Chain) -
         return Answer.UNKNOWN
     if any(_both(pair) is Answer.YES for pair in _exact(given, point, whole, grounded, free)):
         return Answer.YES
-    found = _at_some_precision(lambda: _over_splits(whole.folded(1), grounded, free), Answer.UNKNOWN)
+    found = _at_some_precision(
+        lambda: _over_splits(whole.folded(1), grounded, free), Answer.UNKNOWN
+    )
     return Answer.UNKNOWN if found is Answer.YES and not is_untested(other) else found
 
 
 def positive_point(chain: Chain, label: str) -> dict[str, fmpq]:
-    """Random positive rational parameters, spread over a few powers of two; determined by the label."""
+    """Random positive rational parameters, spread over a few powers of two; determined by the
+    label.
+    """
     names = chain.parameters
     numbers = residues(label, 2 * len(names), 1 << 20)
-    return {n: fmpq(64 + a, 64 + b) for n, a, b in zip(names, numbers[::2], numbers[1::2], strict=True)}
+    return {
+        n: fmpq(64 + a, 64 + b) for n, a, b in zip(names, numbers[::2], numbers[1::2], strict=True)
+    }
 
 
 def _damped(other: Chain, whole: Target) -> Answer:
-    """NO where all solutions are listed and none is positive; that a listed one exists is not proven here."""
+    """NO where all solutions are listed and none is positive; that a listed one exists is not
+    proven here.
+    """
     found = fibre(other, whole)
     if found.status is Status.EMPTY:
         return Answer.NO
     listed = found.status is Status.COMPLETE and not found.tests.boundary
-    return Answer.NO if listed and all(s.positive is Answer.NO for s in found.solutions) else Answer.UNKNOWN
+    return (
+        Answer.NO
+        if listed and all(s.positive is Answer.NO for s in found.solutions)
+        else Answer.UNKNOWN
+    )
 
 
 def _exact(
     given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Segment | None, free: Segment
 ) -> Iterator[list[tuple[Segment, Target]]]:
-    """Yield the parts' receptances where they are known as fractions: nothing is left to balls, so what fits exists."""
+    """Yield the parts' receptances where they are known as fractions: nothing is left to balls,
+    so what fits exists.
+    """
     if grounded is None:
         if whole.folded(1).numerator.degree() == free.numerator_degree:
             yield [(free, whole.folded(1))]
@@ -88,7 +108,9 @@ def _both(parts: list[tuple[Segment, Target]]) -> Answer:
 
 
 def _over_splits(whole: Target, grounded: Segment | None, free: Segment) -> Answer:
-    """What all splits of the poles give, as far as balls tell: NO is proven, YES only where no test occurs."""
+    """What all splits of the poles give, as far as balls tell: NO is proven, YES only where no
+    test occurs.
+    """
     data = whole.balls
     poles = roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)
     if not _real(poles):
@@ -108,7 +130,11 @@ def _part(segment: Segment, data: Data) -> Answer:
     """Whether one part can be positive."""
     zeros = roots(data.numerator, segment.numerator_degree)
     if not _real(zeros) or not data.gain(segment).real > 0:
-        return Answer.NO if _certainly_not_real(zeros) or data.gain(segment).real < 0 else Answer.UNKNOWN
+        return (
+            Answer.NO
+            if _certainly_not_real(zeros) or data.gain(segment).real < 0
+            else Answer.UNKNOWN
+        )
     if segment.distance == 1:
         return _any(_family(segment, data, kappa) for kappa in _representatives(segment, data))
     found = _leaves(list(synthesise(segment, data)))
@@ -138,14 +164,18 @@ def _positive(leaf: Leaf) -> Answer:
 
 
 def _representatives(segment: Segment, data: Data) -> Iterator[fmpq]:
-    """One kappa from each interval of the positive axis between zeros of the discriminant of D + kappa N.
+    """One kappa from each interval of the positive axis between zeros of the discriminant of D +
+    kappa N.
 
-    For kappa to infinity n - 2 roots go to the zeros of N and two to +-sqrt(-kappa nu), so its degree is 2 n - 3; it is
-    interpolated. Raises Imprecise where its zeros cannot be isolated, which multiple ones never can.
+    For kappa to infinity n - 2 roots go to the zeros of N and two to +-sqrt(-kappa nu), so its
+    degree is 2 n - 3; it is interpolated. Raises Imprecise where its zeros cannot be isolated,
+    which multiple ones never can.
     """
     n = segment.nodes
     places = [acb(i) for i in range(2 * n - 2)]
-    values = [_discriminant(roots(data.denominator + place * data.numerator, n)) for place in places]
+    values = [
+        _discriminant(roots(data.denominator + place * data.numerator, n)) for place in places
+    ]
     found = roots(acb_poly.interpolate(places, values), 2 * n - 3)
     bounds = sorted(float(z.real.mid()) for z in found if z.imag.contains(0) and z.real > 0)
     yield from (fmpq(*value.as_integer_ratio()) for value in _between(bounds))
@@ -169,8 +199,13 @@ def _between(bounds: list[float]) -> Iterator[float]:
 
 
 def _real(zeros: list[Ball]) -> bool:
-    """Isolated zeros of a real polynomial: one whose ball's conjugate meets no other ball is its own conjugate."""
-    return all(not any(z.conjugate().overlaps(w) for w in zeros if w is not z) and z.imag.contains(0) for z in zeros)
+    """Isolated zeros of a real polynomial: one whose ball's conjugate meets no other ball is
+    its own conjugate.
+    """
+    return all(
+        not any(z.conjugate().overlaps(w) for w in zeros if w is not z) and z.imag.contains(0)
+        for z in zeros
+    )
 
 
 def _any(answers: Iterable[Answer]) -> Answer:

@@ -1,8 +1,10 @@
-"""External programs for Gröbner bases, used where they are found and never needed: msolve and Singular.
+"""External programs for Gröbner bases, used where they are found and never needed: msolve and
+Singular.
 
-They are called as programs, on text files, in a process group that is killed at the time limit. Both compute modulo primes of
-up to 31 bits. Of their answers only "the basis is [1]" is believed, and only as far as one prime of that size goes
-(`bounds.safety_of_empty` with its bits); everything else, failures included, counts as not empty or unknown.
+They are called as programs, on text files, in a process group that is killed at the time limit.
+Both compute modulo primes of up to 31 bits. Of their answers only "the basis is [1]" is believed,
+and only as far as one prime of that size goes (`bounds.safety_of_empty` with its bits); everything
+else, failures included, counts as not empty or unknown.
 """
 
 import os
@@ -23,7 +25,9 @@ PROGRAM_BITS = 31
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """An external program: its `name` on the PATH, what it `brings`, its command line, input, and reading of its output."""
+    """An external program: its `name` on the PATH, what it `brings`, its command line, input,
+    and reading of its output.
+    """
 
     name: str
     brings: str
@@ -50,14 +54,16 @@ def singular_text(ideal: FibreIdeal) -> str:
     names = _names(ideal)
     body = ",\n".join(_written(g, names) for g in ideal.generators)
     return (
-        f"ring r = {ideal.modulus}, ({','.join(names)}), dp;\noption(redSB);\nideal i = {body};\nideal g = slimgb(i);\n"
-        'if (size(g) == 1 and g[1] == 1) { print("[1]"); } else { print("[0]"); }\nquit;\n'
+        f"ring r = {ideal.modulus}, ({','.join(names)}), dp;\noption(redSB);\nideal i ="
+        f' {body};\nideal g = slimgb(i);\nif (size(g) == 1 and g[1] == 1) {{ print("[1]"); }}'
+        ' else { print("[0]"); }\nquit;\n'
     )
 
 
 MSOLVE = Program(
     "msolve",
-    "fibres of 5 and more masses, faster; an indication, as 31-bit primes give no error bound there",
+    "fibres of 5 and more masses, faster; an indication, as 31-bit primes give no error bound"
+    " there",
     ("-V",),
     lambda path, source, target: [path, "-g", "2", "-f", str(source), "-o", str(target)],
     msolve_text,
@@ -92,14 +98,22 @@ def emptiness(program: Program, ideal: FibreIdeal, seconds: float) -> tuple[Empt
         status, printed = _called(program.command(path, source, target), seconds)
         answer = target.read_text() if target.exists() else printed
     if status != 0:
-        return Emptiness.UNKNOWN, f"{program.name}: {'out of time' if status is None else f'exit status {status}'}"
+        return (
+            Emptiness.UNKNOWN,
+            f"{program.name}: {'out of time' if status is None else f'exit status {status}'}",
+        )
     return (Emptiness.EMPTY, "") if program.is_one(answer) else (Emptiness.NOT_EMPTY, "")
 
 
 def _called(command: Sequence[str], seconds: float) -> tuple[int | None, str]:
     """Exit status (None: killed at the limit) and standard output."""
     process = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, start_new_session=True
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
     )
     try:
         out, _ = process.communicate(timeout=seconds)

@@ -1,4 +1,6 @@
-"""All equivalents of an undamped model by Newton's method from random complex starts: no theory, floating point only."""
+"""All equivalents of an undamped model by Newton's method from random complex starts: no
+theory, floating point only.
+"""
 
 import numpy as np
 
@@ -6,14 +8,19 @@ STARTS, STEPS = 300, 40
 
 
 def responses(chain, q, at):
-    """H at each x = s^2, shape (s, x), and its derivatives by the parameters q, shape (s, p), from dense matrices."""
+    """H at each x = s^2, shape (s, x), and its derivatives by the parameters q, shape (s, p),
+    from dense matrices.
+    """
     n, names = chain.n_masses, chain.parameters
     vectors = np.zeros((len(names), n + 1))
     for row, name in zip(vectors, names, strict=True):
         ends = (int(name[1:]), 0) if name[0] == "m" else (int(name[1]), int(name[2]))
         row[ends[0]], row[ends[1]] = 1.0, -1.0
     vectors, ports = vectors[:, 1:], np.zeros((2, n + 1))
-    for row, plus, minus in ((0, chain.act_plus, chain.act_minus), (1, chain.meas_plus, chain.meas_minus)):
+    for row, plus, minus in (
+        (0, chain.act_plus, chain.act_minus),
+        (1, chain.meas_plus, chain.meas_minus),
+    ):
         ports[row, plus] += 1.0
         ports[row, minus] -= 1.0
     powers = np.array([at if name[0] == "m" else np.ones(len(at)) for name in names])
@@ -24,13 +31,19 @@ def responses(chain, q, at):
 
 
 def solutions(given, point, other, count):
-    """Up to `count` distinct parameter vectors of `other` with the receptance of `given` at this point."""
+    """Up to `count` distinct parameter vectors of `other` with the receptance of `given` at
+    this point.
+    """
     source, size = np.random.default_rng(0), len(other.parameters)
     at = np.exp(2j * np.pi * (np.arange(size) + 0.3) / size) * 1.3
-    wanted = responses(given, np.array([[point[name] for name in given.parameters]], dtype=complex), at)[0][0]
+    wanted = responses(
+        given, np.array([[point[name] for name in given.parameters]], dtype=complex), at
+    )[0][0]
     found = []
     for _ in range(20):
-        q = np.exp(1.2 * source.normal(size=(STARTS, size)) + 2j * np.pi * source.random((STARTS, size)))
+        q = np.exp(
+            1.2 * source.normal(size=(STARTS, size)) + 2j * np.pi * source.random((STARTS, size))
+        )
         for p in _newton(other, q, at, wanted):
             if all(np.abs(p / known - 1).max() > 1e-5 for known in found):
                 found.append(p)

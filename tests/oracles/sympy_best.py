@@ -1,16 +1,22 @@
-"""SymPy at its best: a fair speed to compare with. Invariants, ranks and conditions 1 to 5 for all pairs of a family.
+"""SymPy at its best: a fair speed to compare with. Invariants, ranks and conditions 1 to 5 for all
+pairs of a family.
 
 The same work as `sympy_twin` with its waste removed, still on SymPy's own polynomials and matrices:
 
-- 1/m_i are generators of the ring, so that all invariants are polynomials over ZZ and no fraction is ever cancelled;
-- (I s - A)^-1 and the powers of A are applied to one column; models with the same gap share the denominator, models
-  with the same gap and force the columns; sensors measure accelerations, read off as s times the velocities;
-- no derivative is formed: one pass over the terms of a polynomial gives its gradient at a random point modulo 2^61 - 1;
-- numerator and denominator are shown to be coprime by a univariate gcd at that point, not by a multivariate one;
-- sets of independent rows are listed only for models that conditions 1 to 4 leave together with another one.
+- 1/m_i are generators of the ring, so that all invariants are polynomials over ZZ and no fraction
+  is ever cancelled;
+- (I s - A)^-1 and the powers of A are applied to one column; models with the same gap share the
+  denominator, models with the same gap and force the columns; sensors measure accelerations, read
+  off as s times the velocities;
+- no derivative is formed: one pass over the terms of a polynomial gives its gradient at a random
+  point modulo 2^61 - 1;
+- numerator and denominator are shown to be coprime by a univariate gcd at that point, not by a
+  multivariate one;
+- sets of independent rows are listed only for models that conditions 1 to 4 leave together with
+  another one.
 
-The 4-mass damped class with G_0..G_12 takes 2.7 s on one core, with SymPy's ground types flint and python alike; the
-plain twin takes 25 to 30 s, and 45 s more with the textbook inverse.
+The 4-mass damped class with G_0..G_12 takes 2.7 s on one core, with SymPy's ground types flint and
+python alike; the plain twin takes 25 to 30 s, and 45 s more with the textbook inverse.
 
 Run `python -m tests.oracles.sympy_best [masses] [count] [undamped]`.
 """
@@ -44,7 +50,9 @@ Monomial = tuple[int, ...]
 
 @dataclass(frozen=True)
 class Profile:
-    """What conditions 1 to 5 compare; `split` is the number of numerator coefficients, 0 for Markov parameters."""
+    """What conditions 1 to 5 compare; `split` is the number of numerator coefficients, 0 for
+    Markov parameters.
+    """
 
     entries: Invariants
     split: int
@@ -58,7 +66,11 @@ class Profile:
     @cached_property
     def rows(self) -> DomainMatrix:
         """The Jacobian's rows of the non-constant invariants at the point."""
-        rows = [[FIELD(x) for x in self.point.gradient(entry)] for entry in self.entries if not entry.is_ground]
+        rows = [
+            [FIELD(x) for x in self.point.gradient(entry)]
+            for entry in self.entries
+            if not entry.is_ground
+        ]
         return DomainMatrix(rows, (len(rows), len(self.point.numbers)), FIELD).to_sparse()
 
     @cached_property
@@ -70,8 +82,8 @@ class Profile:
     def bases(self) -> frozenset[tuple[int, ...]]:
         """Largest sets of independent rows, counted among the non-constant invariants.
 
-        With the rows written in a basis of them, [I | X], a set is independent exactly if the minor of X that belongs
-        to the rows it has in place of basis rows is not zero.
+        With the rows written in a basis of them, [I | X], a set is independent exactly if the
+        minor of X that belongs to the rows it has in place of basis rows is not zero.
         """
         reduced, basis = self.rows.transpose().rref()
         found = []
@@ -84,7 +96,9 @@ class Profile:
 
 
 class Point:
-    """A random point modulo the prime; the values of half monomials are kept, for they come again and again."""
+    """A random point modulo the prime; the values of half monomials are kept, for they come
+    again and again.
+    """
 
     def __init__(self, n_parameters: int, seed: int) -> None:
         draw = random.Random(seed)
@@ -105,10 +119,15 @@ class Point:
             for sums, width in ((lower, self._half), (upper, len(self.numbers) - self._half))
             for i in range(width)
         ]
-        return [total * pow(x, -1, PRIME) % PRIME for total, x in zip(weighted, self.numbers, strict=True)]
+        return [
+            total * pow(x, -1, PRIME) % PRIME
+            for total, x in zip(weighted, self.numbers, strict=True)
+        ]
 
     def _sums(self, polynomial: PolyElement) -> tuple[Counter[Monomial], Counter[Monomial]]:
-        """Sums of the terms with the same exponents in the lower half of the parameters, and in the upper half."""
+        """Sums of the terms with the same exponents in the lower half of the parameters, and in
+        the upper half.
+        """
         lower, upper, half = Counter(), Counter(), self._half
         for monomial, coefficient in polynomial.items():
             low, high = monomial[:half], monomial[half:]
@@ -126,7 +145,9 @@ class Point:
 
 
 def profiles(chains: Iterable[Any], count: int) -> tuple[list[Profile], list[Profile]]:
-    """Profiles by coefficients and by G_0..G_count, in the order of the chains, which are sorted by gap and force."""
+    """Profiles by coefficients and by G_0..G_count, in the order of the chains, which are
+    sorted by gap and force.
+    """
     by_coefficients, by_series = [], []
     for gap, same_gap in groupby(chains, key=lambda chain: chain.gap):
         denominator: Invariants = []
@@ -157,7 +178,9 @@ def first_failing(left: Profile, right: Profile) -> int:
 
 
 def run(n_masses: int = 4, count: int = 12, damped: bool = True) -> dict[str, dict[int, int]]:
-    """Pairs by the first failing condition, 0 for none: with either representation, and with one after the other."""
+    """Pairs by the first failing condition, 0 for none: with either representation, and with
+    one after the other.
+    """
     tf, markov = profiles(Family(n_masses, damped), count)
     pairs = list(combinations(range(len(tf)), 2))
     by_tf = {(i, j): first_failing(tf[i], tf[j]) for i, j in pairs}
@@ -168,8 +191,13 @@ def run(n_masses: int = 4, count: int = 12, damped: bool = True) -> dict[str, di
 
 
 def _velocity(chain: Any, column: DomainMatrix) -> PolyElement:
-    """Sensed velocity of a column of states; the acceleration is s times as much, so no feed-through is to be added."""
-    plus, minus = (column[chain.n_masses + i - 1, 0].element if i else 0 for i in (chain.meas_plus, chain.meas_minus))
+    """Sensed velocity of a column of states; the acceleration is s times as much, so no
+    feed-through is to be added.
+    """
+    plus, minus = (
+        column[chain.n_masses + i - 1, 0].element if i else 0
+        for i in (chain.meas_plus, chain.meas_minus)
+    )
     return plus - minus
 
 
@@ -181,8 +209,12 @@ def _powers(a: DomainMatrix, b: DomainMatrix, count: int) -> list[DomainMatrix]:
     return found
 
 
-def _adjugate(a: DomainMatrix, b: DomainMatrix, denominator: Sequence[PolyElement]) -> list[DomainMatrix]:
-    """Columns N_0..N_(m-1) of adj(I s - A) B = sum N_j s^j: N_(m-1) = B, N_(j-1) = A N_j + a_j B."""
+def _adjugate(
+    a: DomainMatrix, b: DomainMatrix, denominator: Sequence[PolyElement]
+) -> list[DomainMatrix]:
+    """Columns N_0..N_(m-1) of adj(I s - A) B = sum N_j s^j: N_(m-1) = B, N_(j-1) = A N_j + a_j
+    B.
+    """
     columns = [b]
     for coefficient in denominator[-2:0:-1]:
         columns.append(a * columns[-1] + b.scalarmul(coefficient))
@@ -190,7 +222,9 @@ def _adjugate(a: DomainMatrix, b: DomainMatrix, denominator: Sequence[PolyElemen
 
 
 def _cancelled(numerator: Invariants, denominator: Invariants, point: Point) -> Profile:
-    """Profile of the quotient without common powers of s; raises ArithmeticError where more than these are common."""
+    """Profile of the quotient without common powers of s; raises ArithmeticError where more
+    than these are common.
+    """
     common = next(j for j, pair in enumerate(zip(numerator, denominator, strict=True)) if any(pair))
     b, a = numerator[common:], denominator[common:]
     while not b[-1]:

@@ -1,8 +1,10 @@
-"""Slow, plain SymPy twin of the analysis: sections 4 and 5 of the paper, written down as they stand.
+"""Slow, plain SymPy twin of the analysis: sections 4 and 5 of the paper, written down as they
+stand.
 
-Chains are read by their indices, flags and parameter names alone, so this file shares no code with what it checks. All
-functions are exact. Moment invariants ("entries") are elements of the field of fractions ZZ(parameters), so that each
-knows its numerator and denominator; ranks are taken at a random point modulo the prime 2^61 - 1.
+Chains are read by their indices, flags and parameter names alone, so this file shares no code with
+what it checks. All functions are exact. Moment invariants ("entries") are elements of the field of
+fractions ZZ(parameters), so that each knows its numerator and denominator; ranks are taken at a
+random point modulo the prime 2^61 - 1.
 
 M, D, K are the mechanical matrices (the paper writes C for K); A, B, C, D a state space (19).
 """
@@ -15,7 +17,21 @@ from itertools import chain as flatten
 from itertools import combinations, permutations, product
 from typing import Any, NamedTuple
 
-from sympy import GF, ZZ, Expr, Matrix, Poly, Symbol, cancel, eye, field, fraction, symbols, together, zeros
+from sympy import (
+    GF,
+    ZZ,
+    Expr,
+    Matrix,
+    Poly,
+    Symbol,
+    cancel,
+    eye,
+    field,
+    fraction,
+    symbols,
+    together,
+    zeros,
+)
 from sympy.polys.fields import FracElement
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement
@@ -29,7 +45,8 @@ Entries = tuple[FracElement, ...]
 Polynomials = list[PolyElement]
 
 
-# --- section 5.1: the equations of motion and their state space -----------------------------------------------------
+# --- section 5.1: the equations of motion and their state space
+# -----------------------------------------------------
 
 
 class Mechanics(NamedTuple):
@@ -56,9 +73,16 @@ def matrices(chain: Any) -> Mechanics:
     n = chain.n_masses
     joints = [i for i in range(n) if i != chain.gap]
     return Mechanics(
-        M=_assembled(n, zip(_named(chain, "m"), [_unit(n, i) for i in range(1, n + 1)], strict=True)),
-        D=_assembled(n, zip(_named(chain, "d"), [_between(n, i) for i in joints if chain.damped], strict=True))
-        + _assembled(n, zip(_named(chain, "b"), [_unit(n, i) for i in chain.ground_dampers], strict=True)),
+        M=_assembled(
+            n, zip(_named(chain, "m"), [_unit(n, i) for i in range(1, n + 1)], strict=True)
+        ),
+        D=_assembled(
+            n,
+            zip(_named(chain, "d"), [_between(n, i) for i in joints if chain.damped], strict=True),
+        )
+        + _assembled(
+            n, zip(_named(chain, "b"), [_unit(n, i) for i in chain.ground_dampers], strict=True)
+        ),
         K=_assembled(n, zip(_named(chain, "k"), [_between(n, i) for i in joints], strict=True)),
         e_act=_unit(n, chain.act_plus) - _unit(n, chain.act_minus),
         e_meas=_unit(n, chain.meas_plus) - _unit(n, chain.meas_minus),
@@ -66,7 +90,9 @@ def matrices(chain: Any) -> Mechanics:
 
 
 def state_space(chain: Any) -> StateSpace:
-    """(19) to (23): states are positions and velocities, then the lagged force where the chain has a lag."""
+    """(19) to (23): states are positions and velocities, then the lagged force where the chain
+    has a lag.
+    """
     if getattr(chain, "dead_time", False):
         raise ValueError("a chain with dead time has no finite state space")
     mechanics, n = matrices(chain), chain.n_masses
@@ -79,7 +105,10 @@ def state_space(chain: Any) -> StateSpace:
     d = Matrix.vstack(zeros(2 * n, n), upper * b)  # (23)
     rows = slice(chain.sensor.order * n, (chain.sensor.order + 1) * n)
     plain = StateSpace(
-        a, b * mechanics.e_act, mechanics.e_meas.T * c[rows, :], mechanics.e_meas.T * d[rows, :] * mechanics.e_act
+        a,
+        b * mechanics.e_act,
+        mechanics.e_meas.T * c[rows, :],
+        mechanics.e_meas.T * d[rows, :] * mechanics.e_act,
     )
     return _lagged(plain, Symbol("T1")) if chain.lag else plain
 
@@ -105,14 +134,18 @@ def _lagged(plain: StateSpace, time_constant: Symbol) -> StateSpace:
     """The force F follows the input u with T1 F' + F = u and becomes the last state."""
     states = plain.A.rows
     return StateSpace(
-        Matrix.vstack(Matrix.hstack(plain.A, plain.B), Matrix.hstack(zeros(1, states), Matrix([-1 / time_constant]))),
+        Matrix.vstack(
+            Matrix.hstack(plain.A, plain.B),
+            Matrix.hstack(zeros(1, states), Matrix([-1 / time_constant])),
+        ),
         Matrix.vstack(zeros(states, 1), Matrix([1 / time_constant])),
         Matrix.hstack(plain.C, plain.D),
         zeros(1, 1),
     )
 
 
-# --- sections 4.1 and 4.3: moment invariants ------------------------------------------------------------------------
+# --- sections 4.1 and 4.3: moment invariants
+# ------------------------------------------------------------------------
 
 
 class TransferFunction(NamedTuple):
@@ -130,7 +163,10 @@ def transfer_function_textbook(chain: Any) -> TransferFunction:
     fractions = _fractions(chain)
     leading = denominator.LC()
     b_all, a_all = (
-        tuple(fractions.from_expr(together(coefficient / leading)) for coefficient in reversed(part.all_coeffs()))
+        tuple(
+            fractions.from_expr(together(coefficient / leading))
+            for coefficient in reversed(part.all_coeffs())
+        )
         for part in (numerator, denominator)
     )
     return TransferFunction(b_all, a_all[:-1])
@@ -139,8 +175,8 @@ def transfer_function_textbook(chain: Any) -> TransferFunction:
 def transfer_function(chain: Any) -> TransferFunction:
     """(24) without an inverse: C adj(I s - A) B + D det(I s - A) over det(I s - A), cancelled.
 
-    With det = sum a_j s^j, the columns N_j of adj(I s - A) B = sum N_j s^j follow from (I s - A) sum N_j s^j = B det:
-    N_(j-1) = A N_j + a_j B, starting with N_(m-1) = B.
+    With det = sum a_j s^j, the columns N_j of adj(I s - A) B = sum N_j s^j follow from (I s - A)
+    sum N_j s^j = B det: N_(j-1) = A N_j + a_j B, starting with N_(m-1) = B.
     """
     a, b, c, d = polynomial_form(chain)
     denominator = list(reversed(a.charpoly()))
@@ -176,7 +212,10 @@ def polynomial_form(chain: Any) -> list[DomainMatrix]:
     """A, B, C, D with m standing for 1/m and T1 for 1/T1, so that all entries are polynomials."""
     inverted = {Symbol(name): 1 / Symbol(name) for name in chain.parameters if _is_inverted(name)}
     domain = ZZ[symbols(chain.parameters)]
-    return [DomainMatrix.from_Matrix(part.subs(inverted)).convert_to(domain) for part in state_space(chain)]
+    return [
+        DomainMatrix.from_Matrix(part.subs(inverted)).convert_to(domain)
+        for part in state_space(chain)
+    ]
 
 
 def _entries(chain: Any, polynomials: Iterable[PolyElement]) -> Entries:
@@ -187,28 +226,47 @@ def _entries(chain: Any, polynomials: Iterable[PolyElement]) -> Entries:
 
 
 def _reciprocal(polynomial: PolyElement, inverted: Sequence[bool], fractions: Any) -> FracElement:
-    degrees = [max(degree, 0) if flip else 0 for degree, flip in zip(polynomial.degrees(), inverted, strict=True)]
+    degrees = [
+        max(degree, 0) if flip else 0
+        for degree, flip in zip(polynomial.degrees(), inverted, strict=True)
+    ]
     flipped = {
-        tuple(top - e if flip else e for e, top, flip in zip(monomial, degrees, inverted, strict=True)): coefficient
+        tuple(
+            top - e if flip else e for e, top, flip in zip(monomial, degrees, inverted, strict=True)
+        ): coefficient
         for monomial, coefficient in polynomial.items()
     }
-    return fractions.raw_new(fractions.ring.from_dict(flipped), fractions.ring.from_dict({tuple(degrees): ZZ.one}))
+    return fractions.raw_new(
+        fractions.ring.from_dict(flipped), fractions.ring.from_dict({tuple(degrees): ZZ.one})
+    )
 
 
 def _scalar(matrix: DomainMatrix) -> PolyElement:
     return matrix[0, 0].element
 
 
-def _lowest_terms(numerator: Polynomials, denominator: Polynomials) -> tuple[Polynomials, Polynomials]:
-    """Coefficients (low to high) of the cancelled quotient, the denominator monic again, no zeros at the top."""
+def _lowest_terms(
+    numerator: Polynomials, denominator: Polynomials
+) -> tuple[Polynomials, Polynomials]:
+    """Coefficients (low to high) of the cancelled quotient, the denominator monic again, no
+    zeros at the top.
+    """
     ring = denominator[-1].ring
     in_s = ring.clone(symbols=(S, *ring.symbols))
     b, a = (
-        in_s.from_dict({(j, *monomial): c for j, coefficient in enumerate(part) for monomial, c in coefficient.items()})
+        in_s.from_dict(
+            {
+                (j, *monomial): c
+                for j, coefficient in enumerate(part)
+                for monomial, c in coefficient.items()
+            }
+        )
         for part in (numerator, denominator)
     )
     _, *reduced = b.cofactors(a)
-    b, a = ([_coefficient_of_s(part, j, ring) for j in range(part.degree() + 1)] for part in reduced)
+    b, a = (
+        [_coefficient_of_s(part, j, ring) for j in range(part.degree() + 1)] for part in reduced
+    )
     assert a[-1] in (ring.one, -ring.one)  # a divisor of a monic polynomial is monic up to its sign
     return [x * a[-1] for x in b], [x * a[-1] for x in a]
 
@@ -217,7 +275,8 @@ def _coefficient_of_s(polynomial: PolyElement, power: int, ring: Any) -> PolyEle
     return ring.from_dict({m[1:]: v for m, v in polynomial.items() if m[0] == power})
 
 
-# --- values, Jacobians, ranks and row sets at a point ---------------------------------------------------------------
+# --- values, Jacobians, ranks and row sets at a point
+# ---------------------------------------------------------------
 
 
 def random_point(parameters: Iterable[str], seed: int) -> dict[str, int]:
@@ -228,26 +287,39 @@ def random_point(parameters: Iterable[str], seed: int) -> dict[str, int]:
 
 def values(entries: Iterable[FracElement], point: Mapping[str, int]) -> list[int]:
     """Values of the entries at a point, modulo the prime."""
-    return [_value(entry.numer, point) * pow(_value(entry.denom, point), -1, PRIME) % PRIME for entry in entries]
+    return [
+        _value(entry.numer, point) * pow(_value(entry.denom, point), -1, PRIME) % PRIME
+        for entry in entries
+    ]
 
 
-def jacobian(entries: Iterable[FracElement], parameters: Sequence[str], point: Mapping[str, int]) -> DomainMatrix:
+def jacobian(
+    entries: Iterable[FracElement], parameters: Sequence[str], point: Mapping[str, int]
+) -> DomainMatrix:
     """J = d Phi / d p at a point, modulo the prime; one row per entry, one column per parameter."""
     rows = [[FIELD(x) for x in _gradient(entry, parameters, point)] for entry in entries]
     return DomainMatrix(rows, (len(rows), len(parameters)), FIELD)
 
 
 def jacobian_rank(entries: Iterable[FracElement], parameters: Sequence[str], seed: int = 0) -> int:
-    """Generic rank of the Jacobian: its rank at a random point, too small with probability below 1e-15."""
+    """Generic rank of the Jacobian: its rank at a random point, too small with probability
+    below 1e-15.
+    """
     return int(jacobian(entries, parameters, random_point(parameters, seed)).rank())
 
 
 def row_bases(jacobian_at_point: DomainMatrix, rank: int) -> frozenset[tuple[int, ...]]:
-    """All sets of `rank` independent rows, by trying every combination of the rows that are not zero (condition 5)."""
+    """All sets of `rank` independent rows, by trying every combination of the rows that are not
+    zero (condition 5).
+    """
     height, width = jacobian_at_point.shape
-    live = [i for i in range(height) if not jacobian_at_point.extract([i], range(width)).is_zero_matrix]
+    live = [
+        i for i in range(height) if not jacobian_at_point.extract([i], range(width)).is_zero_matrix
+    ]
     chosen = combinations(live, rank)
-    return frozenset(rows for rows in chosen if jacobian_at_point.extract(rows, range(width)).rank() == rank)
+    return frozenset(
+        rows for rows in chosen if jacobian_at_point.extract(rows, range(width)).rank() == rank
+    )
 
 
 def _value(polynomial: PolyElement, point: Mapping[str, int]) -> int:
@@ -265,11 +337,15 @@ def _term(coefficient: int, monomial: tuple[int, ...], numbers: Sequence[int]) -
 def _gradient(entry: FracElement, parameters: Sequence[str], point: Mapping[str, int]) -> list[int]:
     """(u/v)' = (u' v - u v') / v^2 for each parameter."""
     u, v = _value(entry.numer, point), _value(entry.denom, point)
-    slopes = [[_value(part.diff(part.ring(Symbol(name))), point) for part in (entry.numer, entry.denom)] for name in parameters]
+    slopes = [
+        [_value(part.diff(part.ring(Symbol(name))), point) for part in (entry.numer, entry.denom)]
+        for name in parameters
+    ]
     return [(du * v - u * dv) * pow(v, -2, PRIME) % PRIME for du, dv in slopes]
 
 
-# --- section 4.1: conditions ----------------------------------------------------------------------------------------
+# --- section 4.1: conditions
+# ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -316,7 +392,9 @@ def summary(chain: Any, representation: str = "tf", count: int = 0, seed: int = 
         b, a = transfer_function(chain)
         return Summary("tf", chain.parameters, n_states, b + a, len(b), seed)
     if representation == "markov":
-        return Summary("markov", chain.parameters, n_states, markov_parameters(chain, count), 0, seed)
+        return Summary(
+            "markov", chain.parameters, n_states, markov_parameters(chain, count), 0, seed
+        )
     raise ValueError(f"a representation is one of {REPRESENTATIONS}, not {representation!r}")
 
 
@@ -326,7 +404,9 @@ def condition_1(left: Summary, right: Summary) -> bool:
 
 
 def condition_2(left: Summary, right: Summary) -> bool:
-    """Equally many coefficients in the numerator and in the denominator; Markov parameters have no such split."""
+    """Equally many coefficients in the numerator and in the denominator; Markov parameters have
+    no such split.
+    """
     return left.n_numerator == right.n_numerator and condition_1(left, right)
 
 
@@ -351,7 +431,9 @@ def condition_6(left: Summary, right: Summary) -> bool:
 
 
 def condition_7(left: Summary, right: Summary) -> bool:
-    """As many determinable parameters as non-constant invariants in both models, and the same constants."""
+    """As many determinable parameters as non-constant invariants in both models, and the same
+    constants.
+    """
     full = all(model.rank == sum(model.symbolic_form) for model in (left, right))
     return full and left.rank == right.rank and left.constants == right.constants
 
@@ -368,11 +450,18 @@ def renamings(left: Summary, right: Summary) -> Iterator[dict[str, str]]:
     if len(left.parameters) != len(right.parameters) or len(left.entries) != len(right.entries):
         return
     mine, theirs = _by_degrees(left), _by_degrees(right)
-    if {key: len(group) for key, group in mine.items()} != {key: len(group) for key, group in theirs.items()}:
+    if {key: len(group) for key, group in mine.items()} != {
+        key: len(group) for key, group in theirs.items()
+    }:
         return
     for choice in product(*(permutations(theirs[key]) for key in mine)):
-        renaming = dict(zip(flatten.from_iterable(mine.values()), flatten.from_iterable(choice), strict=True))
-        if all(_renamed(a, renaming) == _plain(b) for a, b in zip(left.entries, right.entries, strict=True)):
+        renaming = dict(
+            zip(flatten.from_iterable(mine.values()), flatten.from_iterable(choice), strict=True)
+        )
+        if all(
+            _renamed(a, renaming) == _plain(b)
+            for a, b in zip(left.entries, right.entries, strict=True)
+        ):
             yield renaming
 
 
@@ -383,16 +472,25 @@ def _is_constant(entry: FracElement) -> bool:
 def _by_degrees(model: Summary) -> dict[tuple[tuple[int, int], ...], list[str]]:
     groups: dict[tuple[tuple[int, int], ...], list[str]] = {}
     for position, name in enumerate(model.parameters):
-        key = tuple((entry.numer.degree(position), entry.denom.degree(position)) for entry in model.entries)
+        key = tuple(
+            (entry.numer.degree(position), entry.denom.degree(position)) for entry in model.entries
+        )
         groups.setdefault(key, []).append(name)
     return groups
 
 
-def _renamed(entry: FracElement, renaming: Mapping[str, str]) -> list[dict[frozenset[tuple[str, int]], int]]:
-    """Numerator and denominator as {monomial: coefficient}, a monomial being a set of (new name, exponent)."""
+def _renamed(
+    entry: FracElement, renaming: Mapping[str, str]
+) -> list[dict[frozenset[tuple[str, int]], int]]:
+    """Numerator and denominator as {monomial: coefficient}, a monomial being a set of (new
+    name, exponent).
+    """
     names = [renaming.get(str(symbol), str(symbol)) for symbol in entry.numer.ring.symbols]
     return [
-        {frozenset((x, e) for x, e in zip(names, monomial, strict=True) if e): int(c) for monomial, c in part.items()}
+        {
+            frozenset((x, e) for x, e in zip(names, monomial, strict=True) if e): int(c)
+            for monomial, c in part.items()
+        }
         for part in (entry.numer, entry.denom)
     ]
 
@@ -401,29 +499,43 @@ def _plain(entry: FracElement) -> list[dict[frozenset[tuple[str, int]], int]]:
     return _renamed(entry, {})
 
 
-# --- deciding pairs -------------------------------------------------------------------------------------------------
+# --- deciding pairs
+# -------------------------------------------------------------------------------------------------
 
 
 def first_failing(left: Summary, right: Summary) -> int:
     """Number of the first necessary condition that fails, 0 if all hold."""
-    return next((number for number, condition in enumerate(NECESSARY, 1) if not condition(left, right)), 0)
+    return next(
+        (number for number, condition in enumerate(NECESSARY, 1) if not condition(left, right)), 0
+    )
 
 
 def first_sufficient(left: Summary, right: Summary) -> int:
-    """6 or 7 if that condition holds, else 0; too few Markov parameters prove no indistinguishability (section 4.3)."""
+    """6 or 7 if that condition holds, else 0; too few Markov parameters prove no
+    indistinguishability (section 4.3).
+    """
     if left.representation == "markov" and len(left.entries) - 1 < left.n_states + right.n_states:
         return 0
-    return next((number for number, condition in enumerate(SUFFICIENT, 6) if condition(left, right)), 0)
+    return next(
+        (number for number, condition in enumerate(SUFFICIENT, 6) if condition(left, right)), 0
+    )
 
 
 def decide(left: Any, right: Any, representation: str = "tf", count: int = 0) -> int:
     """Number of the first of conditions 1 to 5 that fails for two chains, 0 if none does."""
-    return first_failing(summary(left, representation, count), summary(right, representation, count))
+    return first_failing(
+        summary(left, representation, count), summary(right, representation, count)
+    )
 
 
-def decide_family(chains: Iterable[Any], representation: str = "tf", count: int = 0) -> dict[tuple[int, int], int]:
-    """Each pair's deciding condition: 1 to 5 distinguishable, 6 and 7 indistinguishable, 0 open; models from 1."""
+def decide_family(
+    chains: Iterable[Any], representation: str = "tf", count: int = 0
+) -> dict[tuple[int, int], int]:
+    """Each pair's deciding condition: 1 to 5 distinguishable, 6 and 7 indistinguishable, 0
+    open; models from 1.
+    """
     models = list(enumerate((summary(chain, representation, count) for chain in chains), 1))
     return {
-        (i, j): first_failing(left, right) or first_sufficient(left, right) for (i, left), (j, right) in combinations(models, 2)
+        (i, j): first_failing(left, right) or first_sufficient(left, right)
+        for (i, left), (j, right) in combinations(models, 2)
     }

@@ -1,7 +1,8 @@
 """A fibre, in plain SymPy: have two models one transfer function at a random point of the left one?
 
-For models of equal dimension, an empty fibre over a random point proves them distinguishable (but for the chance that the
-point was special): were their sets of transfer functions the same, a generic one of the left would occur on the right.
+For models of equal dimension, an empty fibre over a random point proves them distinguishable (but
+for the chance that the point was special): were their sets of transfer functions the same, a
+generic one of the left would occur on the right.
 """
 
 import random
@@ -14,7 +15,9 @@ PRIME = 32003
 
 
 def fibre_is_empty(left, right, seed=1):
-    """Whether no non-zero right parameters, over the closure of GF(PRIME), give the left model at a random point."""
+    """Whether no non-zero right parameters, over the closure of GF(PRIME), give the left model
+    at a random point.
+    """
     draw = random.Random(seed)
     point = {name: draw.randrange(1, PRIME) for name in left.parameters}
     targets = [_residue(entry, point) for entry in summary(left).entries]
@@ -29,5 +32,7 @@ def fibre_is_empty(left, right, seed=1):
 
 
 def _residue(entry, point):
-    numerator, denominator = (int(part.as_expr().subs(point)) for part in (entry.numer, entry.denom))
+    numerator, denominator = (
+        int(part.as_expr().subs(point)) for part in (entry.numer, entry.denom)
+    )
     return numerator * pow(denominator, -1, PRIME) % PRIME

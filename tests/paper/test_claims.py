@@ -1,7 +1,8 @@
-"""What section 5 of the paper prints, and what is known beyond it, found by this package; literal numbers throughout.
+"""What section 5 of the paper prints, and what is known beyond it, found by this package; literal
+numbers throughout.
 
-Where the conditions leave open what is true (the candidates of Fig. 1), the truth is shown by a fibre, and what the
-conditions reach is stated beside it.
+Where the conditions leave open what is true (the candidates of Fig. 1), the truth is shown by a
+fibre, and what the conditions reach is stated beside it.
 """
 
 from collections import Counter
@@ -25,7 +26,10 @@ PAPER = Query(View.COMBINED)
 
 @cache
 def decided(n_masses, damped=False, view=View.COMBINED, markov=0, sensor=Sensor.ACCELERATION):
-    subjects = [ENGINE.subject(f"A{i}", chain) for i, chain in enumerate(Family(n_masses, damped, sensor), 1)]
+    subjects = [
+        ENGINE.subject(f"A{i}", chain)
+        for i, chain in enumerate(Family(n_masses, damped, sensor), 1)
+    ]
     return ENGINE.decisions(subjects, Query(view, markov=markov))
 
 
@@ -62,7 +66,8 @@ def with_dampers(chain):
     return [replace(chain, ground_dampers=masses) for masses in damper_sets(chain.n_masses)]
 
 
-# --- Table 2 ---------------------------------------------------------------------------------------------------------
+# --- Table 2
+# ---------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -73,7 +78,8 @@ def test_table_2_and_its_continuation(n_masses, models):
     assert len(Family(n_masses)) == models
 
 
-# --- Figs. 10, 11 and 13: pairs by deciding condition ----------------------------------------------------------------
+# --- Figs. 10, 11 and 13: pairs by deciding condition
+# ----------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -86,12 +92,39 @@ def test_table_2_and_its_continuation(n_masses, models):
         pytest.param(3, True, View.MARKOV, 7, {0: 16, 3: 26, 4: 7, 5: 6}, id="Fig. 11 right"),
         pytest.param(3, True, View.MARKOV, 8, {0: 16, 3: 26, 4: 7, 5: 6}, id="8 give the same"),
         pytest.param(3, True, View.MARKOV, 6, {0: 22, 3: 26, 4: 7}, id="6 leave more open"),
-        pytest.param(4, False, View.TF, 0, {0: 17, 1: 168, 4: 151, 5: 26, 6: 7, 7: 37}, id="Fig. 13 coefficients"),
-        pytest.param(4, False, View.MARKOV, 12, {0: 61, 3: 208, 4: 113, 5: 24}, id="Fig. 13 Markov parameters"),
-        pytest.param(4, True, View.TF, 0, {0: 82, 1: 168, 4: 61, 5: 88, 6: 7}, id="4 masses damped"),
-        pytest.param(3, False, View.COMBINED, 0, {1: 26, 4: 15, 5: 2, 6: 2, 7: 10}, id="3 masses undamped, all"),
-        pytest.param(3, True, View.COMBINED, 0, {0: 6, 1: 26, 4: 7, 5: 14, 6: 2}, id="3 masses damped, all"),
-        pytest.param(4, False, View.COMBINED, 0, {0: 9, 1: 168, 4: 151, 5: 34, 6: 7, 7: 37}, id="Fig. 13"),
+        pytest.param(
+            4,
+            False,
+            View.TF,
+            0,
+            {0: 17, 1: 168, 4: 151, 5: 26, 6: 7, 7: 37},
+            id="Fig. 13 coefficients",
+        ),
+        pytest.param(
+            4,
+            False,
+            View.MARKOV,
+            12,
+            {0: 61, 3: 208, 4: 113, 5: 24},
+            id="Fig. 13 Markov parameters",
+        ),
+        pytest.param(
+            4, True, View.TF, 0, {0: 82, 1: 168, 4: 61, 5: 88, 6: 7}, id="4 masses damped"
+        ),
+        pytest.param(
+            3,
+            False,
+            View.COMBINED,
+            0,
+            {1: 26, 4: 15, 5: 2, 6: 2, 7: 10},
+            id="3 masses undamped, all",
+        ),
+        pytest.param(
+            3, True, View.COMBINED, 0, {0: 6, 1: 26, 4: 7, 5: 14, 6: 2}, id="3 masses damped, all"
+        ),
+        pytest.param(
+            4, False, View.COMBINED, 0, {0: 9, 1: 168, 4: 151, 5: 34, 6: 7, 7: 37}, id="Fig. 13"
+        ),
     ],
 )
 def test_pairs_by_deciding_condition(n_masses, damped, view, markov, expected):
@@ -106,7 +139,10 @@ def test_seven_and_eight_markov_parameters_draw_the_same_picture():
 
 
 def test_undamped_markov_parameters_leave_exactly_the_indistinguishable_pairs():
-    by_coefficients, by_series = numbers(decided(3, view=View.TF)), numbers(decided(3, view=View.MARKOV, markov=8))
+    by_coefficients, by_series = (
+        numbers(decided(3, view=View.TF)),
+        numbers(decided(3, view=View.MARKOV, markov=8)),
+    )
     left = {pair for pair, by in by_series.items() if by == 0}
     assert left == {pair for pair, by in by_coefficients.items() if by in (6, 7)}
     assert len(left) == 12
@@ -127,10 +163,15 @@ def test_markov_parameters_tell_a1_from_a4_where_coefficients_cannot():
     """Fig. 12: "indistinguishability" is printed where distinguishability is shown."""
     assert numbers(decided(3, True, View.TF))[1, 4] == 0
     found = verdict(*(Family(3, damped=True)[i] for i in (1, 4)))
-    assert (found.relation, found.decided_by, found.representation) == (Relation.DISTINGUISHABLE, "5", "markov")
+    assert (found.relation, found.decided_by, found.representation) == (
+        Relation.DISTINGUISHABLE,
+        "5",
+        "markov",
+    )
 
 
-# --- numbers of coefficients and of determinable parameters ----------------------------------------------------------
+# --- numbers of coefficients and of determinable parameters
+# ----------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -153,7 +194,8 @@ def test_a3_alone_has_seven_coefficients_and_a3_and_a7_rank_six():
     assert [i for i, p in found.items() if p.rank < p.n_parameters] == [3, 7]
 
 
-# --- condition 9 -----------------------------------------------------------------------------------------------------
+# --- condition 9
+# -----------------------------------------------------------------------------------------------------
 
 
 def test_four_mass_models_11_and_13_differ_in_the_gap_alone():
@@ -163,7 +205,9 @@ def test_four_mass_models_11_and_13_differ_in_the_gap_alone():
 
 
 def test_condition_7_decides_11_and_13_and_condition_9_does_not():
-    """Printed: condition 9. The chain without gap has 8 determinable parameters, its two submodels 7."""
+    """Printed: condition 9. The chain without gap has 8 determinable parameters, its two
+    submodels 7.
+    """
     left, right = (ENGINE.subject(str(i), Family(4)[i]) for i in (11, 13))
     assert condition_7(*profiles((left.chain, right.chain))).outcome is Outcome.HOLDS
     finding = condition_9(left, right)
@@ -171,7 +215,9 @@ def test_condition_7_decides_11_and_13_and_condition_9_does_not():
     assert compare(left.chain, right.chain, query=Query(View.EXACT)).decided_by == "7"
 
 
-@pytest.mark.parametrize(("n_masses", "pairs"), [(3, 0), (4, 2), pytest.param(5, 11, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("n_masses", "pairs"), [(3, 0), (4, 2), pytest.param(5, 11, marks=pytest.mark.slow)]
+)
 def test_condition_9_never_holds_in_a_family(n_masses, pairs):
     subjects = [ENGINE.subject("", chain) for chain in Family(n_masses)]
     outcomes = Counter(condition_9(*pair).outcome for pair in combinations(subjects, 2))
@@ -179,18 +225,27 @@ def test_condition_9_never_holds_in_a_family(n_masses, pairs):
     assert outcomes[Outcome.HOLDS] == 0
 
 
-# --- condition 2 -----------------------------------------------------------------------------------------------------
+# --- condition 2
+# -----------------------------------------------------------------------------------------------------
 
 
 def pivotal_for_condition_2(*groups):
     """Pairs of models of different groups with equally many coefficients, split differently."""
     degrees = [[p.degrees for p in profiles(group)] for group in groups]
-    split = (a != b for one, other in combinations(degrees, 2) for a in one for b in other if sum(a) == sum(b))
+    split = (
+        a != b
+        for one, other in combinations(degrees, 2)
+        for a in one
+        for b in other
+        if sum(a) == sum(b)
+    )
     return sum(split)
 
 
 def test_condition_2_is_pivotal_between_undamped_sizes_only():
-    """Printed for one size: never. A mass more can move two coefficients from the numerator to the denominator."""
+    """Printed for one size: never. A mass more can move two coefficients from the numerator to
+    the denominator.
+    """
     assert pivotal_for_condition_2(*(Family(n) for n in (1, 2, 3, 4))) == 20
     assert pivotal_for_condition_2(*(Family(n, damped=True) for n in (1, 2, 3, 4))) == 0
 
@@ -210,7 +265,8 @@ def test_within_a_family_conditions_2_and_8_are_never_pivotal():
     assert not any({2, 8} & set(counts(n, damped)) for n, damped in families)
 
 
-# --- sensors, lag and dead time --------------------------------------------------------------------------------------
+# --- sensors, lag and dead time
+# --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("damped", [False, True])
@@ -225,7 +281,9 @@ def test_every_sensor_quantity_gives_the_same_picture(sensor, view, damped):
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_lag_is_distinguishable_from_none_in_all_eleven_cases(damped):
     found = [verdict(chain, replace(chain, lag=True)) for chain in Family(3, damped)]
-    assert Counter((v.relation, v.decided_by) for v in found) == {(Relation.DISTINGUISHABLE, "1"): 11}
+    assert Counter((v.relation, v.decided_by) for v in found) == {
+        (Relation.DISTINGUISHABLE, "1"): 11
+    }
 
 
 @pytest.mark.parametrize("damped", [False, True])
@@ -243,7 +301,8 @@ def test_a_dead_time_is_distinguishable_from_none(damped):
     }
 
 
-# --- Fig. 14: ground dampers -----------------------------------------------------------------------------------------
+# --- Fig. 14: ground dampers
+# -----------------------------------------------------------------------------------------
 
 LEFT_OPEN = {
     2: {((1,), (2,))},
@@ -253,23 +312,34 @@ LEFT_OPEN = {
 
 @pytest.mark.parametrize(("n_masses", "distinguishable"), [(1, 1), (2, 5), (3, 24)])
 def test_candidates_of_fig_1_with_any_ground_dampers(n_masses, distinguishable):
-    """All pairs are distinguishable. The conditions prove it but for a few, which need a fibre (below)."""
+    """All pairs are distinguishable. The conditions prove it but for a few, which need a fibre
+    (below).
+    """
     pairs = list(combinations(with_dampers(Chain(n_masses, damped=True)), 2))
     found = {(a.ground_dampers, b.ground_dampers): verdict(a, b, PAPER).relation for a, b in pairs}
     assert Counter(found.values())[Relation.DISTINGUISHABLE] == distinguishable
     assert Counter(found.values())[Relation.INDISTINGUISHABLE] == 0
-    assert {pair for pair, r in found.items() if r is Relation.UNDECIDED} == LEFT_OPEN.get(n_masses, set())
+    assert {pair for pair, r in found.items() if r is Relation.UNDECIDED} == LEFT_OPEN.get(
+        n_masses, set()
+    )
 
 
 def test_candidates_of_fig_1_with_four_masses():
-    relations = Counter(verdict(a, b, PAPER).relation for a, b in combinations(with_dampers(Chain(4, damped=True)), 2))
+    relations = Counter(
+        verdict(a, b, PAPER).relation
+        for a, b in combinations(with_dampers(Chain(4, damped=True)), 2)
+    )
     assert relations == {Relation.DISTINGUISHABLE: 96, Relation.UNDECIDED: 24}
 
 
-@pytest.mark.parametrize("n_masses", [1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 4))])
+@pytest.mark.parametrize(
+    "n_masses", [1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 4))]
+)
 def test_the_exact_decision_tells_all_candidates_apart(n_masses):
     chains = with_dampers(Chain(n_masses, damped=True))
-    assert {verdict(a, b).relation for a, b in combinations(chains, 2)} == {Relation.DISTINGUISHABLE}
+    assert {verdict(a, b).relation for a, b in combinations(chains, 2)} == {
+        Relation.DISTINGUISHABLE
+    }
 
 
 @pytest.mark.parametrize(("left", "right"), [((2,), (3,)), ((1, 2), (1, 3)), ((1,), (1, 2, 3))])
@@ -282,24 +352,35 @@ def test_the_exact_decision_tells_some_candidates_of_three_masses_apart(left, ri
 @pytest.mark.parametrize(
     ("n_masses", "left", "right"),
     [(2, (1,), (2,)), (3, (2,), (3,))]
-    + [pytest.param(3, *pair, marks=pytest.mark.slow) for pair in sorted(LEFT_OPEN[3]) if len(pair[0]) == 2],
+    + [
+        pytest.param(3, *pair, marks=pytest.mark.slow)
+        for pair in sorted(LEFT_OPEN[3])
+        if len(pair[0]) == 2
+    ],
 )
 def test_a_fibre_tells_the_candidates_apart_that_the_conditions_leave_open(n_masses, left, right):
-    """No parameters of the right model give the transfer function of the left one at a random point."""
+    """No parameters of the right model give the transfer function of the left one at a random
+    point.
+    """
     one, other = (Chain(n_masses, damped=True, ground_dampers=masses) for masses in (left, right))
     assert fibre_is_empty(one, other)
     assert not fibre_is_empty(one, one)
 
 
 def test_ground_dampers_of_a3_cannot_be_located():
-    """Every two non-empty sets: condition 6 where one set mirrors the other, condition 7 everywhere else."""
+    """Every two non-empty sets: condition 6 where one set mirrors the other, condition 7
+    everywhere else.
+    """
     found = {
         (a.ground_dampers, b.ground_dampers): verdict(a, b)
         for a, b in combinations(with_dampers(Family(3, damped=True)[3])[1:], 2)
     }
     assert len(found) == 21
     assert {v.relation for v in found.values()} == {Relation.INDISTINGUISHABLE}
-    assert {pair for pair, v in found.items() if v.decided_by == "6"} == {((1,), (3,)), ((1, 2), (2, 3))}
+    assert {pair for pair, v in found.items() if v.decided_by == "6"} == {
+        ((1,), (3,)),
+        ((1, 2), (2, 3)),
+    }
     assert Counter(v.decided_by for v in found.values()) == {"6": 2, "7": 19}
 
 
@@ -311,7 +392,9 @@ def test_a_ground_damper_of_a3_is_told_from_none():
 
 
 def test_eight_and_nine_are_pivotal_with_ground_dampers():
-    """Printed for one family: condition 8 never. Dampers that only add to what is there decide by structure."""
+    """Printed for one family: condition 8 never. Dampers that only add to what is there decide
+    by structure.
+    """
     free = Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,))
     assert verdict(free, replace(free, damped=True)).decided_by == "8"
     long = Chain(3, 2, 1, 3, 2, 3, damped=True, ground_dampers=(1,))

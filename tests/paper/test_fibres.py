@@ -1,4 +1,6 @@
-"""Every verdict on models of equal rank against a fibre by Groebner basis, which knows nothing of the conditions."""
+"""Every verdict on models of equal rank against a fibre by Groebner basis, which knows nothing
+of the conditions.
+"""
 
 from dataclasses import replace
 from itertools import combinations
@@ -23,7 +25,9 @@ def pairs(chains):
 
 
 def disagreements(chains):
-    """Pairs whose verdict and fibre contradict each other, and the number of pairs that were decided."""
+    """Pairs whose verdict and fibre contradict each other, and the number of pairs that were
+    decided.
+    """
     found = [(a, b, v.relation, fibre_is_empty(a, b)) for a, b, v in pairs(chains)]
     decided = [x for x in found if x[2] is not Relation.UNDECIDED]
     return [x for x in decided if (x[2] is Relation.DISTINGUISHABLE) != x[3]], len(decided)
@@ -59,10 +63,23 @@ GAP = Chain(2, 1, 1, 2, 1, 2)
 @pytest.mark.parametrize(
     ("chains", "number"),
     [
-        pytest.param(with_dampers(GAP, (1,), (2,)) + with_dampers(replace(GAP, damped=True), (), (1,)), 3, id="condition 8"),
-        pytest.param(with_dampers(Chain(3, 2, 1, 3, 2, 3, damped=True), (1,), (2,)), 1, id="condition 9"),
-        pytest.param(with_dampers(Chain(2, meas_plus=2, damped=True), (1,), (2,), (1, 2)), 3, id="one chain"),
-        pytest.param(with_dampers(Chain(3, meas_plus=3, damped=True), (1,), (2,)), 1, id="A3", marks=pytest.mark.slow),
+        pytest.param(
+            with_dampers(GAP, (1,), (2,)) + with_dampers(replace(GAP, damped=True), (), (1,)),
+            3,
+            id="condition 8",
+        ),
+        pytest.param(
+            with_dampers(Chain(3, 2, 1, 3, 2, 3, damped=True), (1,), (2,)), 1, id="condition 9"
+        ),
+        pytest.param(
+            with_dampers(Chain(2, meas_plus=2, damped=True), (1,), (2,), (1, 2)), 3, id="one chain"
+        ),
+        pytest.param(
+            with_dampers(Chain(3, meas_plus=3, damped=True), (1,), (2,)),
+            1,
+            id="A3",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_ground_dampers(chains, number):

@@ -27,21 +27,47 @@ def counts(found: dict[tuple[int, int], int]) -> dict[int, int]:
         pytest.param(3, True, "markov", 8, {OPEN: 16, 3: 26, 4: 7, 5: 6}, id="8 give the same"),
         pytest.param(3, True, "markov", 6, {OPEN: 22, 3: 26, 4: 7}, id="6 leave more open"),
         pytest.param(2, True, "tf", 0, {OPEN: 1, 1: 2}, id="2 masses damped"),
-        pytest.param(4, False, "tf", 0, {OPEN: 17, 1: 168, 4: 151, 5: 26, 6: 7, 7: 37}, id="Fig. 13 coefficients"),
         pytest.param(
-            4, False, "markov", 12, {OPEN: 61, 3: 208, 4: 113, 5: 24}, id="Fig. 13 Markov parameters", marks=pytest.mark.slow
+            4,
+            False,
+            "tf",
+            0,
+            {OPEN: 17, 1: 168, 4: 151, 5: 26, 6: 7, 7: 37},
+            id="Fig. 13 coefficients",
         ),
-        pytest.param(4, True, "tf", 0, {OPEN: 82, 1: 168, 4: 61, 5: 88, 6: 7}, id="4 masses damped", marks=pytest.mark.slow),
+        pytest.param(
+            4,
+            False,
+            "markov",
+            12,
+            {OPEN: 61, 3: 208, 4: 113, 5: 24},
+            id="Fig. 13 Markov parameters",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            4,
+            True,
+            "tf",
+            0,
+            {OPEN: 82, 1: 168, 4: 61, 5: 88, 6: 7},
+            id="4 masses damped",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_pairs_by_deciding_condition(
     n_masses: int, damped: bool, representation: str, count: int, expected: dict[int, int]
 ) -> None:
-    assert counts(sympy_twin.decide_family(Family(n_masses, damped), representation, count)) == expected
+    assert (
+        counts(sympy_twin.decide_family(Family(n_masses, damped), representation, count))
+        == expected
+    )
 
 
 def test_both_representations_agree_on_the_three_mass_classes() -> None:
-    """Undamped, Markov parameters leave exactly the indistinguishable pairs; damped, both together leave six pairs."""
+    """Undamped, Markov parameters leave exactly the indistinguishable pairs; damped, both
+    together leave six pairs.
+    """
     undamped = sympy_twin.decide_family(Family(3), "tf")
     series = sympy_twin.decide_family(Family(3), "markov", 8)
     assert all((undamped[pair] in (6, 7)) == (series[pair] == OPEN) for pair in undamped)
@@ -62,7 +88,9 @@ def test_markov_parameters_decide_eight_of_the_seventeen_four_mass_pairs() -> No
 
 
 def test_three_mass_coefficients_and_ranks() -> None:
-    undamped, damped = ([sympy_twin.summary(chain) for chain in Family(3, damped)] for damped in (False, True))
+    undamped, damped = (
+        [sympy_twin.summary(chain) for chain in Family(3, damped)] for damped in (False, True)
+    )
     assert {sum(model.symbolic_form) for model in undamped} == {3, 4, 5}
     assert {sum(model.symbolic_form) for model in damped} == {7, 8, 9}
     assert [i for i, model in enumerate(damped, 1) if sum(model.symbolic_form) == 7] == [3]
@@ -96,7 +124,9 @@ def test_the_quick_transfer_function_is_the_textbook_one(chain: Chain) -> None:
 
 @pytest.mark.parametrize("chain", EXAMPLES, ids=str)
 def test_markov_parameters_are_the_series_of_the_transfer_function(chain: Chain) -> None:
-    """(30): the coefficients of s^m, s^(m-1).. of denominator times series are those of the numerator."""
+    """(30): the coefficients of s^m, s^(m-1).. of denominator times series are those of the
+    numerator.
+    """
     b, a = sympy_twin.transfer_function(chain)
     series = sympy_twin.markov_parameters(chain, len(a))
     padded = [*b, *[0] * (len(a) + 1 - len(b))]
@@ -116,7 +146,10 @@ def test_the_tuned_baseline_counts_as_the_twin(damped: bool) -> None:
     tuned = sympy_best.run(3, 7, damped)
     for representation in sympy_twin.REPRESENTATIONS:
         models = [sympy_twin.summary(chain, representation, 7) for chain in Family(3, damped)]
-        assert Counter(sympy_twin.first_failing(*pair) for pair in combinations(models, 2)) == tuned[representation]
+        assert (
+            Counter(sympy_twin.first_failing(*pair) for pair in combinations(models, 2))
+            == tuned[representation]
+        )
 
 
 @pytest.mark.slow

@@ -20,7 +20,16 @@ from disting.report.svg import svg
 from disting.verdict import Relation, View
 from tests.report.outline import Outline
 
-NAMES = ["figures-3-4", "figures-5-6", "figures-7-8", "figure-10", "figure-11", "figure-12", "figure-13", "figure-14"]
+NAMES = [
+    "figures-3-4",
+    "figures-5-6",
+    "figures-7-8",
+    "figure-10",
+    "figure-11",
+    "figure-12",
+    "figure-13",
+    "figure-14",
+]
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +45,10 @@ def page(folder) -> str:
 
 
 def test_page_and_three_files_a_figure(folder):
-    assert {p.name for p in folder.iterdir()} == {"index.html", *(n + e for n in NAMES for e in (".svg", ".png", ".pdf"))}
+    assert {p.name for p in folder.iterdir()} == {
+        "index.html",
+        *(n + e for n in NAMES for e in (".svg", ".png", ".pdf")),
+    }
     for name in NAMES:
         assert (folder / f"{name}.pdf").read_bytes().startswith(b"%PDF")
         assert b"<svg" in (folder / f"{name}.svg").read_bytes()
@@ -47,7 +59,11 @@ def test_page_and_three_files_a_figure(folder):
 def test_every_claim_stands_on_the_page_with_its_outcome(page):
     outline = Outline(page)
     said = re.sub(r"\s+", " ", outline.text)
-    classes = [a["class"] for tag, a in outline.elements if tag == "span" and (a.get("class") or "").startswith("mark ")]
+    classes = [
+        a["class"]
+        for tag, a in outline.elements
+        if tag == "span" and (a.get("class") or "").startswith("mark ")
+    ]
     assert classes[len(Outcome) :] == [f"mark {c.outcome.name.lower()}" for c in CLAIMS]
     ids = [a["id"] for _, a in outline.elements if "id" in a]
     assert len(ids) == len(set(ids))
@@ -59,7 +75,11 @@ def test_every_claim_stands_on_the_page_with_its_outcome(page):
 
 def test_nothing_comes_from_elsewhere(page):
     outline = Outline(page)
-    links = [a.get("href") or a.get("src") or "" for _, a in outline.elements if a.get("href") or a.get("src")]
+    links = [
+        a.get("href") or a.get("src") or ""
+        for _, a in outline.elements
+        if a.get("href") or a.get("src")
+    ]
     ids = {"#" + (a.get("id") or "") for _, a in outline.elements}
     beside = {n + e for n in NAMES for e in (".svg", ".png", ".pdf")} | {"../index.html"}
     assert set(links) <= ids | beside
@@ -68,7 +88,10 @@ def test_nothing_comes_from_elsewhere(page):
 
 
 def test_table_2_and_table_3(page):
-    assert re.findall(r'<th scope="row" class="n">(\d+)</th><td class="n">(\d*)</td><td class="n">(\d+)</td>', page)[3:6] == [
+    assert re.findall(
+        r'<th scope="row" class="n">(\d+)</th><td class="n">(\d*)</td><td class="n">(\d+)</td>',
+        page,
+    )[3:6] == [
         ("4", "29", "29"),
         ("5", "73", "73"),
         ("6", "", "157"),
@@ -91,12 +114,23 @@ def test_fields_of_figure_10(findings):
 
 def test_a_narrow_figure_has_its_legend_in_rows(findings):
     panel = of_decisions("left", findings.picture(3, True, View.TF))
-    one, two = triangles("title", (panel, panel), 1, 24.0), triangles("title", (panel, panel), 2, 24.0)
+    one, two = (
+        triangles("title", (panel, panel), 1, 24.0),
+        triangles("title", (panel, panel), 2, 24.0),
+    )
     for scene, rows in ((one, 3), (two, 1)):
         entries = [layer for layer in scene.layers if layer.name.startswith("legend-")]
-        words = [shape for layer in entries for shape in layer.shapes if isinstance(shape, Text) and len(shape.text) > 1]
+        words = [
+            shape
+            for layer in entries
+            for shape in layer.shapes
+            if isinstance(shape, Text) and len(shape.text) > 1
+        ]
         assert len(words) == 3 and len({word.y for word in words}) == rows
-        assert all(word.x + LETTER * len(word.text) < scene.width + 10 and word.y < scene.height for word in words)
+        assert all(
+            word.x + LETTER * len(word.text) < scene.width + 10 and word.y < scene.height
+            for word in words
+        )
 
 
 def test_phones_get_drawings_of_their_own(page):
@@ -111,7 +145,9 @@ def test_the_same_findings_give_the_same_bytes(findings, folder):
     for picture in again.values():
         for ending, content in picture.files:
             assert content == (folder / (picture.name + ending)).read_bytes(), picture.name + ending
-    assert paper_page(findings, list(again.values())) == (folder / "index.html").read_text(encoding="utf-8")
+    assert paper_page(findings, list(again.values())) == (folder / "index.html").read_text(
+        encoding="utf-8"
+    )
 
 
 def test_another_computation_gives_the_same_bytes(folder):
@@ -120,7 +156,9 @@ def test_another_computation_gives_the_same_bytes(folder):
     plot = refit_figure(fresh.refit)
     panels = [of_decisions("Transfer function", fresh.picture(3, False, View.TF))]
     panels.append(of_decisions("8 Markov parameters", fresh.picture(3, False, View.MARKOV, 8)))
-    title = re.search("<title>(.*?)</title>", (folder / "figure-10.svg").read_text(encoding="utf-8"))
+    title = re.search(
+        "<title>(.*?)</title>", (folder / "figure-10.svg").read_text(encoding="utf-8")
+    )
     assert title is not None
     scene = of_scene("figure-10", "", "", triangles(title[1], panels, 2, 24.0))
     files = {"figure-12.svg": plot.svg, "figure-12.png": plot.png, "figure-12.pdf": plot.pdf}

@@ -1,4 +1,6 @@
-"""Verdicts over real and positive parameters: points with and without equivalents, renamings, and what stays open."""
+"""Verdicts over real and positive parameters: points with and without equivalents, renamings,
+and what stays open.
+"""
 
 from dataclasses import replace
 
@@ -11,15 +13,27 @@ from disting.domain import Domain
 from disting.errors import ContradictionError
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import NoEquivalent
-from disting.parametric import Model, Witnesses, alternatives, compare, confirms, is_explicit, is_without
+from disting.parametric import (
+    Model,
+    Witnesses,
+    alternatives,
+    compare,
+    confirms,
+    is_explicit,
+    is_without,
+)
 from disting.parametric.admissible import of_ways, points
 from disting.parametric.cases import Case, Search
 from disting.parametric.orthant import Orthant
 from disting.parametric.sections import sections
 from disting.parametric.ways import way
 
-IRREVERSIBLE = Model.from_state_space([["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible")
-REVERSIBLE = Model.from_state_space([["-k12-k01", "k21"], ["k12", "-k21"]], [1, 0], [0, 1], name="reversible")
+IRREVERSIBLE = Model.from_state_space(
+    [["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible"
+)
+REVERSIBLE = Model.from_state_space(
+    [["-k12-k01", "k21"], ["k12", "-k21"]], [1, 0], [0, 1], name="reversible"
+)
 SQUARE = Model.from_transfer_function("k", "s + k**2", name="square")
 SHIFTED = Model.from_transfer_function("k + 1", "s + (k + 1)**2", name="shifted")
 PAIRS = [(IRREVERSIBLE, REVERSIBLE), (REVERSIBLE, IRREVERSIBLE)]
@@ -50,7 +64,9 @@ def test_the_published_rates_are_a_witness_and_others_are_not(left, right):
     assert confirms(evidence, left, right)
     assert not confirms(replace(evidence, point_without=fast), left, right)
     assert not confirms(replace(evidence, point_with=rates), left, right)
-    assert not confirms(replace(evidence, point_with=(("k01", "-5"), ("k02", "-1"), ("k12", "-1"))), left, right)
+    assert not confirms(
+        replace(evidence, point_with=(("k01", "-5"), ("k02", "-1"), ("k12", "-1"))), left, right
+    )
 
 
 def test_renamed_oscillators_agree_for_all_parameters():
@@ -58,7 +74,9 @@ def test_renamed_oscillators_agree_for_all_parameters():
     other = Model.from_transfer_function(["a*b**2"], ["1", "2*c*b", "b**2"], name="other")
     for view in (View.REAL, View.POSITIVE):
         verdict = over(view, one, other)
-        assert verdict.relation is Relation.INDISTINGUISHABLE and isinstance(verdict.evidence, Renaming)
+        assert verdict.relation is Relation.INDISTINGUISHABLE and isinstance(
+            verdict.evidence, Renaming
+        )
 
 
 def test_distinguishable_models_stay_so():
@@ -77,7 +95,9 @@ def test_a_shift_is_a_bijection_of_the_reals_and_none_of_the_positive_numbers():
 
 
 def test_special_points_are_no_witnesses():
-    """(s + a)(s + b) against a, a + c: a = b has no equivalent, which is no open set; all other a, b have one."""
+    """(s + a)(s + b) against a, a + c: a = b has no equivalent, which is no open set; all other
+    a, b have one.
+    """
     pair = Model.from_transfer_function("1", "(s + a)*(s + b)", name="pair")
     apart = Model.from_transfer_function("1", "(s + a)*(s + a + c)", name="apart")
     verdict = over(View.POSITIVE, pair, apart)
@@ -96,10 +116,14 @@ def test_a_point_whose_equivalents_are_zero_is_no_witness():
 
 
 def test_points_where_a_curve_meets_itself_are_no_witnesses():
-    """The curve of t and the same one at t = -u: for positive parameters they meet in single points only."""
+    """The curve of t and the same one at t = -u: for positive parameters they meet in single
+    points only.
+    """
 
     def curve(t):
-        return Model.from_transfer_function([f"(({t})**2-1)*(5*({t})-18)", f"(({t})**2-1)*(({t})-2)*(({t})-3)"], [1, 1, 1])
+        return Model.from_transfer_function(
+            [f"(({t})**2-1)*(5*({t})-18)", f"(({t})**2-1)*(({t})-2)*(({t})-3)"], [1, 1, 1]
+        )
 
     one, other = curve("t"), curve("-u")
     assert over(View.EXACT, one, other).relation is Relation.INDISTINGUISHABLE
@@ -110,7 +134,10 @@ def test_points_where_a_curve_meets_itself_are_no_witnesses():
 
 
 def test_opposite_signs_never_agree():
-    one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["-b"], [1, 1])
+    one, other = (
+        Model.from_transfer_function(["a"], [1, 1]),
+        Model.from_transfer_function(["-b"], [1, 1]),
+    )
     assert over(View.EXACT, one, other).relation is Relation.INDISTINGUISHABLE
     verdict = over(View.POSITIVE, one, other)
     assert (verdict.relation, verdict.certainty) == (Relation.DISTINGUISHABLE, Certainty.PROVEN)
@@ -118,12 +145,19 @@ def test_opposite_signs_never_agree():
 
 
 def test_evidence_is_refused_where_it_is_not_true():
-    square, product = Model.from_transfer_function(["(a-1)**2"], [1, 1]), Model.from_transfer_function(["u*v"], [1, 1])
+    square, product = (
+        Model.from_transfer_function(["(a-1)**2"], [1, 1]),
+        Model.from_transfer_function(["u*v"], [1, 1]),
+    )
     evidence = over(View.POSITIVE, square, product).evidence
     assert is_explicit(evidence, square, product) and not is_explicit(evidence, product, square)
     left_given, where, values, root = evidence.formulas[0]
     wrong = replace(
-        evidence, formulas=((left_given, where, ((values[0][0], "a + 1"), *values[1:]), root), *evidence.formulas[1:])
+        evidence,
+        formulas=(
+            (left_given, where, ((values[0][0], "a + 1"), *values[1:]), root),
+            *evidence.formulas[1:],
+        ),
     )
     assert not is_explicit(wrong, square, product)
     assert not is_without(NoEquivalent("positive", True, ("q0",)), square, product)
@@ -141,13 +175,19 @@ def test_points_are_of_their_domain_and_determined():
     for domain in (Domain.REAL, Domain.POSITIVE):
         stream = points(IRREVERSIBLE, domain, "seed")
         seen = [next(stream) for _ in range(50)]
-        assert seen[0] == next(points(IRREVERSIBLE, domain, "seed")) and len({str(p) for p in seen}) > 40
+        assert (
+            seen[0] == next(points(IRREVERSIBLE, domain, "seed"))
+            and len({str(p) for p in seen}) > 40
+        )
         assert all(set(p) == set(IRREVERSIBLE.parameters) for p in seen)
         assert all(x > 0 for p in seen for x in p.values()) is (domain is Domain.POSITIVE)
 
 
 REAL_PAIRS = [
-    (Model.from_transfer_function([text], ["1", "e"]), Model.from_transfer_function(["a"], ["1", "b"]))
+    (
+        Model.from_transfer_function([text], ["1", "e"]),
+        Model.from_transfer_function(["a"], ["1", "b"]),
+    )
     for text in ("c*(d-f)", "c*(d-1)")
 ]
 REAL_PAIRS.append(
@@ -163,13 +203,21 @@ def test_real_factors_are_chosen_so_that_no_denominator_vanishes(left, right):
     """c = a/(d - f): d = f = 1 would be no choice."""
     for one, other in ((left, right), (right, left)):
         verdict = over(View.REAL, one, other)
-        assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+        assert (verdict.relation, verdict.certainty) == (
+            Relation.INDISTINGUISHABLE,
+            Certainty.PROVEN,
+        )
         assert is_explicit(verdict.evidence, one, other)
 
 
 def test_what_contradicts_itself_is_no_finding():
-    """All a have the equivalent u = a; a search that found no case is a defect, not a proof that there is none."""
-    one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["u"], [1, 1])
+    """All a have the equivalent u = a; a search that found no case is a defect, not a proof
+    that there is none.
+    """
+    one, other = (
+        Model.from_transfer_function(["a"], [1, 1]),
+        Model.from_transfer_function(["u"], [1, 1]),
+    )
     shifted = Model.from_transfer_function(["u+1"], [1, 1])
     for searched_, sometimes in ((other, False), (shifted, True)):
         there, back = way(one, searched_, Domain.POSITIVE), way(searched_, one, Domain.POSITIVE)
@@ -181,7 +229,10 @@ def test_what_contradicts_itself_is_no_finding():
 
 
 def test_formulas_of_another_model_are_no_evidence():
-    one, other = Model.from_transfer_function(["a"], [1, 1]), Model.from_transfer_function(["u"], [1, 1])
+    one, other = (
+        Model.from_transfer_function(["a"], [1, 1]),
+        Model.from_transfer_function(["u"], [1, 1]),
+    )
     there, back = way(one, other, Domain.POSITIVE), way(other, one, Domain.POSITIVE)
     double = RationalFunction(2 * there.covering[0].values[0].num, there.covering[0].values[0].den)
     wrong = replace(there, covering=(replace(there.covering[0], values=(double,)),))
@@ -191,11 +242,18 @@ def test_formulas_of_another_model_are_no_evidence():
 
 def test_points_with_a_zero_are_no_witnesses():
     """k^2 > 0 has a real root r = k; at k = 0 nothing is said of the points around."""
-    square, linear = Model.from_transfer_function(["k**2"], [1, 1]), Model.from_transfer_function(["r"], [1, 1])
+    square, linear = (
+        Model.from_transfer_function(["k**2"], [1, 1]),
+        Model.from_transfer_function(["r"], [1, 1]),
+    )
     verdict = over(View.REAL, square, linear)
     assert verdict.relation is Relation.SOMETIMES and confirms(verdict.evidence, square, linear)
     assert not confirms(
-        replace(verdict.evidence, point_with=tuple((n, "0") for n, _ in verdict.evidence.point_with)), square, linear
+        replace(
+            verdict.evidence, point_with=tuple((n, "0") for n, _ in verdict.evidence.point_with)
+        ),
+        square,
+        linear,
     )
 
 

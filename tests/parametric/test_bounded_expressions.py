@@ -1,4 +1,6 @@
-"""Expressions made to break what reads them: each is computed or refused in one short sentence, before it grows."""
+"""Expressions made to break what reads them: each is computed or refused in one short sentence,
+before it grows.
+"""
 
 import random
 import subprocess
@@ -32,7 +34,11 @@ HUGE = {
 
 @pytest.mark.parametrize("text", HUGE.values(), ids=HUGE)
 @pytest.mark.parametrize(
-    "make", [lambda e: Model.from_state_space([[e]], [1], [1]), lambda e: Model.from_transfer_function("1", ["1", e])]
+    "make",
+    [
+        lambda e: Model.from_state_space([[e]], [1], [1]),
+        lambda e: Model.from_transfer_function("1", ["1", e]),
+    ],
 )
 def test_what_would_grow_is_refused_in_a_short_sentence(make, text):
     with pytest.raises(InputError) as refusal:
@@ -59,19 +65,28 @@ def test_what_would_grow_is_refused_in_a_short_sentence(make, text):
     ],
 )
 def test_what_is_long_but_not_large_is_computed(text, same):
-    assert Model.from_transfer_function("z", ["1", text]) == Model.from_transfer_function("z", ["1", same])
+    assert Model.from_transfer_function("z", ["1", text]) == Model.from_transfer_function(
+        "z", ["1", same]
+    )
 
 
-CRASHED = "from disting import Model; Model.from_transfer_function('k', ['1', '(((2**1000)**1000)**1000)**1000'])"
+CRASHED = (
+    "from disting import Model; Model.from_transfer_function('k', ['1',"
+    " '(((2**1000)**1000)**1000)**1000'])"
+)
 
 
 def test_no_expression_ends_the_interpreter():
-    done = subprocess.run([sys.executable, "-c", CRASHED], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", CRASHED], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 1 and "InputError: the expressions grow too large" in done.stderr
 
 
 def drawn(source, depth):
-    """A random expression with its value at a = 2, b = 3 as Python computes it in fractions, None where it divides by zero."""
+    """A random expression with its value at a = 2, b = 3 as Python computes it in fractions,
+    None where it divides by zero.
+    """
     kind = source.choice("nnab" if depth == 0 else "+-*/p_")
     if kind == "n":
         n = source.randint(1, 99)
@@ -108,7 +123,10 @@ def test_random_expressions_have_the_value_that_python_computes():
 def ratio_at(model, point):
     """a_0/a_1 of the denominator, computed from its terms."""
     constant, leading = (
-        sum(n * prod((Fraction(point[p]) ** e for p, e in zip(model.parameters, powers, strict=True))) for powers, n in terms)
+        sum(
+            n * prod(Fraction(point[p]) ** e for p, e in zip(model.parameters, powers, strict=True))
+            for powers, n in terms
+        )
         for terms in model.denominator_terms
     )
     return constant / leading

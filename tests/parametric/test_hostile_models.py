@@ -1,4 +1,6 @@
-"""Models made to mislead: constants that agree modulo the first public prime, nothing left to vary, signs that never meet."""
+"""Models made to mislead: constants that agree modulo the first public prime, nothing left to
+vary, signs that never meet.
+"""
 
 import pytest
 
@@ -11,7 +13,9 @@ FIRST = prime("disting:0")
 
 @pytest.mark.parametrize("view", [View.EXACT, View.MARKOV, View.TF])
 def test_a_constant_markov_parameter_is_compared_exactly(view):
-    """(a s + a b + c)/(s + b) has G0 = a, G1 = c, G2 = -b c: 7 is not 7 + p, whatever they are modulo p."""
+    """(a s + a b + c)/(s + b) has G0 = a, G1 = c, G2 = -b c: 7 is not 7 + p, whatever they are
+    modulo p.
+    """
     one, other = (MODEL(["a", f"a*b + {c}"], ["1", "b"]) for c in (7, 7 + FIRST))
     assert compare(one, other, query=Query(view)).relation is not Relation.INDISTINGUISHABLE
     if view is View.EXACT:
@@ -19,7 +23,10 @@ def test_a_constant_markov_parameter_is_compared_exactly(view):
 
 
 @pytest.mark.parametrize("view", [View.EXACT, View.REAL, View.POSITIVE])
-@pytest.mark.parametrize(("one", "other"), [(2, 5), (2, -2), (10**30, 10**30 + 1), (7, 7 + FIRST), ("1/3", "333333/1000000")])
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [(2, 5), (2, -2), (10**30, 10**30 + 1), (7, 7 + FIRST), ("1/3", "333333/1000000")],
+)
 def test_unequal_constants_of_rank_0_are_told_apart(one, other, view):
     left, right = (MODEL([f"({c})*{p}"], [p, f"3*{p}"]) for c, p in ((one, "a"), (other, "b")))
     for pair in ((left, right), (right, left)):

@@ -1,4 +1,6 @@
-"""Models from matrices, lists and expressions: literal transfer functions, SymPy as oracle, refusals."""
+"""Models from matrices, lists and expressions: literal transfer functions, SymPy as oracle,
+refusals.
+"""
 
 import pickle
 from fractions import Fraction
@@ -46,19 +48,30 @@ def test_matrices_may_be_written_in_many_ways(b, c, d):
     assert Model.from_state_space(a.tolist(), b, c, d) == expected
 
 
-entry = st.sampled_from(["0", "0", "1", "-2", *NAMES, "-a", "a+b", "b/c", "1/(a-2)", "3*a*c/4", "d**2", "(a+1)/(b+1)"])
+entry = st.sampled_from(
+    ["0", "0", "1", "-2", *NAMES, "-a", "a+b", "b/c", "1/(a-2)", "3*a*c/4", "d**2", "(a+1)/(b+1)"]
+)
 
 
 @given(st.data(), st.integers(1, 3))
 @settings(max_examples=25, deadline=None)
 def test_state_space_against_sympy_at_rational_points(data, n):
     shapes = ((n, n), (n, 1), (1, n), (1, 1))
-    texts = [[[data.draw(entry) for _ in range(columns)] for _ in range(rows)] for rows, columns in shapes]
-    point = {name: sp.Rational(data.draw(st.integers(15, 99)), 7) for name in NAMES} | {"s": sp.Rational(1001, 13)}
-    numbers = [sp.Matrix(rows).applyfunc(lambda text: sp.sympify(text).subs(point)) for rows in texts]
+    texts = [
+        [[data.draw(entry) for _ in range(columns)] for _ in range(rows)]
+        for rows, columns in shapes
+    ]
+    point = {name: sp.Rational(data.draw(st.integers(15, 99)), 7) for name in NAMES} | {
+        "s": sp.Rational(1001, 13)
+    }
+    numbers = [
+        sp.Matrix(rows).applyfunc(lambda text: sp.sympify(text).subs(point)) for rows in texts
+    ]
     a, b, c, d = numbers
     expected = (c * (point["s"] * sp.eye(n) - a).LUsolve(b) + d)[0]
-    if expected == 0 or not any(name in text for rows in texts for row in rows for text in row for name in NAMES):
+    if expected == 0 or not any(
+        name in text for rows in texts for row in rows for text in row for name in NAMES
+    ):
         with pytest.raises(InputError):
             Model.from_state_space(*texts)
         return
@@ -67,7 +80,9 @@ def test_state_space_against_sympy_at_rational_points(data, n):
 
 
 def test_lists_fall_as_in_scipy():
-    assert Model.from_transfer_function([1, "b"], ["m", "d", "k"]) == Model.from_transfer_function("s + b", "m*s**2 + d*s + k")
+    assert Model.from_transfer_function([1, "b"], ["m", "d", "k"]) == Model.from_transfer_function(
+        "s + b", "m*s**2 + d*s + k"
+    )
 
 
 def test_expressions_and_texts_and_polynomials_agree():
@@ -80,10 +95,16 @@ def test_expressions_and_texts_and_polynomials_agree():
 
 def test_one_expression_is_a_whole_transfer_function():
     s, k, m = sp.Symbol("s"), *sp.symbols("k m", positive=True)
-    assert Model.from_transfer_function(k / (m * s**2 + k) - 1) == Model.from_transfer_function("-m*s**2", "m*s**2 + k")
-    assert Model.from_transfer_function("k/(m*s**2 + k)") == Model.from_transfer_function(k, m * s**2 + k)
+    assert Model.from_transfer_function(k / (m * s**2 + k) - 1) == Model.from_transfer_function(
+        "-m*s**2", "m*s**2 + k"
+    )
+    assert Model.from_transfer_function("k/(m*s**2 + k)") == Model.from_transfer_function(
+        k, m * s**2 + k
+    )
     matrix = sp.ImmutableMatrix([[0, 1], [-k / m, 0]])
-    space = Model.from_state_space(matrix, sp.SparseMatrix([0, 1 / m]), sp.ImmutableMatrix([[k, 0]]), sp.Integer(0), s=s)
+    space = Model.from_state_space(
+        matrix, sp.SparseMatrix([0, 1 / m]), sp.ImmutableMatrix([[k, 0]]), sp.Integer(0), s=s
+    )
     assert space == Model.from_transfer_function(k / (m * s**2 + k))
     with pytest.raises(InputError, match="no rational expression"):
         Model.from_transfer_function(sp.exp(-s) / (s + k))
@@ -103,7 +124,8 @@ def test_symbols_that_only_look_alike_are_refused():
     assert Model.from_transfer_function(other, ["1", other], s=s).parameters == ("k",)
     for _ in range(3000):
         k = sp.Add(sp.Mul(k, s, evaluate=False), 1, evaluate=False)
-    with pytest.raises(InputError, match="nested too deeply"):  # before its symbols are looked for, by recursion
+    # before its symbols are looked for, by recursion
+    with pytest.raises(InputError, match="nested too deeply"):
         Model.from_transfer_function(1, k)
 
 
@@ -153,17 +175,26 @@ def test_whole_floats_and_decimal_texts_are_exact():
 
 
 def test_models_are_values():
-    one, other = (Model.from_transfer_function("k", "s + k", name=name) for name in ("one", "other"))
+    one, other = (
+        Model.from_transfer_function("k", "s + k", name=name) for name in ("one", "other")
+    )
     assert one == other and hash(one) == hash(other) and len({one, other}) == 1
     assert pickle.loads(pickle.dumps(one)) == one
     assert one != Model.from_transfer_function("q", "s + q")
-    assert [str(p) for p in one.denominator] == ["k", "1"] and [str(p) for p in one.numerator] == ["k"]
+    assert [str(p) for p in one.denominator] == ["k", "1"] and [str(p) for p in one.numerator] == [
+        "k"
+    ]
     with pytest.raises(AttributeError):
         one.name = "third"
 
 
 @pytest.mark.parametrize(
-    "chain", [*Family(2, damped=True), Chain(2, ground_dampers=(1, 2), lag=True), Chain(3, sensor="position")]
+    "chain",
+    [
+        *Family(2, damped=True),
+        Chain(2, ground_dampers=(1, 2), lag=True),
+        Chain(3, sensor="position"),
+    ],
 )
 def test_chains_become_models(chain):
     model = Model.from_chain(chain)
@@ -219,7 +250,9 @@ BAD_FUNCTIONS = {
 }
 
 
-@pytest.mark.parametrize(("message", "function"), BAD_FUNCTIONS.items(), ids=range(len(BAD_FUNCTIONS)))
+@pytest.mark.parametrize(
+    ("message", "function"), BAD_FUNCTIONS.items(), ids=range(len(BAD_FUNCTIONS))
+)
 def test_bad_transfer_functions(message, function):
     with pytest.raises(InputError, match=message):
         Model.from_transfer_function(*function)

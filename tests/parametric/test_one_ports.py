@@ -1,4 +1,6 @@
-"""One-ports of two kinds of elements against Foster and Cauer, by circuits written in plain SymPy."""
+"""One-ports of two kinds of elements against Foster and Cauer, by circuits written in plain
+SymPy.
+"""
 
 from itertools import combinations
 
@@ -26,7 +28,9 @@ def r(name):
 
 
 def model(impedance, name):
-    return Model.from_transfer_function(*map(sp.expand, sp.fraction(sp.together(impedance))), name=name)
+    return Model.from_transfer_function(
+        *map(sp.expand, sp.fraction(sp.together(impedance))), name=name
+    )
 
 
 def ladder(n):
@@ -86,7 +90,8 @@ def test_one_element_too_few_or_a_sign_is_no_one_port_of_this_kind():
     assert not fills(Model.from_transfer_function("a*b", "(s + a)*(s + b)"))
     assert not fills(Model.from_transfer_function("1", "s**2 + a*s + b"))
     assert not fills(Model.from_transfer_function("s + z", "s**2 + a*s + b"))
-    with_bound = model(r("R0") + r("R1") + parallel(r("R1"), c("C1")), "bound")  # R at s = oo is more than R1
+    # R at s = oo is more than R1
+    with_bound = model(r("R0") + r("R1") + parallel(r("R1"), c("C1")), "bound")
     assert not fills(with_bound)
 
 
@@ -102,8 +107,16 @@ def test_a_bound_makes_it_sometimes():
 def test_interlacing_in_numbers(seed):
     """Poles and zeros of the ladder at random values interlace, as the theorem has it."""
     z = ladder(3).subs(
-        {f"{kind}{i}": sp.Rational(1 + (7 * i + 3 * seed) % 5, 1 + (i + seed) % 3) for kind in "RC" for i in (1, 2, 3)}
+        {
+            f"{kind}{i}": sp.Rational(1 + (7 * i + 3 * seed) % 5, 1 + (i + seed) % 3)
+            for kind in "RC"
+            for i in (1, 2, 3)
+        }
     )
     num, den = sp.fraction(sp.together(z))
-    zeros, poles = (sorted(map(float, sp.Poly(side, sp.Symbol("s")).nroots())) for side in (num, den))
-    assert all(a < b < c for a, b, c in zip(poles, zeros, poles[1:], strict=False)) and poles[-1] < 0
+    zeros, poles = (
+        sorted(map(float, sp.Poly(side, sp.Symbol("s")).nroots())) for side in (num, den)
+    )
+    assert (
+        all(a < b < c for a, b, c in zip(poles, zeros, poles[1:], strict=False)) and poles[-1] < 0
+    )

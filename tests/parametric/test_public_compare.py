@@ -7,12 +7,18 @@ RIGID = Model.from_transfer_function(["1"], ["m"], name="one mass")  # accelerat
 
 def test_a_model_and_the_chain_it_describes_are_indistinguishable():
     found = compare(RIGID, Chain(1))
-    assert (found.relation, found.left, found.right) == (Relation.INDISTINGUISHABLE, "one mass", "1:1")
+    assert (found.relation, found.left, found.right) == (
+        Relation.INDISTINGUISHABLE,
+        "one mass",
+        "1:1",
+    )
 
 
 def test_a_chain_comes_first_or_second():
     family = Family(2, damped=True)
-    spring = Model.from_transfer_function(["d", "k"], ["m1*m2", "d*(m1+m2)", "k*(m1+m2)"], name="two masses")
+    spring = Model.from_transfer_function(
+        ["d", "k"], ["m1*m2", "d*(m1+m2)", "k*(m1+m2)"], name="two masses"
+    )
     for number in range(1, len(family) + 1):
         there, back = compare(spring, family[number]), compare(family[number], spring)
         assert there.relation is back.relation is not Relation.UNDECIDED
@@ -20,5 +26,7 @@ def test_a_chain_comes_first_or_second():
 
 
 def test_findings_of_models():
-    names = [step.finding.rule.name for step in findings(RIGID, Chain(1)) if step.representation == "tf"]
+    names = [
+        step.finding.rule.name for step in findings(RIGID, Chain(1)) if step.representation == "tf"
+    ]
     assert names == list("1234567")

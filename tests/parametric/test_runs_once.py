@@ -1,4 +1,6 @@
-"""A library call never runs the caller's script again, whether or not the script guards its body with `__main__`."""
+"""A library call never runs the caller's script again, whether or not the script guards its
+body with `__main__`.
+"""
 
 import os
 import subprocess
@@ -49,5 +51,12 @@ def test_the_body_of_a_script_without_a_guard_runs_once(tmp_path, body):
     runs, script = tmp_path / "runs", tmp_path / "script.py"
     script.write_text(f"open({str(runs)!r}, 'a').write('x')\n{body}", encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=600, check=False, env=environment)
+    done = subprocess.run(
+        [sys.executable, script],
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+        env=environment,
+    )
     assert (done.returncode, done.stderr) == (0, "") and runs.read_text() == "x"

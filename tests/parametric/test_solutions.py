@@ -1,4 +1,6 @@
-"""How many parameter vectors fit and what is determined, against SymPy's Gröbner bases at a random point."""
+"""How many parameter vectors fit and what is determined, against SymPy's Gröbner bases at a
+random point.
+"""
 
 import pytest
 import sympy as sp
@@ -19,9 +21,13 @@ MODELS = [
 
 
 def vectors(model):
-    """Number of solutions at a point, as the dimension of the algebra of a radical ideal (no double solutions there)."""
+    """Number of solutions at a point, as the dimension of the algebra of a radical ideal (no
+    double solutions there).
+    """
     symbols = sp.symbols(model.parameters)
-    values = dict(zip(symbols, (sp.Rational(7, 3), sp.Rational(5, 2), sp.Rational(11, 13)), strict=False))
+    values = dict(
+        zip(symbols, (sp.Rational(7, 3), sp.Rational(5, 2), sp.Rational(11, 13)), strict=False)
+    )
     sides = [sp.sympify(str(c).replace("^", "**")) for c in (*model.numerator, *model.denominator)]
     lead = sides[-1]
     equations = [sp.expand(c * lead.subs(values) - c.subs(values) * lead) for c in sides[:-1]]
@@ -35,7 +41,9 @@ def test_numbers_against_sympy(model, count, unique):
     assert (found.count, found.unique, found.is_infinite) == (count, unique, False)
     solutions, values, symbols = vectors(model)
     assert len(solutions) == count
-    same = [x.name for x in symbols if all(sp.simplify(sol[x] - values[x]) == 0 for sol in solutions)]
+    same = [
+        x.name for x in symbols if all(sp.simplify(sol[x] - values[x]) == 0 for sol in solutions)
+    ]
     assert tuple(same) == unique
 
 
@@ -51,7 +59,11 @@ def test_combinations_are_determined_and_independent():
 
 def test_a_product_is_determined_and_its_factors_are_not():
     found = global_identifiability(TF("a*b", "s + c"))
-    assert (found.unique, found.combinations, found.local.identifiable) == (("c",), ("c", "a*b"), ("c",))
+    assert (found.unique, found.combinations, found.local.identifiable) == (
+        ("c",),
+        ("c", "a*b"),
+        ("c",),
+    )
 
 
 def test_what_is_not_known_is_said():

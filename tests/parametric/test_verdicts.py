@@ -1,4 +1,6 @@
-"""General models compared: compartments, renamings, and chains turned into state spaces by plain SymPy."""
+"""General models compared: compartments, renamings, and chains turned into state spaces by
+plain SymPy.
+"""
 
 from itertools import combinations
 
@@ -16,8 +18,12 @@ from disting.settings import Settings
 
 COMPLEX = Query(View.EXACT)  # the paper's domain
 SAME, DIFFERENT = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
-IRREVERSIBLE = Model.from_state_space([["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible")
-REVERSIBLE = Model.from_state_space([["-k12-k01", "k21"], ["k12", "-k21"]], [1, 0], [0, 1], name="reversible")
+IRREVERSIBLE = Model.from_state_space(
+    [["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible"
+)
+REVERSIBLE = Model.from_state_space(
+    [["-k12-k01", "k21"], ["k12", "-k21"]], [1, 0], [0, 1], name="reversible"
+)
 
 
 def state_space(chain):
@@ -31,7 +37,10 @@ def state_space(chain):
                 vector[node - 1] = sign
         parts[e.kind] += symbol[e.parameter] * vector * vector.T
     force, sensor = sp.zeros(n, 1), sp.zeros(1, n)
-    for vector, plus, minus in ((force, chain.act_plus, chain.act_minus), (sensor, chain.meas_plus, chain.meas_minus)):
+    for vector, plus, minus in (
+        (force, chain.act_plus, chain.act_minus),
+        (sensor, chain.meas_plus, chain.meas_minus),
+    ):
         for node, sign in ((plus, 1), (minus, -1)):
             if node:
                 vector[node - 1] += sign
@@ -47,7 +56,9 @@ def test_chains_as_state_spaces_give_the_verdicts_of_chains(damped):
     models = [Model.from_state_space(*state_space(chain)) for chain in family]
     assert models == [Model.from_chain(chain) for chain in family]
     for i, j in combinations(range(len(models)), 2):
-        assert compare(models[i], models[j], query=COMPLEX).relation is _of_chains(family[i + 1], family[j + 1])
+        assert compare(models[i], models[j], query=COMPLEX).relation is _of_chains(
+            family[i + 1], family[j + 1]
+        )
 
 
 def _of_chains(left, right):
@@ -56,7 +67,11 @@ def _of_chains(left, right):
 
 def test_two_compartments_are_complex_indistinguishable_by_condition_7():
     verdict = compare(IRREVERSIBLE, REVERSIBLE, query=COMPLEX, audit=True)
-    assert (verdict.relation, verdict.decided_by, verdict.certainty) == (SAME, "7", Certainty.PROVEN)
+    assert (verdict.relation, verdict.decided_by, verdict.certainty) == (
+        SAME,
+        "7",
+        Certainty.PROVEN,
+    )
 
 
 @pytest.mark.parametrize("view", [View.REAL, View.POSITIVE])
@@ -71,7 +86,9 @@ def test_over_positive_parameters_where_nothing_is_said():
 
 
 def test_leak_in_the_other_compartment_changes_the_zero():
-    """Input and output 1: (s + k12) against (s + k12 + k02) over two different quadratics; a closed system has a pole at 0."""
+    """Input and output 1: (s + k12) against (s + k12 + k02) over two different quadratics; a
+    closed system has a pole at 0.
+    """
     closed = Model.from_state_space([["-k21", "k12"], ["k21", "-k12"]], [1, 0], [1, 0])
     leaks = [
         Model.from_state_space([[f"-k21-{one}", "k12"], ["k21", f"-k12-{two}"]], [1, 0], [1, 0])
@@ -107,7 +124,9 @@ def test_different_constants_are_found_by_the_exact_decision():
 
 
 def test_a_curve_that_is_not_the_other_curve():
-    """b = k, a = k^2 against b = k, a = k^3: both of rank 1 in two invariants, so conditions 1 to 7 are silent."""
+    """b = k, a = k^2 against b = k, a = k^3: both of rank 1 in two invariants, so conditions 1
+    to 7 are silent.
+    """
     square, cube = (Model.from_transfer_function("k", f"s + k**{power}") for power in (2, 3))
     assert compare(square, cube).relation is DIFFERENT
     again = Model.from_transfer_function("k + 1", "s + (k + 1)**2")
@@ -116,7 +135,11 @@ def test_a_curve_that_is_not_the_other_curve():
 
 def test_constants_are_proven_exactly():
     model = Model.from_transfer_function("m*s**2 + k", "2*m*s**2 + 6*k")
-    assert proven_constants(model, Representation.TF, 0) == {"b1": 0, "b2": sp.Rational(1, 2), "a1": 0}
+    assert proven_constants(model, Representation.TF, 0) == {
+        "b1": 0,
+        "b2": sp.Rational(1, 2),
+        "a1": 0,
+    }
     markov = proven_constants(model, Representation.MARKOV, 5)
     assert markov == {"G0": sp.Rational(1, 2), "G1": 0, "G3": 0, "G5": 0}
     seen = profile(model, Representation.MARKOV, 5, Settings())
@@ -129,26 +152,46 @@ def test_findings_come_in_order():
 
 
 def test_names_are_told_apart():
-    assert "model 1 and model 2" in compare(*(Model.from_transfer_function("k", f"s + k**{n}") for n in (2, 3))).sentence
+    assert (
+        "model 1 and model 2"
+        in compare(*(Model.from_transfer_function("k", f"s + k**{n}") for n in (2, 3))).sentence
+    )
 
 
 def test_local_identifiability():
     found = local_identifiability(Model.from_transfer_function(["c*a"], ["1", "c"]))
     assert (found.rank, found.identifiable, found.certainty) == (2, ("a", "c"), Certainty.PROVEN)
-    found = local_identifiability(Model.from_state_space([["-a-b", 0], ["b", "-c"]], ["u", 0], [0, 1]))
+    found = local_identifiability(
+        Model.from_state_space([["-a-b", 0], ["b", "-c"]], ["u", 0], [0, 1])
+    )
     assert (found.rank, found.identifiable, found.unidentifiable) == (3, ("c",), ("a", "b", "u"))
     assert found.certainty is Certainty.BOUNDED and found.safety > 100
 
 
 def test_constant_transfer_functions_are_compared_exactly():
-    one, same, other = (Model.from_transfer_function(f"{n}*k", f"{d}*k") for n, d in ((2, 1), (4, 2), (3, 1)))
+    one, same, other = (
+        Model.from_transfer_function(f"{n}*k", f"{d}*k") for n, d in ((2, 1), (4, 2), (3, 1))
+    )
     assert compare(one, same, query=COMPLEX).relation is SAME
     verdict = compare(one, other, query=COMPLEX)
-    assert (verdict.relation, verdict.certainty, verdict.decided_by) == (DIFFERENT, Certainty.PROVEN, "exact")
-    one, other = Model.from_transfer_function(["2*a"], ["a", "3*a"]), Model.from_transfer_function(["5*b"], ["b", "3*b"])
-    assert "b0 is 2 in model 1 and 5 in model 2" in compare(one, other, query=COMPLEX, audit=True).sentence
+    assert (verdict.relation, verdict.certainty, verdict.decided_by) == (
+        DIFFERENT,
+        Certainty.PROVEN,
+        "exact",
+    )
+    one, other = (
+        Model.from_transfer_function(["2*a"], ["a", "3*a"]),
+        Model.from_transfer_function(["5*b"], ["b", "3*b"]),
+    )
+    assert (
+        "b0 is 2 in model 1 and 5 in model 2"
+        in compare(one, other, query=COMPLEX, audit=True).sentence
+    )
 
 
 def test_any_name_may_be_a_parameter():
-    one, other = Model.from_transfer_function("scale", "s + scale**2"), Model.from_transfer_function("p1**3", "s + p1")
+    one, other = (
+        Model.from_transfer_function("scale", "s + scale**2"),
+        Model.from_transfer_function("p1**3", "s + p1"),
+    )
     assert compare(one, other, audit=True).relation is DIFFERENT

@@ -1,4 +1,6 @@
-"""Equivalents over positive parameters by formulas, against plain SymPy, Gröbner bases and hand calculation."""
+"""Equivalents over positive parameters by formulas, against plain SymPy, Gröbner bases and hand
+calculation.
+"""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -37,13 +39,17 @@ def positive(left, right):
 
 
 def compartments(edges, out):
-    """Rates k_ij from i to j, 0 the environment; input in 1; what one measures is the amount in `out`."""
+    """Rates k_ij from i to j, 0 the environment; input in 1; what one measures is the amount in
+    `out`.
+    """
     a = [["0"] * 3 for _ in range(3)]
     for i, j in edges:
         a[i - 1][i - 1] += f"-k{i}{j}"
         if j:
             a[j - 1][i - 1] += f"+k{i}{j}"
-    return Model.from_state_space(a, [1, 0, 0], [int(k == out) for k in (1, 2, 3)], name=f"{edges} {out}")
+    return Model.from_state_space(
+        a, [1, 0, 0], [int(k == out) for k in (1, 2, 3)], name=f"{edges} {out}"
+    )
 
 
 def is_reached(edges):
@@ -52,7 +58,9 @@ def is_reached(edges):
 
 
 def structures():
-    """One of each class that renumbering the compartments 2 and 3 makes, all three fed from the first."""
+    """One of each class that renumbering the compartments 2 and 3 makes, all three fed from the
+    first.
+    """
     seen, found = set(), []
     for count in (3, 4):
         for edges in combinations(EDGES, count):
@@ -69,7 +77,11 @@ def structures():
 
 
 PAIRS = [
-    (tf("k12", "(s + k12 + k01)*(s + k02)"), tf("k12", "s**2 + (k12 + k01 + k21)*s + k01*k21"), Relation.SOMETIMES),
+    (
+        tf("k12", "(s + k12 + k01)*(s + k02)"),
+        tf("k12", "s**2 + (k12 + k01 + k21)*s + k01*k21"),
+        Relation.SOMETIMES,
+    ),
     (tf("1", "(s + a)*(s + b)"), tf("1", "(s + a)*(s + a + c)"), Relation.INDISTINGUISHABLE),
     (tf("a + b", "s + c"), tf("a", "s + c"), Relation.INDISTINGUISHABLE),
     (tf("a + 1", "s + c"), tf("a", "s + c"), Relation.SOMETIMES),
@@ -114,22 +126,35 @@ def test_formulas_put_in_by_sympy():
 
 
 def test_a_root_between_two_formulas():
-    """k = x + y, w = x y + x z: a quadratic whose positive root lies between formulas for all positive parameters."""
+    """k = x + y, w = x y + x z: a quadratic whose positive root lies between formulas for all
+    positive parameters.
+    """
     ladder, poles = PAIRS[5][:2]
     verdict = positive(ladder, poles)
-    assert verdict.relation is Relation.INDISTINGUISHABLE and is_explicit(verdict.evidence, ladder, poles)
+    assert verdict.relation is Relation.INDISTINGUISHABLE and is_explicit(
+        verdict.evidence, ladder, poles
+    )
     root = next(f[3] for f in verdict.evidence.formulas if f[3])
     name, equation, low, high = root
     for numbers in ((1, 2, 3), (5, Fraction(1, 7), 2)):
         at = dict(zip(("a", "b", "c"), numbers, strict=True))
         ends = [sp.oo if e == "infinity" else sp.sympify(e).subs(at) for e in (low, high)]
-        between = [z for z in sp.Poly(sp.sympify(equation).subs(at), sp.Symbol(name)).real_roots() if min(ends) < z < max(ends)]
+        between = [
+            z
+            for z in sp.Poly(sp.sympify(equation).subs(at), sp.Symbol(name)).real_roots()
+            if min(ends) < z < max(ends)
+        ]
         assert between
 
 
 def test_some_undamped_chains_against_inverse_synthesis():
     family = Family(3)
-    assert decided_as_by_synthesis((family[i], family[j]) for i, j in ((1, 8), (1, 11), (2, 5), (8, 11), (9, 10), (1, 3))) == 5
+    assert (
+        decided_as_by_synthesis(
+            (family[i], family[j]) for i, j in ((1, 8), (1, 11), (2, 5), (8, 11), (9, 10), (1, 3))
+        )
+        == 5
+    )
 
 
 @pytest.mark.slow
@@ -138,7 +163,9 @@ def test_undamped_chains_against_inverse_synthesis():
 
 
 def decided_as_by_synthesis(pairs):
-    """Where both engines decide whether positive elements have positive equivalents, they say the same; how often they do."""
+    """Where both engines decide whether positive elements have positive equivalents, they say
+    the same; how often they do.
+    """
     decided = 0
     for left, right in pairs:
         models = Model.from_chain(left), Model.from_chain(right)
@@ -152,12 +179,15 @@ def decided_as_by_synthesis(pairs):
 
 @pytest.mark.slow
 def test_three_compartments():
-    """All pairs of 3-compartment models with 3 or 4 rates that agree over complex parameters; points against Gröbner bases."""
+    """All pairs of 3-compartment models with 3 or 4 rates that agree over complex parameters;
+    points against Gröbner bases.
+    """
     models, counts, looked = structures(), {}, 0
     for left, right in combinations(models, 2):
         if (
             left.degrees != right.degrees
-            or compare(left, right, query=Query(View.EXACT)).relation is not Relation.INDISTINGUISHABLE
+            or compare(left, right, query=Query(View.EXACT)).relation
+            is not Relation.INDISTINGUISHABLE
         ):
             continue
         relation = positive(left, right).relation
@@ -174,23 +204,43 @@ def test_three_compartments():
 
 
 SHARED_FACTORS = [
-    (tf(["e"], ["1", "f", "g"]), tf(["b/(a1*a2)"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
-    (tf(["e", "h"], ["1", "f", "g"]), tf(["b/(a1*a2)", "h"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
-    (tf(["e", "h"], ["1", "f", "g"]), tf(["b*a1*a2", "h"], ["1", "a1+c", "a2+c"]), Relation.INDISTINGUISHABLE),
-    (tf(["e", "h"], ["1", "f", "g"]), tf(["b/(k1*k2)", "h"], ["1", "k1+u", "k2+u"]), Relation.INDISTINGUISHABLE),
+    (
+        tf(["e"], ["1", "f", "g"]),
+        tf(["b/(a1*a2)"], ["1", "a1+c", "a2+c"]),
+        Relation.INDISTINGUISHABLE,
+    ),
+    (
+        tf(["e", "h"], ["1", "f", "g"]),
+        tf(["b/(a1*a2)", "h"], ["1", "a1+c", "a2+c"]),
+        Relation.INDISTINGUISHABLE,
+    ),
+    (
+        tf(["e", "h"], ["1", "f", "g"]),
+        tf(["b*a1*a2", "h"], ["1", "a1+c", "a2+c"]),
+        Relation.INDISTINGUISHABLE,
+    ),
+    (
+        tf(["e", "h"], ["1", "f", "g"]),
+        tf(["b/(k1*k2)", "h"], ["1", "k1+u", "k2+u"]),
+        Relation.INDISTINGUISHABLE,
+    ),
 ]
 
 
 @pytest.mark.parametrize(("left", "right", "relation"), SHARED_FACTORS)
 def test_a_factor_of_two_inequalities_is_one_bound(left, right, relation):
-    """Any e, f, g, h: c smaller than f and g, then a1 = f - c, a2 = g - c, and b is what e wants, whatever the names are."""
+    """Any e, f, g, h: c smaller than f and g, then a1 = f - c, a2 = g - c, and b is what e
+    wants, whatever the names are.
+    """
     verdict = positive(left, right)
     assert verdict.relation is relation and is_explicit(verdict.evidence, left, right)
     assert positive(right, left).relation is relation
 
 
 def test_sections_of_two_products_with_a_common_factor():
-    """(x - p0)(x - p1) > 0 and (x - p0)(x - p2) > 0: x > p0 where p0 is the largest, x > p1 where p1 is, and so on."""
+    """(x - p0)(x - p1) > 0 and (x - p0)(x - p2) > 0: x > p0 where p0 is the largest, x > p1
+    where p1 is, and so on.
+    """
     ring = Orthant(3, 1, Domain.POSITIVE)
     p, x = ring.generators[:3], ring.generators[3]
     case = Case((), ((x - p[0]) * (x - p[1]), (x - p[0]) * (x - p[2])))
@@ -201,20 +251,28 @@ def test_sections_of_two_products_with_a_common_factor():
         here = [s for s in found if all(value_at(g, at) > 0 for g in s.where)]
         values = [value_at(s.values[0].num, at) / value_at(s.values[0].den, at) for s in here]
         assert any(v > max(numbers) for v in values)
-        assert all(v > 0 and all(value_at(g, at | {3: v}) > 0 for g in case.positive) for v in values)
+        assert all(
+            v > 0 and all(value_at(g, at | {3: v}) > 0 for g in case.positive) for v in values
+        )
 
 
 def test_a_root_at_which_a_denominator_vanishes_is_none():
-    """a = c (d^2 - 2)^2 and d^3 = b - g - a^2 < b - g: no equivalent where b <= g, least of all d^2 = 2 with c = a/0."""
+    """a = c (d^2 - 2)^2 and d^3 = b - g - a^2 < b - g: no equivalent where b <= g, least of all
+    d^2 = 2 with c = a/0.
+    """
     left, right = tf(["a"], ["1", "b-g"]), tf(["c*(d**2-2)**2"], ["1", "c**2*(d**2-2)**2+d**3"])
     for one, other in ((left, right), (right, left)):
         verdict = positive(one, other)
         assert (verdict.relation, verdict.certainty) == (Relation.SOMETIMES, Certainty.PROVEN)
-        assert verdict.evidence.without_left_given is (one is left) and confirms(verdict.evidence, one, other)
+        assert verdict.evidence.without_left_given is (one is left) and confirms(
+            verdict.evidence, one, other
+        )
 
 
 def test_a_common_root_is_no_path():
-    """x between 0 and oo is a root of x^2 - 2 p, but where x^2 - 2 p must not be zero there is none."""
+    """x between 0 and oo is a root of x^2 - 2 p, but where x^2 - 2 p must not be zero there is
+    none.
+    """
     ring = Orthant(1, 2, Domain.POSITIVE)
     p, x = ring.generators[:2]
     equation = x**2 - 2 * p
@@ -226,29 +284,43 @@ def test_a_common_root_is_no_path():
 
 
 def test_formulas_that_divide_by_zero_are_refused():
-    """c = a/(x^4 - 4x^2 + 4) with x^2 = 2: the polynomials agree where the equation holds, but c does not exist."""
+    """c = a/(x^4 - 4x^2 + 4) with x^2 = 2: the polynomials agree where the equation holds, but
+    c does not exist.
+    """
     left, right = tf(["a"], ["1", "b"]), tf(["c*(d**2-2)**2"], ["1", "b"])
     root = ("x", "x**2 - 2", "0", "infinity")
     values = (("c", "a/(x**4 - 4*x**2 + 4)"), ("d", "x"), ("b", "b"))
     names = dict(values)
     formula = (True, (), tuple((n, names[n]) for n in right.parameters), root)
     assert not fit(Explicit("positive", (formula,)), left, right)
-    there = (True, (), tuple((n, {"c": "a/4", "d": "2", "b": "b"}[n]) for n in right.parameters), ())
+    there = (
+        True,
+        (),
+        tuple((n, {"c": "a/4", "d": "2", "b": "b"}[n]) for n in right.parameters),
+        (),
+    )
     assert fit(Explicit("positive", (there,)), left, right)
 
 
 def test_a_linear_case_presupposes_its_denominator():
-    """c (d - f)^2 = a: c = a/(d - f)^2 has no value where d = f, and d, f are to be chosen so that it has one."""
+    """c (d - f)^2 = a: c = a/(d - f)^2 has no value where d = f, and d, f are to be chosen so
+    that it has one.
+    """
     for text in ("c*(d-f)**2", "c*(d-1)**2"):
         left, right = tf([text], ["1", "e"]), tf(["a"], ["1", "b"])
         for one, other in ((left, right), (right, left)):
             verdict = positive(one, other)
-            assert (verdict.relation, verdict.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
+            assert (verdict.relation, verdict.certainty) == (
+                Relation.INDISTINGUISHABLE,
+                Certainty.PROVEN,
+            )
             assert is_explicit(verdict.evidence, one, other)
 
 
 def test_a_case_is_void_if_a_denominator_becomes_zero():
-    """c (d - 1)^2 = a, c^2 (d - 1)^2 + d^3 = b: a = 3, b = 1 has none, as a^2/(d - 1)^2 > 1 for d < 2 and d^3 > 1 for d > 1."""
+    """c (d - 1)^2 = a, c^2 (d - 1)^2 + d^3 = b: a = 3, b = 1 has none, as a^2/(d - 1)^2 > 1 for
+    d < 2 and d^3 > 1 for d > 1.
+    """
     left, right = tf(["c*(d-1)**2"], ["1", "c**2*(d-1)**2+d**3"]), tf(["a"], ["1", "b"])
     verdict = positive(left, right)
     assert verdict.relation is Relation.SOMETIMES and confirms(verdict.evidence, left, right)
@@ -258,11 +330,16 @@ def test_a_case_is_void_if_a_denominator_becomes_zero():
 
 
 def test_elimination_keeps_off_denominators():
-    """q0 between 0 and 2p: the middle p is a zero of q0 - p, so another point is taken; above p it is p + 1."""
+    """q0 between 0 and 2p: the middle p is a zero of q0 - p, so another point is taken; above p
+    it is p + 1.
+    """
     ring = Orthant(1, 2, Domain.POSITIVE)
     p, x = ring.generators[:2]
     for positive_, zero in ((2 * p - x, x - p), (x - p, x - p - 1)):
-        found, left = sections(Search(ring, (1, 2)), Case((), (positive_,), ((2, RationalFunction(p, zero**2)),), (zero,)))
+        found, left = sections(
+            Search(ring, (1, 2)),
+            Case((), (positive_,), ((2, RationalFunction(p, zero**2)),), (zero,)),
+        )
         assert found and not left
         for section in found:
             assert not held(ring, zero, section).is_zero() and not section.values[1].den.is_zero()
@@ -275,4 +352,6 @@ def test_a_path_too_large_to_be_looked_at_is_none():
     cases = (Case((x**2 - x - p,)),)
     for degree, found in ((0, False), (40, True)):
         search = Search(replace(ring, degree=degree), (1, 2))
-        assert bool(Way(model, model, Parted(search, (), cases, ring.number(1)), ()).path()) is found
+        assert (
+            bool(Way(model, model, Parted(search, (), cases, ring.number(1)), ()).path()) is found
+        )

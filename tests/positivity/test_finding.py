@@ -1,4 +1,6 @@
-"""Findings: literally for the catalogues, and every ALWAYS and NEVER against the inverse synthesis at random points."""
+"""Findings: literally for the catalogues, and every ALWAYS and NEVER against the inverse
+synthesis at random points.
+"""
 
 from collections import Counter
 from dataclasses import replace
@@ -9,7 +11,15 @@ import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
 from disting.evidence.decision import Theorem
-from disting.evidence.positive import Empirical, EmptyFibre, Excluded, Interlacing, Points, PositiveFinding, Share
+from disting.evidence.positive import (
+    Empirical,
+    EmptyFibre,
+    Excluded,
+    Interlacing,
+    Points,
+    PositiveFinding,
+    Share,
+)
 from disting.model.symmetry import canonical
 from disting.positivity import confirms, positive_finding
 from disting.positivity.parts import obstacle, only_parts_sum_to_zero
@@ -60,23 +70,37 @@ def agrees(given, other, found, points):
             assert {truth, equivalent(given, point, other)} != {Answer.YES, Answer.NO}
 
 
-@pytest.mark.parametrize(("n", "damped"), [p if p[0] < 5 else pytest.param(*p, marks=pytest.mark.slow) for p in SHARES])
+@pytest.mark.parametrize(
+    ("n", "damped"), [p if p[0] < 5 else pytest.param(*p, marks=pytest.mark.slow) for p in SHARES]
+)
 def test_catalogues_have_no_open_pair(n, damped):
     shares = Counter()
     for given, other in indistinguishable(n, damped):
         found = positive_finding(given, other)
         assert found.certainty is Certainty.THEOREM and confirms(found.evidence, given, other)
         assert PositiveFinding.from_json(found.to_json()) == found
-        shares[found.evidence.name if isinstance(found.evidence, Theorem) else found.share.value] += 1
+        shares[
+            found.evidence.name if isinstance(found.evidence, Theorem) else found.share.value
+        ] += 1
     assert shares == SHARES[n, damped]
 
 
-@pytest.mark.parametrize(("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 8, 3), (5, 18, 14), (5, 64, 59), (5, 64, 69)])
+@pytest.mark.parametrize(
+    ("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 8, 3), (5, 18, 14), (5, 64, 59), (5, 64, 69)]
+)
 def test_sometimes_one_way_always_the_other(n, i, j):
     family = Family(n)
     there = positive_finding(family[i], family[j])
-    assert there.share is Share.SOMETIMES and there.empirical.tries == 100 and 50 < there.empirical.hits < 95
-    assert isinstance(there.evidence, Interlacing) and there.evidence.with_one and there.evidence.without
+    assert (
+        there.share is Share.SOMETIMES
+        and there.empirical.tries == 100
+        and 50 < there.empirical.hits < 95
+    )
+    assert (
+        isinstance(there.evidence, Interlacing)
+        and there.evidence.with_one
+        and there.evidence.without
+    )
     back = positive_finding(family[j], family[i])
     assert back.share is Share.ALWAYS and isinstance(back.evidence, Interlacing)
 
@@ -91,14 +115,22 @@ def test_points_are_what_the_synthesis_says(n, i, j):
 
 @pytest.mark.parametrize(("n", "i", "j"), [(3, 7, 6), (4, 20, 8)])
 def test_inclusions_with_a_negative_grounded_part(n, i, j):
-    """Generic models are included over the real numbers, by one solution whose grounded part is negative."""
+    """Generic models are included over the real numbers, by one solution whose grounded part is
+    negative.
+    """
     given, other = Family(n, damped=True)[i], Family(n, damped=True)[j]
     found = positive_finding(given, other)
-    assert found.share is Share.NEVER and found.certainty is Certainty.PROVEN and found.evidence.name == "swapped parts"
+    assert (
+        found.share is Share.NEVER
+        and found.certainty is Certainty.PROVEN
+        and found.evidence.name == "swapped parts"
+    )
     assert confirms(found.evidence, given, other)
     for k in range(10):
         listed = fibre(other, target(given.structure, random_point(given, f"inclusion:{k}")))
-        assert listed.status is Status.COMPLETE and all(s.values["m1"].real < 0 for s in listed.solutions)
+        assert listed.status is Status.COMPLETE and all(
+            s.values["m1"].real < 0 for s in listed.solutions
+        )
 
 
 def assert_claims_hold(pairs, points):
@@ -114,7 +146,9 @@ def test_claims_on_ordered_pairs(n, damped, every):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("n", "damped", "points"), [(3, False, 300), (3, True, 100), (4, False, 60), (4, True, 10)])
+@pytest.mark.parametrize(
+    ("n", "damped", "points"), [(3, False, 300), (3, True, 100), (4, False, 60), (4, True, 10)]
+)
 def test_claims_on_all_ordered_pairs_at_many_points(n, damped, points):
     assert_claims_hold(permutations(chains(n, damped), 2), points)
 
@@ -137,12 +171,18 @@ def test_each_obstacle():
     ]
     for given, other, name in undamped:
         found = positive_finding(given, other)
-        assert (found.share, found.certainty, found.evidence) == (Share.NEVER, Certainty.THEOREM, Excluded(name))
+        assert (found.share, found.certainty, found.evidence) == (
+            Share.NEVER,
+            Certainty.THEOREM,
+            Excluded(name),
+        )
 
 
 @pytest.mark.parametrize("n", [4, 5])
 def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
-    """In floating point: every sum of two parts that the obstacle excludes against every row without a gap."""
+    """In floating point: every sum of two parts that the obstacle excludes against every row
+    without a gap.
+    """
     rows = [Chain(n, act_plus=a, meas_plus=b) for a, b in combinations(range(1, n + 1), 2)]
     sums = [c for c in chains(n, False) if c.gap]
     least = {c: min(sign_changes(c, k) for k in range(40)) for c in sums}
@@ -176,15 +216,23 @@ def modes(point, first, last, force, sensor):
 def test_empty_fibre_is_bounded():
     family = Family(3, damped=True)
     found = positive_finding(family[1], family[4])
-    assert found.share is Share.NEVER and found.certainty is Certainty.BOUNDED and found.safety >= 100
+    assert (
+        found.share is Share.NEVER and found.certainty is Certainty.BOUNDED and found.safety >= 100
+    )
     assert isinstance(found.evidence, EmptyFibre) and confirms(found.evidence, family[1], family[4])
 
 
 def test_whole_against_sum():
-    """A sum of two parts in a chain without a gap: some have their zeros between the poles, some not."""
+    """A sum of two parts in a chain without a gap: some have their zeros between the poles,
+    some not.
+    """
     given, other = Chain(4, 2, 1, 3, 2, 4), Chain(4, meas_plus=2)
     found = positive_finding(given, other)
-    assert found.share is Share.SOMETIMES and found.certainty is Certainty.PROVEN and isinstance(found.evidence, Points)
+    assert (
+        found.share is Share.SOMETIMES
+        and found.certainty is Certainty.PROVEN
+        and isinstance(found.evidence, Points)
+    )
 
 
 def test_proof_of_swap_needs_simple_parts():
@@ -193,11 +241,15 @@ def test_proof_of_swap_needs_simple_parts():
     point = rational_point(chain, "swap")
     assert only_parts_sum_to_zero(chain, point, 2)
     reduced = 1 / point["m2"] + 1 / point["m3"]
-    assert not only_parts_sum_to_zero(chain, point | {f"{x}01": point[f"{x}23"] * reduced * point["m1"] for x in "kd"}, 2)
+    assert not only_parts_sum_to_zero(
+        chain, point | {f"{x}01": point[f"{x}23"] * reduced * point["m1"] for x in "kd"}, 2
+    )
 
 
 def test_large_chains_stay_honest():
-    """Whether 0-0-2-2-0-0 occurs with ports 3 and 5 of 7 is open: nothing is claimed that rests on it."""
+    """Whether 0-0-2-2-0-0 occurs with ports 3 and 5 of 7 is open: nothing is claimed that rests
+    on it.
+    """
     found = positive_finding(Chain(7, 0, 0, 3, 0, 5), Chain(7, 0, 0, 2, 0, 4))
     assert found.share is Share.SOMETIMES
     assert (0, 0, 2, 2, 0, 0) not in found.evidence.parts[0].lacking
@@ -211,14 +263,18 @@ def test_false_evidence_is_refused():
     nothing_lacking = replace(evidence, parts=tuple(replace(p, lacking=()) for p in evidence.parts))
     negative = replace(evidence, without=(("m1", "-1"), *evidence.without[1:]))
     assert confirms(evidence, six, two)
-    assert not any(confirms(e, six, two) for e in (swapped, nothing_lacking, negative, Theorem("Foster")))
+    assert not any(
+        confirms(e, six, two) for e in (swapped, nothing_lacking, negative, Theorem("Foster"))
+    )
     assert not confirms(Excluded("residues"), six, two)
     with pytest.raises(ValueError, match="no theorem is called"):
         Theorem("")
     assert not confirms(Points(evidence.without, evidence.with_one), six, two)
     damped = Family(3, damped=True)
     shared = positive_finding(damped[7], damped[6]).evidence
-    assert not confirms(shared, damped[6], damped[6]) and not confirms(replace(shared, point=()), damped[7], damped[6])
+    assert not confirms(shared, damped[6], damped[6]) and not confirms(
+        replace(shared, point=()), damped[7], damped[6]
+    )
 
 
 def test_what_is_not_covered_is_unknown():
@@ -228,7 +284,12 @@ def test_what_is_not_covered_is_unknown():
 
 
 def test_bad_input():
-    for other in (Chain(4), Chain(3, damped=True), Chain(3, sensor=Sensor.POSITION), Chain(3, dead_time=True)):
+    for other in (
+        Chain(4),
+        Chain(3, damped=True),
+        Chain(3, sensor=Sensor.POSITION),
+        Chain(3, dead_time=True),
+    ):
         with pytest.raises(InputError):
             positive_finding(Chain(3), other)
 
@@ -238,7 +299,9 @@ def test_findings_cannot_contradict_themselves():
         PositiveFinding(Share.ALWAYS)
     with pytest.raises(ValueError, match="bound"):
         PositiveFinding(Share.NEVER, Certainty.PROVEN, 120, Excluded("decay"))
-    assert PositiveFinding(Share.NEVER, Certainty.BOUNDED, 0, Excluded("decay")).share is Share.UNKNOWN
+    assert (
+        PositiveFinding(Share.NEVER, Certainty.BOUNDED, 0, Excluded("decay")).share is Share.UNKNOWN
+    )
     with pytest.raises(ValueError, match="tries"):
         Empirical(8, 10, 3)
     with pytest.raises(TypeError):

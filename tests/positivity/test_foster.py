@@ -9,7 +9,16 @@ from disting import Chain
 from disting.positivity.points import random_point
 from disting.synthesis import Answer, Status, fibre, target
 
-CASES = [(2, 1, 1, 2), (3, 0, 0, 2), (3, 1, 1, 2), (4, 2, 1, 4), (5, 2, 2, 4), (5, 0, 0, 3), (6, 1, 1, 3), (6, 5, 2, 6)]
+CASES = [
+    (2, 1, 1, 2),
+    (3, 0, 0, 2),
+    (3, 1, 1, 2),
+    (4, 2, 1, 4),
+    (5, 2, 2, 4),
+    (5, 0, 0, 3),
+    (6, 1, 1, 3),
+    (6, 5, 2, 6),
+]
 LARGE = [(7, 6, 6, 7), (7, 1, 1, 2), (8, 7, 1, 8), (8, 0, 0, 2)]
 
 

@@ -1,4 +1,6 @@
-"""Real parameters of undamped chains: literal findings, real factors against Newton's method from random complex starts."""
+"""Real parameters of undamped chains: literal findings, real factors against Newton's method
+from random complex starts.
+"""
 
 from dataclasses import replace
 
@@ -18,7 +20,8 @@ from disting.synthesis import Answer, Status, fibre, target
 from tests.oracles.real_equivalents import is_real, solutions
 
 OPEN_OF_3 = [(1, 4), (1, 6), (4, 6), (4, 8), (4, 11), (6, 8), (6, 11)]
-FOUND_WHOLLY = [(1, 4), (1, 6), (4, 6)]  # Newton's method reaches all solutions at the witness of one way at least
+# Newton's method reaches all solutions at the witness of one way at least
+FOUND_WHOLLY = [(1, 4), (1, 6), (4, 6)]
 TOWARDS_END = [(14, 20), (22, 26), (22, 28), (24, 26), (24, 28)]  # 4 masses, families of solutions
 
 
@@ -34,7 +37,12 @@ def mixed(chain, label, pattern):
 
 def seen(given, point, other):
     """All equivalents that Newton's method finds."""
-    return solutions(given, {name: float(v.p) / float(v.q) for name, v in point.items()}, other, foster_count(other))
+    return solutions(
+        given,
+        {name: float(v.p) / float(v.q) for name, v in point.items()},
+        other,
+        foster_count(other),
+    )
 
 
 @pytest.mark.slow
@@ -64,7 +72,9 @@ def test_points_of_mixed_signs_against_newtons_method(i, j):
 
 @pytest.mark.parametrize(("i", "j"), TOWARDS_END)
 def test_real_factors_of_an_odd_degree_always_exist(i, j):
-    """Grounded or free part of three masses with the ports apart: its numerator is linear, or both models have its factor."""
+    """Grounded or free part of three masses with the ports apart: its numerator is linear, or
+    both models have its factor.
+    """
     here, there = pair(4, i, j)
     assert always_real(here, there) and always_real(there, here)
     for k in range(8):
@@ -72,27 +82,41 @@ def test_real_factors_of_an_odd_degree_always_exist(i, j):
 
 
 def test_a_numerator_without_real_zeros_cannot_be_shared_out():
-    """Ports 1, 2 and 2, 3 of 4 masses: N has degree 2, and in the second chain it is a product of two linear factors."""
+    """Ports 1, 2 and 2, 3 of 4 masses: N has degree 2, and in the second chain it is a product
+    of two linear factors.
+    """
     first, second = pair(4, 2, 6)
     assert always_real(second, first) and not always_real(first, second)
     values = real_witness(first, second, "disting")
     assert confirms_real(values, first, second) and not confirms_real(values, second, first)
     positive = tuple((name, value.removeprefix("-")) for name, value in values)
-    assert not confirms_real(positive, second, first) and not confirms_real((("m1", "0"), *values[1:]), first, second)
+    assert not confirms_real(positive, second, first) and not confirms_real(
+        (("m1", "0"), *values[1:]), first, second
+    )
 
 
 @pytest.mark.parametrize(("i", "j"), OPEN_OF_3)
 def test_a_witness_has_no_real_solution_in_the_list_of_the_synthesis(i, j):
-    """By another way: all solutions, each with an imaginary part that its ball leaves no doubt of."""
-    ways = [(a, b, real_witness(a, b, "disting")) for a, b in (pair(3, i, j), pair(3, j, i)) if not always_real(a, b)]
+    """By another way: all solutions, each with an imaginary part that its ball leaves no doubt
+    of.
+    """
+    ways = [
+        (a, b, real_witness(a, b, "disting"))
+        for a, b in (pair(3, i, j), pair(3, j, i))
+        if not always_real(a, b)
+    ]
     found = [(fibre(b, target(a.structure, read(values))), b) for a, b, values in ways if values]
-    assert found and all(f.status is Status.COMPLETE and len(f.solutions) == foster_count(b) for f, b in found)
+    assert found and all(
+        f.status is Status.COMPLETE and len(f.solutions) == foster_count(b) for f, b in found
+    )
     assert all(s.real is Answer.NO for f, _ in found for s in f.solutions)
 
 
 def test_no_factor_is_claimed_where_nothing_is_covered():
     damped = Chain(3, damped=True), Chain(3, 0, 0, 2, 0, 2, damped=True)
-    assert not always_real(*damped) and not lacks_real(damped[0], random_point(damped[0], "x"), damped[1])
+    assert not always_real(*damped) and not lacks_real(
+        damped[0], random_point(damped[0], "x"), damped[1]
+    )
     assert not always_real(Chain(3), Chain(4))
     far = Chain(6, act_plus=1, meas_plus=4), Chain(6, act_plus=2, meas_plus=5)
     assert not always_real(*far)  # three springs between inner ports: no construction
@@ -104,7 +128,10 @@ def test_altered_real_evidence_is_refused():
     assert (found.relation, found.certainty) == (Relation.SOMETIMES, "proven")
     assert compare(b, a, query=Query(View.REAL)).relation is Relation.SOMETIMES
     evidence, witness = found.evidence, Witness()
-    assert witness.confirms(evidence, "parameters", a, b) and evidence_from(to_dict(evidence)) == evidence
+    assert (
+        witness.confirms(evidence, "parameters", a, b)
+        and evidence_from(to_dict(evidence)) == evidence
+    )
     for lie in (
         replace(evidence, without_left_given=not evidence.without_left_given),
         replace(evidence, with_left_given=not evidence.with_left_given),

@@ -1,6 +1,8 @@
-"""The sufficient condition of `words` carried out in numbers for 5 free masses, ports 2 and 4: two springs between the ports.
+"""The sufficient condition of `words` carried out in numbers for 5 free masses, ports 2 and 4: two
+springs between the ports.
 
-Pieces 1-2, 3, 4-5, each lighter than the one before, are tuned by Newton's method until the poles are the prescribed ones.
+Pieces 1-2, 3, 4-5, each lighter than the one before, are tuned by Newton's method until the poles
+are the prescribed ones.
 """
 
 from itertools import permutations
@@ -15,7 +17,9 @@ COUPLING = 1e-4
 
 
 def row(alpha, beta, p, omega, total, product):
-    """Masses and springs: 1-2 free with poles 0, p and zero alpha at 2; 3 on a spring; 4-5 on a spring, zero beta at 4."""
+    """Masses and springs: 1-2 free with poles 0, p and zero alpha at 2; 3 on a spring; 4-5 on a
+    spring, zero beta at 4.
+    """
     k12 = p - alpha
     k34 = product / beta
     k45 = total - beta - k34
@@ -25,7 +29,9 @@ def row(alpha, beta, p, omega, total, product):
 
 
 def poles(masses, springs):
-    stiffness = np.diag([*springs, 0]) + np.diag([0, *springs]) - np.diag(springs, 1) - np.diag(springs, -1)
+    stiffness = (
+        np.diag([*springs, 0]) + np.diag([0, *springs]) - np.diag(springs, 1) - np.diag(springs, -1)
+    )
     return np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(masses, masses)))[1:]
 
 
@@ -34,7 +40,9 @@ def zeros(word):
 
 
 def starts(word):
-    """Every way to share out the poles 10, 20, 30, 40 (0 is in the first piece), and the zeros, the row mirrored or not."""
+    """Every way to share out the poles 10, 20, 30, 40 (0 is in the first piece), and the zeros,
+    the row mirrored or not.
+    """
     for alpha, beta in permutations(zeros(word)):
         for p, omega, *pair in permutations((10, 20, 30, 40)):
             if alpha < p and pair[0] < beta < pair[1]:
@@ -45,7 +53,9 @@ def tuned(alpha, beta, x, target):
     for _ in range(30):
         here = poles(*row(alpha, beta, *x))
         step = 1e-6 * x
-        slopes = np.array([(poles(*row(alpha, beta, *(x + d))) - here) / d.sum() for d in np.diag(step)]).T
+        slopes = np.array(
+            [(poles(*row(alpha, beta, *(x + d))) - here) / d.sum() for d in np.diag(step)]
+        ).T
         x = x - np.linalg.solve(slopes, here - target)
     return row(alpha, beta, *x)
 

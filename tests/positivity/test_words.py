@@ -1,4 +1,6 @@
-"""Words of undamped rows: against eigenvalues (numpy), against explicit synthesis, and literally."""
+"""Words of undamped rows: against eigenvalues (numpy), against explicit synthesis, and
+literally.
+"""
 
 from fractions import Fraction
 from itertools import pairwise, product
@@ -22,7 +24,8 @@ PORTS = [(n, a, b) for n in range(2, 6) for a in range(1, n) for b in range(a + 
 
 
 def eigenvalue_word(masses, springs, a, b):
-    """springs[i] lies to the left of node i; poles and zeros as eigenvalues of M^-1/2 K M^-1/2 and of its corners.
+    """springs[i] lies to the left of node i; poles and zeros as eigenvalues of M^-1/2 K M^-1/2 and
+    of its corners.
 
     None where a pole and a zero are too near for double precision.
     """
@@ -59,7 +62,11 @@ def from_word(given):
 def has_positive_neighbours(n, a, t, kappa):
     with ctx.workprec(600):
         data = Data(acb_poly(t.numerator), acb_poly(t.denominator))
-        leaves = [x for x in neighbours_at(Segment(n, a, a + 1, False, 1), data, kappa) if isinstance(x, Part)]
+        leaves = [
+            x
+            for x in neighbours_at(Segment(n, a, a + 1, False, 1), data, kappa)
+            if isinstance(x, Part)
+        ]
         values = [[*leaf.masses, *(k[0] for k in leaf.springs)] for leaf in leaves]
         return any(all(v.real > 0 and abs(v.imag) < 1e-60 for v in each) for each in values)
 
@@ -95,7 +102,8 @@ def test_first_row_with_an_open_word():
 
 @pytest.mark.parametrize("at_wall", [False, True])
 @pytest.mark.parametrize(
-    ("n", "a", "b"), [pytest.param(*p, marks=[pytest.mark.slow] * (p[0] == 5 and p[1:] != (2, 4))) for p in PORTS]
+    ("n", "a", "b"),
+    [pytest.param(*p, marks=[pytest.mark.slow] * (p[0] == 5 and p[1:] != (2, 4))) for p in PORTS],
 )
 def test_random_rows_have_exactly_these_words(n, a, b, at_wall):
     random = Random(f"{n}{a}{b}{at_wall}")
@@ -111,7 +119,9 @@ def test_exact_word_agrees_with_eigenvalues(n, seed, i, j, at_wall):
     masses, springs = row(Random(seed), n, at_wall)
     chain = Chain(n + 1, n, a, n + 1, b, n + 1) if at_wall else Chain(n, 0, 0, a, 0, b)
     names = [f"k{i}{i + 1}" for i in range(0 if at_wall else 1, n)]
-    exact = dict(zip(names, springs if at_wall else springs[1:], strict=True)) | {f"m{i + 1}": m for i, m in enumerate(masses)}
+    exact = dict(zip(names, springs if at_wall else springs[1:], strict=True)) | {
+        f"m{i + 1}": m for i, m in enumerate(masses)
+    }
     point = {name: fmpq(*Fraction(value).as_integer_ratio()) for name, value in exact.items()} | (
         {f"m{n + 1}": fmpq(1)} if at_wall else {}
     )
@@ -130,7 +140,9 @@ def test_neighbours_are_positive_exactly_with_these_words(n, a):
         if each in words(n, a, a + 1).lower:
             assert has_positive_neighbours(n, a, t, fmpq(1, 2**40))
         else:
-            assert not any(has_positive_neighbours(n, a, t, fmpq(2) ** e) for e in range(-20, 31, 10))
+            assert not any(
+                has_positive_neighbours(n, a, t, fmpq(2) ** e) for e in range(-20, 31, 10)
+            )
 
 
 @pytest.mark.parametrize(

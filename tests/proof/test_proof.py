@@ -1,4 +1,6 @@
-"""Bounded verdicts proven afterwards: what is proven is true, and what is not true is never proven."""
+"""Bounded verdicts proven afterwards: what is proven is true, and what is not true is never
+proven.
+"""
 
 import pytest
 import sympy
@@ -15,7 +17,9 @@ from disting.settings import Settings
 
 def decided(n, damped):
     engine = Engine()
-    return engine.decisions([engine.subject(f"A{i}", c) for i, c in enumerate(Family(n, damped), 1)], Query())
+    return engine.decisions(
+        [engine.subject(f"A{i}", c) for i, c in enumerate(Family(n, damped), 1)], Query()
+    )
 
 
 @pytest.mark.parametrize("size", [(1, 3), (2, 2), (3, 2), (2, 3)])
@@ -28,8 +32,13 @@ def test_rank_agrees_with_sympy(size, rank_below):
     forms = [x + 2 * y, y - z, 3 * x, x * y + z, z + 1, x - y, y * y, 2 * z - x]
     left = [[forms[(3 * i + j) % 8] for j in range(inner)] for i in range(m)]
     right = [[forms[(5 * i + 3 * j + 1) % 8] for j in range(n)] for i in range(inner)]
-    product = [[sum((left[i][k] * right[k][j] for k in range(inner)), 0 * x) for j in range(n)] for i in range(m)]
-    oracle = sympy.Matrix(m, n, [sympy.sympify(str(e).replace("^", "**")) for row in product for e in row])
+    product = [
+        [sum((left[i][k] * right[k][j] for k in range(inner)), 0 * x) for j in range(n)]
+        for i in range(m)
+    ]
+    oracle = sympy.Matrix(
+        m, n, [sympy.sympify(str(e).replace("^", "**")) for row in product for e in row]
+    )
     assert rank(product, 10.0) == oracle.rank(simplify=True)
 
 
@@ -48,7 +57,9 @@ def test_proven_ranks_are_the_sampled_ones(n, damped):
         assert not rank_is_at_most(chain.structure, (), found - 1, 20.0)
 
 
-@pytest.mark.parametrize("model", [3, *(pytest.param(i, marks=pytest.mark.slow) for i in (1, 7, 9))])
+@pytest.mark.parametrize(
+    "model", [3, *(pytest.param(i, marks=pytest.mark.slow) for i in (1, 7, 9))]
+)
 def test_markov_ranks_are_proven_too(model):
     structure = Family(3, damped=True)[model].structure
     labels = tuple(f"G{k}" for k in range(1, 13))
@@ -57,9 +68,13 @@ def test_markov_ranks_are_proven_too(model):
     assert len(positions) == 12
     for count in (3, 12):
         some = labels[:count]
-        known = rank([[*row] for row in _oracle_rows(structure, some)], 60.0) if count == 3 else None
+        known = (
+            rank([[*row] for row in _oracle_rows(structure, some)], 60.0) if count == 3 else None
+        )
         if known is not None:
-            assert rank_is_at_most(structure, some, known, 20.0) and not rank_is_at_most(structure, some, known - 1, 20.0)
+            assert rank_is_at_most(structure, some, known, 20.0) and not rank_is_at_most(
+                structure, some, known - 1, 20.0
+            )
     assert rank_is_at_most(structure, labels, seen.rank, 20.0)
 
 
@@ -89,7 +104,9 @@ def _poly(expression, ring):
     return eval(str(expression).replace("^", "**"), {}, dict(ring)) * one
 
 
-@pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)]
+)
 def test_every_rank_verdict_of_these_classes_is_proven(n, damped):
     before = decided(n, damped)
     after = prove_all(before)

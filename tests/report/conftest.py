@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+CHROMIUM = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
 
 
 @pytest.fixture(scope="module")
@@ -16,14 +18,18 @@ def browser() -> Iterator[object]:
     with playwright.sync_playwright() as p:
         if not CHROMIUM and not Path(p.chromium.executable_path).exists():
             pytest.skip("no Chromium found, neither the system's nor Playwright's own")
-        chromium = p.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        chromium = p.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"]
+        )
         yield chromium
         chromium.close()
 
 
 @pytest.fixture
 def visit(browser, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
-    """Open a page of the site; at the end of the test: no message on the console, no request but for the site's files."""
+    """Open a page of the site; at the end of the test: no message on the console, no request
+    but for the site's files.
+    """
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     tab, troubles, requests = context.new_page(), [], []
     tab.on("console", lambda message: troubles.append(message.text))

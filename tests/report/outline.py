@@ -6,7 +6,9 @@ VOID = {"br", "img", "input", "link", "meta"}
 
 
 class Outline(HTMLParser):
-    """Elements with their attributes, texts by the tag around them, and all text; fails where an end tag does not match."""
+    """Elements with their attributes, texts by the tag around them, and all text; fails where
+    an end tag does not match.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__(convert_charrefs=True)
@@ -36,4 +38,6 @@ class Outline(HTMLParser):
             self.text += data
 
     def count(self, tag: str, **attributes: str) -> int:
-        return sum(t == tag and all(a.get(k) == v for k, v in attributes.items()) for t, a in self.elements)
+        return sum(
+            t == tag and all(a.get(k) == v for k, v in attributes.items()) for t, a in self.elements
+        )

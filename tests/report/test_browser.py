@@ -1,4 +1,6 @@
-"""The site in a real browser: select, move, search, filter, link; nothing is fetched, nothing goes wrong, all can use it."""
+"""The site in a real browser: select, move, search, filter, link; nothing is fetched, nothing
+goes wrong, all can use it.
+"""
 
 import json
 import re
@@ -32,7 +34,9 @@ def _place(tab, row: int, column: int) -> dict[str, float]:  # type: ignore[no-u
 
 
 def _settle(tab) -> None:  # type: ignore[no-untyped-def]
-    tab.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    tab.evaluate(
+        "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )
 
 
 def _colour(tab, row: int, column: int) -> tuple[int, ...]:  # type: ignore[no-untyped-def]
@@ -76,7 +80,9 @@ def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ign
     tab.mouse.click(**_place(tab, 2, 5))
     assert "over complex parameters (condition 6" in tab.inner_text("#detail .badges")
     tab.mouse.click(**_place(tab, 5, 2))
-    assert "over positive parameters (equivalents with positive parameters)" in tab.inner_text("#detail .badges")
+    assert "over positive parameters (equivalents with positive parameters)" in tab.inner_text(
+        "#detail .badges"
+    )
     tab.select_option("#below", "tf")
     tab.mouse.click(**_place(tab, 4, 1))
     assert tab.inner_text("#detail .badge") == "undecided"
@@ -96,7 +102,11 @@ def test_a_filter_dims_what_is_not_asked_for(visit) -> None:  # type: ignore[no-
     assert _colour(tab, 5, 2) == ORANGE and _colour(tab, 3, 1) != BLUE
     tab.check('input[name="distinguishable"]')
     tab.select_option("#group", "1")
-    assert _colour(tab, 11, 1) == ORANGE and _colour(tab, 5, 2) != ORANGE and _colour(tab, 3, 1) != BLUE
+    assert (
+        _colour(tab, 11, 1) == ORANGE
+        and _colour(tab, 5, 2) != ORANGE
+        and _colour(tab, 3, 1) != BLUE
+    )
 
 
 def test_the_order_by_group_puts_blocks_on_the_diagonal(visit) -> None:  # type: ignore[no-untyped-def]
@@ -112,7 +122,17 @@ def test_the_keyboard_moves_opens_zooms_and_closes(visit) -> None:  # type: igno
     tab = visit(SMALL)
     tab.focus(CURSOR)
     assert tab.get_attribute(CURSOR, "aria-label").startswith("A1 and A2: distinguishable")
-    for key in ("ArrowDown", "ArrowDown", "ArrowRight", "End", "ArrowLeft", "Control+End", "Home", "ArrowUp", "ArrowRight"):
+    for key in (
+        "ArrowDown",
+        "ArrowDown",
+        "ArrowRight",
+        "End",
+        "ArrowLeft",
+        "Control+End",
+        "Home",
+        "ArrowUp",
+        "ArrowRight",
+    ):
         tab.keyboard.press(key)
     label = "document.activeElement.getAttribute('aria-label')"
     assert tab.evaluate(label).startswith("A2 and A10: distinguishable")
@@ -183,7 +203,14 @@ def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ig
 
 def test_the_search_finds_models_and_pairs(visit) -> None:  # type: ignore[no-untyped-def]
     tab, pair = visit(SMALL), "A2 and A5"
-    for typed, found in (("3:7", "A7"), ("8", "A8"), ("a9", "A9"), ("3:2 3:5", pair), ("7 3", "A3 and A7"), ("2-5", pair)):
+    for typed, found in (
+        ("3:7", "A7"),
+        ("8", "A8"),
+        ("a9", "A9"),
+        ("3:2 3:5", pair),
+        ("7 3", "A3 and A7"),
+        ("2-5", pair),
+    ):
         tab.fill("#find", typed)
         tab.press("#find", "Enter")
         assert tab.inner_text("#detail h3") == found
@@ -247,12 +274,20 @@ def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore
     assert box["height"] > 30 and box["width"] > 100  # a fraction, not a line of letters
     tab.click(".latex summary >> nth=-1")
     tab.click("[data-copy] >> nth=-1")
-    assert "Cop" in tab.inner_text("[data-copy] >> nth=-1") or "Ctrl" in tab.inner_text("[data-copy] >> nth=-1")
+    assert "Cop" in tab.inner_text("[data-copy] >> nth=-1") or "Ctrl" in tab.inner_text(
+        "[data-copy] >> nth=-1"
+    )
 
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
-    for path in (START, SMALL + "#2-5", LARGE, "models/3-damped/1.html", "models/3-undamped/6.html"):
+    for path in (
+        START,
+        SMALL + "#2-5",
+        LARGE,
+        "models/3-damped/1.html",
+        "models/3-undamped/6.html",
+    ):
         tab = visit(path, width)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, path
 
@@ -268,10 +303,17 @@ def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[
 
 @pytest.mark.parametrize(
     ("path", "scheme"),
-    [(START, "light"), (SMALL + "#2-5", "dark"), (SMALL + "#2-5", "light"), ("models/3-damped/3.html", "dark")],
+    [
+        (START, "light"),
+        (SMALL + "#2-5", "dark"),
+        (SMALL + "#2-5", "light"),
+        ("models/3-damped/3.html", "dark"),
+    ],
 )
 def test_there_is_no_serious_barrier(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
     tab = visit(path, 390 if scheme == "dark" else 1280, scheme)
     found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
     said = [
@@ -287,7 +329,10 @@ def test_printing_shows_the_matrix_and_no_controls(visit) -> None:  # type: igno
     tab.emulate_media(media="print")
     assert tab.is_visible("#matrix canvas") and tab.is_visible("#groups")
     assert tab.is_visible("#relations .key >> nth=0")
-    assert not any(tab.is_visible(s) for s in ("#detail", ".tools", "#relations input >> nth=0", "#group", "#keys"))
+    assert not any(
+        tab.is_visible(s)
+        for s in ("#detail", ".tools", "#relations input >> nth=0", "#group", "#keys")
+    )
 
 
 def test_without_script_everything_static_is_there(browser, site: Path) -> None:  # type: ignore[no-untyped-def]
@@ -300,7 +345,9 @@ def test_without_script_everything_static_is_there(browser, site: Path) -> None:
 
 
 def test_no_field_of_millions_is_lost(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
-    """2336 models on a few hundred pixels: the one indistinguishable pair is seen, found and opened."""
+    """2336 models on a few hundred pixels: the one indistinguishable pair is seen, found and
+    opened.
+    """
     text, low, high, models = (site / SMALL).read_text(encoding="utf-8"), 1001, 2002, 2336
     found = re.search(r'(?<=id="data">).*?(?=</script>)', text)
     assert found
@@ -314,7 +361,9 @@ def test_no_field_of_millions_is_lost(visit, site: Path) -> None:  # type: ignor
         "groups": {domain: [[low, high]] for domain in data["groups"]},
         "views": dict.fromkeys(data["views"], runs),
     }
-    (site / "chains-9-damped.html").write_text(text.replace(found[0], json.dumps(data)), encoding="utf-8")
+    (site / "chains-9-damped.html").write_text(
+        text.replace(found[0], json.dumps(data)), encoding="utf-8"
+    )
     tab = visit("chains-9-damped.html")
     seen = """() => {
       const canvas = document.querySelector("#matrix canvas");
@@ -338,4 +387,6 @@ def test_the_keyboard_walks_the_largest_family(visit) -> None:  # type: ignore[n
     tab.focus(CURSOR)
     for _ in range(30):
         tab.keyboard.press("ArrowDown")
-    assert tab.evaluate("document.activeElement.getAttribute('aria-label')").startswith("A20 and A66:")
+    assert tab.evaluate("document.activeElement.getAttribute('aria-label')").startswith(
+        "A20 and A66:"
+    )

@@ -1,4 +1,6 @@
-"""The generated pages in `reports` are those of the shipped catalogues: to the byte, figures in PNG to the pixel."""
+"""The generated pages in `reports` are those of the shipped catalogues: to the byte, figures in
+PNG to the pixel.
+"""
 
 import io
 from pathlib import Path
@@ -43,7 +45,9 @@ def test_the_page_of_several_sizes_is_current(tmp_path: Path, damped: bool) -> N
 
 
 def is_current(new: Path, stored: Path) -> bool:
-    """Equal bytes; of a PNG nearly equal pixels, because letters may differ a little between Pillow versions."""
+    """Equal bytes; of a PNG nearly equal pixels, because letters may differ a little between
+    Pillow versions.
+    """
     if new.suffix != ".png":
         return new.read_bytes() == stored.read_bytes()
     images = [Image.open(io.BytesIO(p.read_bytes())).convert("L") for p in (new, stored)]
@@ -68,7 +72,10 @@ def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
 def test_generated_files_are_current(tmp_path: Path) -> None:
     fresh = written_anew(tmp_path)
     stored = {
-        p.relative_to(REPORTS).as_posix() for kind in ("*", "guide/*", "models/**/*") for p in REPORTS.glob(kind) if p.is_file()
+        p.relative_to(REPORTS).as_posix()
+        for kind in ("*", "guide/*", "models/**/*")
+        for p in REPORTS.glob(kind)
+        if p.is_file()
     }
     assert set(fresh) == stored - others(REPORTS), REMEDY
     assert [name for name, p in fresh.items() if not is_current(p, REPORTS / name)] == [], REMEDY

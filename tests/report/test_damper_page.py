@@ -1,4 +1,6 @@
-"""The page of a family with ground dampers: complete, small, reproducible; its drawings are those of the single chains."""
+"""The page of a family with ground dampers: complete, small, reproducible; its drawings are
+those of the single chains.
+"""
 
 import json
 import re
@@ -38,14 +40,18 @@ def _opened(found: DamperFamily) -> DamperFamily:
     columns = found.found.columns.copy()
     for group in (a, b):
         columns[found.found.group == group] = -1
-    return replace(found, found=replace(found.found, columns=columns, open_groups=frozenset({(a, b)})))
+    return replace(
+        found, found=replace(found.found, columns=columns, open_groups=frozenset({(a, b)}))
+    )
 
 
 def test_classes_are_numbered_by_size(found: DamperFamily) -> None:
     by_size = numbered(found.found)
     sizes = [len(by_size.members(g)) for g in range(len(by_size.sizes))]
     assert sizes == sorted(sizes, reverse=True) == by_size.sizes.tolist() and sum(sizes) == 88
-    assert sorted(by_size.members(g) for g in range(by_size.several)) == sorted(found.found.classes())
+    assert sorted(by_size.members(g) for g in range(by_size.several)) == sorted(
+        found.found.classes()
+    )
 
 
 def test_classes_whose_buckets_disagree_are_refused(found: DamperFamily) -> None:
@@ -65,8 +71,16 @@ def test_sets_are_bits() -> None:
 
 
 def test_the_mirror_is_the_one_of_the_free_part(found: DamperFamily) -> None:
-    """Force and sensor at the middle mass: of three free masses (A4), and of one that is free alone."""
-    assert {n: mirror(found.family[n]) for n in range(1, 12) if mirror(found.family[n])} == {4: 4, 8: 6, 9: 6, 10: 6, 11: 6}
+    """Force and sensor at the middle mass: of three free masses (A4), and of one that is free
+    alone.
+    """
+    assert {n: mirror(found.family[n]) for n in range(1, 12) if mirror(found.family[n])} == {
+        4: 4,
+        8: 6,
+        9: 6,
+        10: 6,
+        11: 6,
+    }
 
 
 def test_shared_drawings_are_the_single_ones(found: DamperFamily) -> None:
@@ -78,7 +92,10 @@ def test_shared_drawings_are_the_single_ones(found: DamperFamily) -> None:
 
 
 def test_ground_dampers_are_those_of_a_single_chain(found: DamperFamily) -> None:
-    single = {layer.name: layer.shapes for layer in draw(replace(found.family[5], ground_dampers=(1, 3))).layers}
+    single = {
+        layer.name: layer.shapes
+        for layer in draw(replace(found.family[5], ground_dampers=(1, 3))).layers
+    }
     for mass, part in enumerate(ground_dampers(3), start=1):
         broken, *shapes = part.layer.shapes
         assert part.name == f"ground-{mass}" and broken.stroke is Ink.PAPER  # type: ignore[union-attr]
@@ -89,7 +106,9 @@ def test_ground_dampers_are_those_of_a_single_chain(found: DamperFamily) -> None
 def test_counts_are_those_of_the_classes(found: DamperFamily) -> None:
     rows = counts(found)
     for relation in Relation:
-        assert sum(row.number for row in rows if row.relation is relation) == found.found.counts().get(relation, 0)
+        assert sum(
+            row.number for row in rows if row.relation is relation
+        ) == found.found.counts().get(relation, 0)
     exact = [(row.relation.value, row.number) for row in rows if row.sign == "E"]
     looked_up = [r.value for _, _, r, rule in found.found.pairs() if rule == "exact"]
     assert exact == [(r, looked_up.count(r)) for r in ("distinguishable", "indistinguishable")]
@@ -130,11 +149,20 @@ def test_nothing_is_fetched_and_data_are_safe(text: str) -> None:
     assert "http:" not in text.replace("http://www.w3.org", "") and "https:" not in text
     assert not re.search(r"url\(|@import|\bsrc=|<link|<iframe|fetch\(|XMLHttp|import\(", text)
     data = re.search(r'id="data">(.*?)</script>', text)
-    assert data and not set("<>&") & set(data[1]) and json.loads(data[1])["sets"] == [0, 2, 4, 8, 6, 10, 12, 14]
+    assert (
+        data
+        and not set("<>&") & set(data[1])
+        and json.loads(data[1])["sets"] == [0, 2, 4, 8, 6, 10, 12, 14]
+    )
 
 
 def test_the_same_bytes_again(found: DamperFamily, text: str) -> None:
-    assert damper_page(replace(found, found=replace(found.found, columns=np.array(found.found.columns)))) == text
+    assert (
+        damper_page(
+            replace(found, found=replace(found.found, columns=np.array(found.found.columns)))
+        )
+        == text
+    )
 
 
 def test_one_mass_has_a_page_too() -> None:

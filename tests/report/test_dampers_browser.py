@@ -1,4 +1,6 @@
-"""Pages of families with ground dampers in a real browser: what the script looks up is what Python does, and people find it."""
+"""Pages of families with ground dampers in a real browser: what the script looks up is what
+Python does, and people find it.
+"""
 
 from dataclasses import replace
 from itertools import combinations, permutations
@@ -41,12 +43,16 @@ def undamped() -> DamperFamily:
 
 @pytest.fixture(scope="module")
 def large() -> DamperFamily:
-    """2336 models in made-up classes, in which every rule occurs, unknown buckets and open pairs."""
+    """2336 models in made-up classes, in which every rule occurs, unknown buckets and open
+    pairs.
+    """
     family, sets, random = Family(5), DamperSets.ALL.of(5), np.random.default_rng(5)
     chains = tuple(replace(chain, ground_dampers=masses) for chain in family for masses in sets)
     structure = np.repeat(np.arange(len(family)), len(sets))
     group = (structure // 2 * 9 + random.integers(0, 9, len(chains))).astype(np.int32)
-    buckets = random.choice([-1, 0, 1, 2], (9 * len(family), 9), p=[0.1, 0.8, 0.06, 0.04]).astype(np.int32)
+    buckets = random.choice([-1, 0, 1, 2], (9 * len(family), 9), p=[0.1, 0.8, 0.06, 0.04]).astype(
+        np.int32
+    )
     rank = random.integers(10, 12, len(chains)).astype(np.int32)
     classes = Classes(
         chains=chains,
@@ -54,24 +60,37 @@ def large() -> DamperFamily:
         columns=buckets[group],
         group=group,
         renamed=(group * 12 + random.integers(0, 12, len(chains))).astype(np.int32),
-        free=np.where(random.random(len(chains)) < 0.3, random.integers(0, 2, len(chains)), -1).astype(np.int32),
+        free=np.where(
+            random.random(len(chains)) < 0.3, random.integers(0, 2, len(chains)), -1
+        ).astype(np.int32),
         rank=rank,
-        open_groups=frozenset(p for p in combinations(sorted(set(group.tolist())), 2) if random.random() < 0.05),
+        open_groups=frozenset(
+            p for p in combinations(sorted(set(group.tolist())), 2) if random.random() < 0.05
+        ),
     )
     return DamperFamily(family, sets, classes)
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory, small: DamperFamily, undamped: DamperFamily, large: DamperFamily) -> Path:
+def site(
+    tmp_path_factory: pytest.TempPathFactory,
+    small: DamperFamily,
+    undamped: DamperFamily,
+    large: DamperFamily,
+) -> Path:
     folder = tmp_path_factory.mktemp("site")
     write_report([catalog(3, damped=True)], folder, [small])
     (folder / LARGE).write_text(damper_page(large, catalog=False), encoding="utf-8")
-    (folder / "dampers-3-undamped.html").write_text(damper_page(undamped, catalog=False), encoding="utf-8")
+    (folder / "dampers-3-undamped.html").write_text(
+        damper_page(undamped, catalog=False), encoding="utf-8"
+    )
     return folder
 
 
 def _settle(tab) -> None:  # type: ignore[no-untyped-def]
-    tab.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    tab.evaluate(
+        "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )
 
 
 def _look_up(found: DamperFamily, pairs: list[tuple[int, int]]) -> list[list[object]]:
@@ -82,9 +101,15 @@ def _look_up(found: DamperFamily, pairs: list[tuple[int, int]]) -> list[list[obj
 def _field(tab, row: int, column: int) -> dict[str, float]:  # type: ignore[no-untyped-def]
     """A place in a field, counted from 1, near its upper left corner, as seen from the window."""
     _settle(tab)
-    box, of = tab.locator("#matrix").bounding_box(), tab.locator("#matrix").evaluate("e => ({ ...e.dataset })")
+    box, of = (
+        tab.locator("#matrix").bounding_box(),
+        tab.locator("#matrix").evaluate("e => ({ ...e.dataset })"),
+    )
     side, gutter = float(of["cell"]), float(of["gutter"])
-    at = {k: gutter + float(of[edge]) + (n - 0.7) * side for k, edge, n in (("x", "left", column), ("y", "top", row))}
+    at = {
+        k: gutter + float(of[edge]) + (n - 0.7) * side
+        for k, edge, n in (("x", "left", column), ("y", "top", row))
+    }
     return {"x": box["x"] + at["x"], "y": box["y"] + at["y"]}
 
 
@@ -114,9 +139,14 @@ def test_look_ups_are_pythons(visit, small: DamperFamily, undamped: DamperFamily
 def test_look_ups_in_thousands_of_models_are_pythons(visit, large: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     random = np.random.default_rng(1)
     pairs = [(int(i), int(j)) for i, j in random.integers(0, 2336, (1500, 2)) if i != j]
-    near = [(int(i), int(i + d)) for i, d in zip(random.integers(0, 2240, 1500), random.integers(1, 96, 1500), strict=True)]
+    near = [
+        (int(i), int(i + d))
+        for i, d in zip(random.integers(0, 2240, 1500), random.integers(1, 96, 1500), strict=True)
+    ]
     expected = _look_up(large, pairs + near)
-    assert {rule for _, rule in expected} == {"", "exact", *"123456789"} and {code for code, _ in expected} == {0, 1, 3}
+    assert {rule for _, rule in expected} == {"", "exact", *"123456789"} and {
+        code for code, _ in expected
+    } == {0, 1, 3}
     assert visit(LARGE).evaluate(LOOK_UP, pairs + near) == expected
 
 
@@ -133,7 +163,8 @@ def test_a_page_of_thousands_of_models_is_fluid(visit) -> None:  # type: ignore[
       requestAnimationFrame(() => setTimeout(() => done(performance.now() - from)));
     })"""
     for selector in ("[data-zoom=in]", "[value=group]"):
-        assert min(tab.evaluate(timed, selector) for _ in range(3)) < 400  # milliseconds, on a busy machine too
+        # milliseconds, on a busy machine too
+        assert min(tab.evaluate(timed, selector) for _ in range(3)) < 400
 
 
 def test_a_click_shows_names_drawings_rule_and_command(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
@@ -144,12 +175,18 @@ def test_a_click_shows_names_drawings_rule_and_command(visit, small: DamperFamil
     assert tab.inner_text("#detail h3") == "A2+b1+b2 and A5+b2+b3"
     assert tab.inner_text("#detail .badge") == "indistinguishable"
     rule = small.look_up((2, (1, 2)), (5, (2, 3)))[1]
-    assert ("the exact decision" if rule == "exact" else f"condition {rule}") in tab.inner_text("#detail .badges")
-    uses = tab.eval_on_selector_all('#detail svg[data-slot="left"] use', "all => all.map(u => u.getAttribute('href'))")
+    assert ("the exact decision" if rule == "exact" else f"condition {rule}") in tab.inner_text(
+        "#detail .badges"
+    )
+    uses = tab.eval_on_selector_all(
+        '#detail svg[data-slot="left"] use', "all => all.map(u => u.getAttribute('href'))"
+    )
     assert uses == ["#chain-2", "#ground-1", "#ground-2"]
     box = tab.locator('#detail svg[data-slot="right"]').bounding_box()
     assert box["width"] > 150 and 80 < box["height"] < 140
-    assert "damper from mass 3 to the ground" in tab.get_attribute('#detail svg[data-slot="right"]', "aria-label")
+    assert "damper from mass 3 to the ground" in tab.get_attribute(
+        '#detail svg[data-slot="right"]', "aria-label"
+    )
     assert tab.text_content("#detail code") == "disting compare 3:2+b1+b2 3:5+b2+b3 --damped"
     assert "A2, A5: 1+2, 1+3, 2+3, 1+2+3" in tab.inner_text('#detail [data-slot="members"]')
     assert tab.url.endswith("#2+b1+b2/5+b2+b3")
@@ -174,7 +211,18 @@ def test_deep_links_lead_to_pairs_models_structures_and_groups(visit) -> None:  
 
 def test_other_fragments_select_nothing(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A12")
-    for fragment in ("", "#2+b4", "#2/12", "#0", "#group-0", "#group-99", "#groups", "#2/3/4", "#4:2", "#2%"):
+    for fragment in (
+        "",
+        "#2+b4",
+        "#2/12",
+        "#0",
+        "#group-0",
+        "#group-99",
+        "#groups",
+        "#2/3/4",
+        "#4:2",
+        "#2%",
+    ):
         visit(SMALL + fragment)
         _settle(tab)
         assert not tab.is_visible("#detail"), fragment
@@ -234,12 +282,22 @@ def test_one_structure_is_the_table_of_its_sets(visit, small: DamperFamily) -> N
     tab.select_option("#only", "structure-4")
     assert tab.get_attribute('[role="grid"]', "aria-rowcount") == "8"
     pairs = list(combinations(range(8), 2))
-    expected = ["orange" if small.found.relation(24 + i, 24 + j).value == "indistinguishable" else "blue" for i, j in pairs]
+    expected = [
+        "orange" if small.found.relation(24 + i, 24 + j).value == "indistinguishable" else "blue"
+        for i, j in pairs
+    ]
     assert set(expected) == {"orange", "blue"}
-    assert _colours(tab, [(j + 1, i + 1) for i, j in pairs]) == _colours(tab, [(i + 1, j + 1) for i, j in pairs]) == expected
+    assert (
+        _colours(tab, [(j + 1, i + 1) for i, j in pairs])
+        == _colours(tab, [(i + 1, j + 1) for i, j in pairs])
+        == expected
+    )
     tab.fill("#find", "2+b1 5")  # outside: all models come back
     tab.press("#find", "Enter")
-    assert tab.get_attribute('[role="grid"]', "aria-rowcount") == "88" and tab.input_value("#only") == "all"
+    assert (
+        tab.get_attribute('[role="grid"]', "aria-rowcount") == "88"
+        and tab.input_value("#only") == "all"
+    )
 
 
 def test_one_group_holds_its_members(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
@@ -282,35 +340,52 @@ def test_the_keyboard_moves_opens_and_closes(visit) -> None:  # type: ignore[no-
 def test_a_structures_panel_lists_what_is_not_told_apart(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A3")
     assert "fall into 2 groups that are distinguishable" in tab.inner_text("#detail .why")
-    assert tab.inner_text('#detail [data-slot="members"]') == (
-        "Not told apart over complex parameters: 1 = 2 = 3 = 1+2 = 1+3 = 2+3 = 1+2+3."
+    assert (
+        tab.inner_text('#detail [data-slot="members"]')
+        == "Not told apart over complex parameters: 1 = 2 = 3 = 1+2 = 1+3 = 2+3 = 1+2+3."
     )
-    assert small.found.relation(small.place((3, ())), small.place((3, (1,)))).value == "distinguishable"
+    assert (
+        small.found.relation(small.place((3, ())), small.place((3, (1,)))).value
+        == "distinguishable"
+    )
     assert tab.text_content("#detail code") == "disting dampers 3:3 --sets all --damped"
 
 
 def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None:  # type: ignore[no-untyped-def]
-    i, j = next((i, j) for i, j, relation, _ in large.found.pairs() if relation.value == "undecided")
+    i, j = next(
+        (i, j) for i, j, relation, _ in large.found.pairs() if relation.value == "undecided"
+    )
     address = "/".join(large.text(k).removeprefix("5:") for k in (i, j))
     tab = visit(f"{LARGE}#{address}")
-    assert tab.inner_text("#detail .badge") == "undecided" and "With more time" in tab.inner_text("#detail .why")
+    assert tab.inner_text("#detail .badge") == "undecided" and "With more time" in tab.inner_text(
+        "#detail .why"
+    )
     assert tab.text_content("#detail code") == f"disting compare {large.text(i)} {large.text(j)}"
-    assert "That\nis no verdict" in tab.text_content("#counts") or "That is no verdict" in tab.text_content("#counts")
+    assert "That\nis no verdict" in tab.text_content(
+        "#counts"
+    ) or "That is no verdict" in tab.text_content("#counts")
 
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
-    for path in (PAIR, LARGE, SMALL + "#A3"):  # never two fragments of one page in turn: the second would not load it
+    # never two fragments of one page in turn: the second would not load it
+    for path in (PAIR, LARGE, SMALL + "#A3"):
         tab = visit(path, width)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, path
 
 
 @pytest.mark.parametrize(("path", "scheme"), [(PAIR, "dark"), (SMALL + "#A3", "light")], ids=str)
 def test_there_is_no_serious_barrier(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
     tab = visit(path, 390 if scheme == "dark" else 1280, scheme)
     found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
-    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")] == []
+    assert [
+        (v["id"], v["nodes"][0]["html"][:120])
+        for v in found
+        if v["impact"] in ("serious", "critical")
+    ] == []
 
 
 def test_without_script_the_tables_are_there(browser, site: Path) -> None:  # type: ignore[no-untyped-def]
@@ -325,7 +400,9 @@ def test_without_script_the_tables_are_there(browser, site: Path) -> None:  # ty
 @pytest.mark.slow
 @pytest.mark.parametrize("damped", [False, True], ids=["undamped", "damped"])
 @pytest.mark.parametrize("n_masses", [4, 5])
-def test_shipped_classes_are_looked_up_as_python_does(visit, site: Path, n_masses: int, damped: bool) -> None:  # type: ignore[no-untyped-def]
+def test_shipped_classes_are_looked_up_as_python_does(
+    visit, site: Path, n_masses: int, damped: bool
+) -> None:  # type: ignore[no-untyped-def]
     found = damper_catalog(n_masses, damped=damped)
     name = f"dampers-{n_masses}-shipped.html"
     (site / name).write_text(damper_page(found, catalog=False), encoding="utf-8")

@@ -53,9 +53,15 @@ def test_svg_parses_and_png_decodes(chain: Chain) -> None:
     assert image.size == (round(draw(chain).width), round(draw(chain).height))
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda f: f"{f.n_masses}-{'damped' if f.damped else 'undamped'}")
+@pytest.mark.parametrize(
+    "family", FAMILIES, ids=lambda f: f"{f.n_masses}-{'damped' if f.damped else 'undamped'}"
+)
 def test_distinct_chains_have_distinct_drawings_and_descriptions(family: Family) -> None:
-    assert len({draw(chain).layers for chain in family}) == len({describe(chain) for chain in family}) == len(family)
+    assert (
+        len({draw(chain).layers for chain in family})
+        == len({describe(chain) for chain in family})
+        == len(family)
+    )
 
 
 @few
@@ -82,7 +88,9 @@ def test_the_sensor_marks_mass_and_reference() -> None:
 
 
 def test_there_is_no_spring_in_the_gap() -> None:
-    assert not {"k12", "d12"} & {layer.name for layer in draw(Chain(3, 1, 1, 2, 1, 2, damped=True)).layers}
+    assert not {"k12", "d12"} & {
+        layer.name for layer in draw(Chain(3, 1, 1, 2, 1, 2, damped=True)).layers
+    }
 
 
 def test_the_wall_is_as_high_as_what_is_fixed_to_it() -> None:

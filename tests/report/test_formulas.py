@@ -1,4 +1,6 @@
-"""Formulas of the pages: the mathematics that a browser typesets is the transfer function, and the LaTeX says the same."""
+"""Formulas of the pages: the mathematics that a browser typesets is the transfer function, and
+the LaTeX says the same.
+"""
 
 import re
 from itertools import product
@@ -50,16 +52,26 @@ def row(parts: list[ElementTree.Element]) -> sympy.Expr:
 
 
 def read(texts: tuple[str, ...]) -> sympy.Expr:
-    return value(ElementTree.fromstring(f"<mrow>{''.join(texts)}</mrow>".replace("<math>", "").replace("</math>", "")))
+    return value(
+        ElementTree.fromstring(
+            f"<mrow>{''.join(texts)}</mrow>".replace("<math>", "").replace("</math>", "")
+        )
+    )
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda f: f"{f.n_masses}-{'damped' if f.damped else 'undamped'}")
+@pytest.mark.parametrize(
+    "family", FAMILIES, ids=lambda f: f"{f.n_masses}-{'damped' if f.damped else 'undamped'}"
+)
 def test_the_typeset_coefficients_are_those_of_the_transfer_function(family: Family) -> None:
     s = sympy.Symbol("s")
-    for chain in (family[len(family)],) if family.n_masses == 4 else (family[1], family[len(family)]):
+    for chain in (
+        (family[len(family)],) if family.n_masses == 4 else (family[1], family[len(family)])
+    ):
         found = written(chain)
         stiffness = {
-            sympy.Symbol(f"κ{n[1:]}"): sympy.Symbol(n) + s * sympy.Symbol(f"d{n[1:]}") for n in chain.parameters if n[0] == "k"
+            sympy.Symbol(f"κ{n[1:]}"): sympy.Symbol(n) + s * sympy.Symbol(f"d{n[1:]}")
+            for n in chain.parameters
+            if n[0] == "k"
         }
         sums = {"b": sympy.Integer(0), "a": sympy.Integer(0)}
         for label, parts in found.lines:
@@ -76,22 +88,31 @@ def test_the_latex_names_every_coefficient_and_balances() -> None:
         assert found.latex.count(" &= ") == 1 + len(found.lines)
         assert found.latex.count("{") == found.latex.count("}")
         assert found.latex.count(r"\left(") == found.latex.count(r"\right)")
-    assert r"\kappa_{12}" in written(Chain(5, damped=True)).latex and " k_{" not in written(Chain(5, damped=True)).latex
+    assert (
+        r"\kappa_{12}" in written(Chain(5, damped=True)).latex
+        and " k_{" not in written(Chain(5, damped=True)).latex
+    )
 
 
 def plain(latex: str) -> str:
     """LaTeX of products, powers, sums and parentheses as Python."""
-    text = re.sub(r"\\?(\w+)_\{(\d+)\}", r"\1\2", latex.replace(r"\left", "").replace(r"\right", ""))
+    text = re.sub(
+        r"\\?(\w+)_\{(\d+)\}", r"\1\2", latex.replace(r"\left", "").replace(r"\right", "")
+    )
     text = re.sub(r"\^\{(\d+)\}", r"**\1", text)
     return re.sub(r"(?<=[\w)]) +(?=[\w(])", "*", text)
 
 
-@pytest.mark.parametrize("chain", [Chain(3, damped=True), Chain(4, damped=True), Chain(4, 1, 1, 3, 1, 2)], ids=str)
+@pytest.mark.parametrize(
+    "chain", [Chain(3, damped=True), Chain(4, damped=True), Chain(4, 1, 1, 3, 1, 2)], ids=str
+)
 def test_the_latex_is_what_is_typeset(chain: Chain) -> None:
     found = written(chain)
     rows = [line.split(" &= ")[1].removesuffix(r" \\") for line in found.latex.splitlines()[2:-1]]
     for (label, parts), row in zip(found.lines, rows, strict=True):
-        typeset = read(parts).subs({x: sympy.Symbol(x.name.replace("κ", "kappa")) for x in read(parts).free_symbols})
+        typeset = read(parts).subs(
+            {x: sympy.Symbol(x.name.replace("κ", "kappa")) for x in read(parts).free_symbols}
+        )
         assert sympy.expand(typeset - sympy.sympify(plain(row))) == 0, label
 
 
@@ -107,10 +128,15 @@ def test_a_map_is_typeset_as_its_formulas() -> None:
 def test_long_maps_are_left_to_the_command_line() -> None:
     undamped = catalog(4)
     a, b = undamped.classes()[0][:2]
-    found = [correspondence(undamped.family[a], undamped.family[b]), correspondence(Chain(1), Chain(2))]
+    found = [
+        correspondence(undamped.family[a], undamped.family[b]),
+        correspondence(Chain(1), Chain(2)),
+    ]
     assert all(f is None or len(f.latex) < 2000 for f in found) and found[1] is None
 
 
 def test_signs_stand_between_terms() -> None:
     assert summands([(1, {"m1": 1}), (-2, {})]) == [symbol("m1"), "<mo>−</mo><mn>2</mn>"]
-    assert summands([(-1, {"m1": 2})]) == ["<mo>−</mo><msubsup><mi>m</mi><mn>1</mn><mn>2</mn></msubsup>"]
+    assert summands([(-1, {"m1": 2})]) == [
+        "<mo>−</mo><msubsup><mi>m</mi><mn>1</mn><mn>2</mn></msubsup>"
+    ]

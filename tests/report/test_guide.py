@@ -1,4 +1,6 @@
-"""The guide: every page is in the site, leads somewhere, lets no markup through; what it and the README show is true."""
+"""The guide: every page is in the site, leads somewhere, lets no markup through; what it and
+the README show is true.
+"""
 
 import argparse
 import re
@@ -24,9 +26,7 @@ TEXTS = {
 }
 CHEAP = ("compare 3:", "compare 4:", "equivalents", "dampers 3:", "verdicts", "models 3")
 PLACEHOLDER = re.compile(r"[\[\]|]|\.\.|\b[A-Z]+\b")
-MARKUP = (
-    """<script>alert(1)</script> <b onclick="x()">bold</b> [a](javascript:alert(1)) ![i](http://a.b/c.png) {{ 7*7 }} &lt;"""
-)
+MARKUP = """<script>alert(1)</script> <b onclick="x()">bold</b> [a](javascript:alert(1)) ![i](http://a.b/c.png) {{ 7*7 }} &lt;"""
 
 
 @cache
@@ -35,14 +35,30 @@ def written() -> dict[str, str]:
 
 
 def fences(text: str) -> list[str]:
-    return [token.content for token in MarkdownIt("commonmark").parse(text) if token.type == "fence"]
+    return [
+        token.content for token in MarkdownIt("commonmark").parse(text) if token.type == "fence"
+    ]
 
 
 def shown() -> list[tuple[str, str, bool]]:
-    """Every command that README or guide show, and whether it is whole: in blocks yes, within the text maybe not."""
-    lines = [(name, line.strip()) for name, text in TEXTS.items() for block in fences(text) for line in block.splitlines()]
-    found = [(name, line.removeprefix("$ ").removeprefix("pip install . && "), True) for name, line in lines]
-    found += [(name, code, False) for name, text in TEXTS.items() for code in re.findall(r"`(disting [^`]+)`", text)]
+    """Every command that README or guide show, and whether it is whole: in blocks yes, within
+    the text maybe not.
+    """
+    lines = [
+        (name, line.strip())
+        for name, text in TEXTS.items()
+        for block in fences(text)
+        for line in block.splitlines()
+    ]
+    found = [
+        (name, line.removeprefix("$ ").removeprefix("pip install . && "), True)
+        for name, line in lines
+    ]
+    found += [
+        (name, code, False)
+        for name, text in TEXTS.items()
+        for code in re.findall(r"`(disting [^`]+)`", text)
+    ]
     return [(name, line, whole) for name, line, whole in found if line.startswith("disting ")]
 
 
@@ -66,9 +82,12 @@ def test_every_page_is_in_the_site_with_its_title_and_headings() -> None:
     for address in pages:
         text = TEXTS[Path(address).stem + ".md"]
         outline = Outline(written()[address])
-        headings = [token for token in MarkdownIt("commonmark").parse(text) if token.type == "heading_open"]
+        headings = [
+            token for token in MarkdownIt("commonmark").parse(text) if token.type == "heading_open"
+        ]
         assert outline.count("h1") == 1 and f"# {outline.texts['h1'][0]}\n" in text
-        assert outline.count("h2") == sum(token.tag == "h2" for token in headings) + 1  # "All pages"
+        # "All pages"
+        assert outline.count("h2") == sum(token.tag == "h2" for token in headings) + 1
         assert outline.count("h3") == sum(token.tag == "h3" for token in headings)
         assert outline.count("table") == len(re.findall(r"^\|[ :|-]*-[ :|-]*$", text, re.MULTILINE))
         assert outline.count("pre") == len(fences(text)) + len(re.findall(r"\n\n    \S", text))
@@ -77,7 +96,9 @@ def test_every_page_is_in_the_site_with_its_title_and_headings() -> None:
 
 def test_no_link_and_no_anchor_is_dead() -> None:
     ids = {
-        name: [a["id"] for _, a in Outline(text).elements if "id" in a] for name, text in written().items() if "html" in name
+        name: [a["id"] for _, a in Outline(text).elements if "id" in a]
+        for name, text in written().items()
+        if "html" in name
     }
     for name, text in written().items():
         if not name.endswith(".html"):
@@ -88,7 +109,9 @@ def test_no_link_and_no_anchor_is_dead() -> None:
         for link in links:
             target, _, anchor = link.partition("#")
             page = f"guide/{target}" if target else name
-            assert link == "../index.html" or (page in ids and (not anchor or anchor in ids[page])), (name, link)
+            assert link == "../index.html" or (
+                page in ids and (not anchor or anchor in ids[page])
+            ), (name, link)
 
 
 def test_the_readme_and_the_pages_lead_to_files_and_to_every_page() -> None:
@@ -113,18 +136,30 @@ def rendered(text: str) -> GuidePage:
 
 
 def test_links_out_of_the_guide_stay_as_words() -> None:
-    page = rendered("[a](there.md#x) [b](../cli/fit.py) [**c**](nowhere.md) [d](https://a.b) <https://e.f> [g](#h)\n\n## H\n")
+    page = rendered(
+        "[a](there.md#x) [b](../cli/fit.py) [**c**](nowhere.md) [d](https://a.b) <https://e.f>"
+        " [g](#h)\n\n## H\n"
+    )
     assert (
-        page.body.splitlines()[0] == '<p><a href="there.html#x">a</a> b <strong>c</strong> d https://e.f <a href="#h">g</a></p>'
+        page.body.splitlines()[0]
+        == '<p><a href="there.html#x">a</a> b <strong>c</strong> d https://e.f <a'
+        ' href="#h">g</a></p>'
     )
 
 
-@pytest.mark.parametrize("frame", ["{}", "## {}", "- {}", "| a |\n| --- |\n| {} |", "```\n{}\n```", "    {}", "> {}", "`{}`"])
+@pytest.mark.parametrize(
+    "frame",
+    ["{}", "## {}", "- {}", "| a |\n| --- |\n| {} |", "```\n{}\n```", "    {}", "> {}", "`{}`"],
+)
 def test_markup_is_text(frame: str) -> None:
     outline = Outline(str(rendered(frame.format(MARKUP)).body))
     assert {tag for tag, _ in outline.elements}.isdisjoint({"script", "b", "a", "img", "iframe"})
     assert "<script>alert(1)</script>" in outline.text and "{{ 7*7 }}" in outline.text
-    assert all(key in ("id", "class", "tabindex", "role", "aria-label") for _, a in outline.elements for key in a)
+    assert all(
+        key in ("id", "class", "tabindex", "role", "aria-label")
+        for _, a in outline.elements
+        for key in a
+    )
 
 
 @given(st.text(st.sampled_from("<>&\"'`[]()#|-*_!\\ \nab:/."), max_size=60))
@@ -149,13 +184,25 @@ def test_every_command_shown_is_accepted() -> None:
             parser().parse_args(arguments)
         elif arguments[0] != "COMMAND":
             words = command.replace("\\|", "|").split()[1:]
-            assert set(re.findall(r"--[a-z-]+", command)) <= known_options(words, parser()), (name, command)
+            assert set(re.findall(r"--[a-z-]+", command)) <= known_options(words, parser()), (
+                name,
+                command,
+            )
 
 
 def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
-    """Options of a command that is only mentioned, or shown with placeholders; of all that it names, as build|verify."""
+    """Options of a command that is only mentioned, or shown with placeholders; of all that it
+    names, as build|verify.
+    """
     found = {option for action in of._actions for option in action.option_strings}
-    commands = next((action.choices for action in of._actions if isinstance(action, argparse._SubParsersAction)), {})
+    commands = next(
+        (
+            action.choices
+            for action in of._actions
+            if isinstance(action, argparse._SubParsersAction)
+        ),
+        {},
+    )
     for chosen in words[0].split("|") if commands and words else []:
         assert chosen in commands or chosen == "...", words
         found |= known_options(words[1:], commands[chosen]) if chosen in commands else set()
@@ -163,7 +210,8 @@ def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
 
 
 @pytest.mark.parametrize(
-    ("page", "command", "output"), [t for t in transcripts() if t[1].startswith(tuple(f"disting {c}" for c in CHEAP))]
+    ("page", "command", "output"),
+    [t for t in transcripts() if t[1].startswith(tuple(f"disting {c}" for c in CHEAP))],
 )
 def test_what_is_shown_is_what_is_said(page: str, command: str, output: str) -> None:
     said = called(*shlex.split(command)[1:]).stdout
@@ -185,12 +233,20 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(("width", "scheme", "read"), [(390, "dark", "decisions"), (1280, "light", "fit")])
+@pytest.mark.parametrize(
+    ("width", "scheme", "read"), [(390, "dark", "decisions"), (1280, "light", "fit")]
+)
 def test_pages_are_legible_and_only_boxes_scroll(visit, width: int, scheme: str, read: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
     for name in guide_texts() if width < 500 else [read]:
         tab = visit(f"guide/{name}.html", width, scheme)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, name
     tab = visit(f"guide/{read}.html", width, scheme)
     found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
-    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")] == []
+    assert [
+        (v["id"], v["nodes"][0]["html"][:120])
+        for v in found
+        if v["impact"] in ("serious", "critical")
+    ] == []

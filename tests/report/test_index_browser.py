@@ -1,4 +1,6 @@
-"""The start page's "Describe your machine" in a real browser: every description leads to its model, with its drawing."""
+"""The start page's "Describe your machine" in a real browser: every description leads to its
+model, with its drawing.
+"""
 
 import json
 from collections.abc import Iterator
@@ -46,7 +48,9 @@ DESCRIBE = """(descriptions) => JSON.stringify(descriptions.map(([masses, damper
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("start")
     write_report([catalog(2, damped=True)], folder)
-    (folder / "index.html").write_text(index([catalog(n, damped=damped) for n, damped in KINDS]), encoding="utf-8")
+    (folder / "index.html").write_text(
+        index([catalog(n, damped=damped) for n, damped in KINDS]), encoding="utf-8"
+    )
     return folder
 
 
@@ -57,7 +61,9 @@ def _asked(chain: Chain) -> list[str]:
 
 
 def _described(tab, chains: list[Chain]) -> Iterator[tuple[Chain, dict]]:  # type: ignore[no-untyped-def]
-    return zip(chains, json.loads(tab.evaluate(DESCRIBE, [_asked(chain) for chain in chains])), strict=True)
+    return zip(
+        chains, json.loads(tab.evaluate(DESCRIBE, [_asked(chain) for chain in chains])), strict=True
+    )
 
 
 def test_every_model_is_reached_by_its_description(visit) -> None:  # type: ignore[no-untyped-def]
@@ -69,18 +75,25 @@ def test_every_model_is_reached_by_its_description(visit) -> None:  # type: igno
             number = shipped.family.number(chain)
             assert (found["model"], found["remark"]) == (f"{n}:{number}", "")
             assert found["number"] == f"A{number} of {n} mass{'es' if n > 1 else ''}, {kind}"
-            assert found["links"] == [f"models/{n}-{kind}/{number}.html", f"{shipped.name}.html#A{number}"]
+            assert found["links"] == [
+                f"models/{n}-{kind}/{number}.html",
+                f"{shipped.name}.html#A{number}",
+            ]
             group = next((g for g in groups if number in g), (number,))
             pairs = [sorted((number, other)) for other in group if other != number]
             assert found["twins"] == [f"{shipped.name}.html#{low}-{high}" for low, high in pairs]
             assert str(len(pairs)) in found["said"] or not pairs
 
 
-def test_a_description_outside_of_the_family_leads_to_its_model_by_the_symmetries_named(visit) -> None:  # type: ignore[no-untyped-def]
+def test_a_description_outside_of_the_family_leads_to_its_model_by_the_symmetries_named(
+    visit,
+) -> None:  # type: ignore[no-untyped-def]
     tab, seen = visit("index.html"), set()
     for n in SHIPPED_SIZES:
         family = catalog(n, damped=True).family
-        for chain, found in _described(tab, list(descriptions(n, damped=True))[:: 7 if n > 4 else 1]):
+        for chain, found in _described(
+            tab, list(descriptions(n, damped=True))[:: 7 if n > 4 else 1]
+        ):
             mirrored, exchanged = "other end" in found["remark"], "exchanged" in found["remark"]
             named = EXCHANGE * exchanged + (Symmetry.REFLECTION,) * mirrored
             listed = family[int(found["model"].split(":")[1])]
@@ -102,19 +115,28 @@ def test_nothing_but_admissible_descriptions_is_offered(visit) -> None:  # type:
 def test_the_drawing_is_that_of_the_chain(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     for chain, found in _described(
-        tab, [*descriptions(3, damped=True), *list(descriptions(5, damped=False))[::5], Chain(5, 4, 4, 5, 4, 5)]
+        tab,
+        [
+            *descriptions(3, damped=True),
+            *list(descriptions(5, damped=False))[::5],
+            Chain(5, 4, 4, 5, 4, 5),
+        ],
     ):
         assert found["uses"] == [f"#{part_name(chain, layer)}" for layer in draw(chain).layers]
         assert found["missing"] == []
     box = tab.get_attribute("#machine svg", "viewBox")
     assert box == f"0 0 {draw(Chain(5)).width:g} {draw(Chain(5)).height:g}"
-    assert found["label"] == (
-        "5 masses, undamped; gap: between mass 4 and mass 5; force on mass 5, against mass 4; sensor of mass 5, against mass 4."
+    assert (
+        found["label"]
+        == "5 masses, undamped; gap: between mass 4 and mass 5; force on mass 5, against mass 4;"
+        " sensor of mass 5, against mass 4."
     )
 
 
 def test_a_part_shows_the_same_wherever_it_is_used() -> None:
-    held = {part.name: part.layer for part in parts(catalog(n, damped=damped) for n, damped in KINDS)}
+    held = {
+        part.name: part.layer for part in parts(catalog(n, damped=damped) for n, damped in KINDS)
+    }
     for n, damped in KINDS:
         for chain in list(descriptions(n, damped=damped))[:: 9 if n > 3 else 1]:
             for layer in draw(chain).layers:
@@ -146,7 +168,9 @@ def test_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
 
 def test_the_address_holds_the_description(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html#machine=5,undamped,2,2,5,1,3")
-    assert [tab.input_value(f'[name="{name}"]') for name in CHOICES] == _asked(Chain(5, 2, 2, 5, 1, 3))
+    assert [tab.input_value(f'[name="{name}"]') for name in CHOICES] == _asked(
+        Chain(5, 2, 2, 5, 1, 3)
+    )
     assert tab.inner_text('[data-slot="remark"]')
     tab.select_option('[name="gap"]', "1")
     tab.wait_for_url("**/index.html#machine=5,undamped,1,1,5,1,3")
@@ -158,7 +182,8 @@ def test_the_address_holds_the_description(visit) -> None:  # type: ignore[no-un
 def test_undecided_pairs_are_said(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
     shipped = catalog(3, damped=True)
     blank = [
-        {"left": r["left"], "right": r["right"]} if (r.get("left"), r.get("right")) == (1, 3) else r for r in shipped.records
+        {"left": r["left"], "right": r["right"]} if (r.get("left"), r.get("right")) == (1, 3) else r
+        for r in shipped.records
     ]
     opened = replace(shipped, records=blank)
     assert machines([opened])[0]["open"] == {1: 1, 3: 1}
@@ -166,7 +191,10 @@ def test_undecided_pairs_are_said(visit, site: Path) -> None:  # type: ignore[no
     tab = visit("opened.html")
     for _, found in _described(tab, [shipped.family[3]]):
         assert found["said"] == "No other model is known that can never be told apart from it."
-    assert tab.inner_text('[data-slot="open"]') == "With 1 model this is undecided over positive parameters."
+    assert (
+        tab.inner_text('[data-slot="open"]')
+        == "With 1 model this is undecided over positive parameters."
+    )
 
 
 def test_a_size_with_one_kind_offers_that_kind(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
@@ -185,14 +213,22 @@ def test_without_catalogues_nothing_is_asked(visit, site: Path) -> None:  # type
 
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
 def test_it_is_legible_everywhere(visit, site: Path, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
     tab = visit("index.html", width, scheme)
     list(_described(tab, [Chain(5, 2, 2, 5, 1, 4)]))
     assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
     box = tab.locator("#machine svg").bounding_box()
     assert box["width"] > 300 and box["height"] > 70
-    found = axe.Axe().run(tab, context="#machine", options={"preload": False}).response["violations"]
-    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")] == []
+    found = (
+        axe.Axe().run(tab, context="#machine", options={"preload": False}).response["violations"]
+    )
+    assert [
+        (v["id"], v["nodes"][0]["html"][:120])
+        for v in found
+        if v["impact"] in ("serious", "critical")
+    ] == []
 
 
 def test_the_page_stays_small(site: Path) -> None:

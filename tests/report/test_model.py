@@ -28,7 +28,9 @@ def _verdicts(c: Catalog, number: int) -> dict[int, object]:
     return {i: c.verdict(number, i) for i in range(1, len(c.family) + 1) if i != number}
 
 
-def assert_names(shipped: Catalog, number: int, outline: Outline, sometimes: tuple[int, ...] = ()) -> None:
+def assert_names(
+    shipped: Catalog, number: int, outline: Outline, sometimes: tuple[int, ...] = ()
+) -> None:
     named = {a["id"] for t, a in outline.elements if t == "article"}
     group = next((g for g in shipped.classes(View.POSITIVE) if number in g), (number,))
     always = {f"A{m}" for m in group if m != number}
@@ -36,14 +38,20 @@ def assert_names(shipped: Catalog, number: int, outline: Outline, sometimes: tup
     assert always <= named
 
 
-def test_every_indistinguishable_model_is_named_and_no_other(shipped: Catalog, outlines: dict[int, Outline]) -> None:
+def test_every_indistinguishable_model_is_named_and_no_other(
+    shipped: Catalog, outlines: dict[int, Outline]
+) -> None:
     for number, outline in outlines.items():
         assert_names(shipped, number, outline)
 
 
-@pytest.mark.parametrize(("number", "sometimes"), [(2, (6,)), (6, (2,)), (16, (2, 6)), (18, (2, 6)), (4, ()), (11, ())])
+@pytest.mark.parametrize(
+    ("number", "sometimes"), [(2, (6,)), (6, (2,)), (16, (2, 6)), (18, (2, 6)), (4, ()), (11, ())]
+)
 def test_what_depends_on_the_values_is_named_too(number: int, sometimes: tuple[int, ...]) -> None:
-    """2 and 6 of four masses without dampers see each other; 16 and 18, of a smaller rank, may behave like either."""
+    """2 and 6 of four masses without dampers see each other; 16 and 18, of a smaller rank, may
+    behave like either.
+    """
     shipped = catalog(4)
     assert_names(shipped, number, Outline(model_page(shipped, number)), sometimes)
 
@@ -52,9 +60,18 @@ def test_ids_are_unique_and_texts_are_whole(outlines: dict[int, Outline]) -> Non
     for outline in outlines.values():
         ids = [a["id"] for _, a in outline.elements if "id" in a]
         assert len(ids) == len(set(ids)) and "None" not in outline.text
-        assert not any("None" in str(value) for _, a in outline.elements for value in a.values() if value is not None)
+        assert not any(
+            "None" in str(value)
+            for _, a in outline.elements
+            for value in a.values()
+            if value is not None
+        )
         assert outline.count("math") > 2
-        assert {str(a["href"])[1:] for t, a in outline.elements if str(a.get("href", "")).startswith("#")} <= set(ids)
+        assert {
+            str(a["href"])[1:]
+            for t, a in outline.elements
+            if str(a.get("href", "")).startswith("#")
+        } <= set(ids)
 
 
 def test_what_tells_it_apart_adds_up(shipped: Catalog) -> None:
@@ -65,14 +82,22 @@ def test_what_tells_it_apart_adds_up(shipped: Catalog) -> None:
 
 
 def test_no_page_says_that_no_experiment_tells_what_some_values_do_tell_apart() -> None:
-    """A6 of four masses without dampers: A2 does the same for some of its positive parameters only."""
+    """A6 of four masses without dampers: A2 does the same for some of its positive parameters
+    only.
+    """
     text = Outline(model_page(catalog(4), 6)).text
     assert "no experiment with this force and sensor tells it from" not in text.lower()
     assert "It depends on the positive parameters whether an experiment tells it from A2." in text
-    assert "only for some positive parameters here, A2 has positive ones that do the same; the reverse for all." in text
+    assert (
+        "only for some positive parameters here, A2 has positive ones that do the same; the reverse"
+        " for all." in text
+    )
     assert "Over complex parameters, as in the paper\nIndistinguishable from A2." in text
     back = Outline(model_page(catalog(4), 2)).text
-    assert "for all positive parameters here, A6 has positive ones that do the same; the reverse for some only." in back
+    assert (
+        "for all positive parameters here, A6 has positive ones that do the same; the reverse for"
+        " some only." in back
+    )
 
 
 def test_never_and_always_are_said_of_a_pair_only_where_its_verdict_says_so(
@@ -80,24 +105,38 @@ def test_never_and_always_are_said_of_a_pair_only_where_its_verdict_says_so(
 ) -> None:
     for number, outline in outlines.items():
         always = re.findall(
-            r"Whatever its positive parameters, no experiment.*?tells it from ([^.]*)\.", outline.text, re.DOTALL
+            r"Whatever its positive parameters, no experiment.*?tells it from ([^.]*)\.",
+            outline.text,
+            re.DOTALL,
         )
         named = {int(m) for said in always for m in re.findall(r"A(\d+)", said)}
         others = [i for i in range(1, len(shipped.family) + 1) if i != number]
-        assert named == {i for i in others if shipped.relation(number, i) is Relation.INDISTINGUISHABLE}
+        assert named == {
+            i for i in others if shipped.relation(number, i) is Relation.INDISTINGUISHABLE
+        }
 
 
 def test_a_limit_case_says_what_follows() -> None:
-    """A4 of four masses without dampers is distinguishable from all others, and a limit of thirteen of them."""
+    """A4 of four masses without dampers is distinguishable from all others, and a limit of
+    thirteen of them.
+    """
     text = " ".join(Outline(model_page(catalog(4), 4)).text.split())
     assert "its behaviour is that of none of the other models of this catalogue" in text
-    assert "But over complex parameters it is a limit case of 13: noise may hide the difference." in text
+    assert (
+        "But over complex parameters it is a limit case of 13: noise may hide the difference."
+        in text
+    )
     assert "A limit case of 13 models" in text and "come as close to its own as one likes" in text
-    assert "Over complex parameters" in text and "generic behaviours of theirs are none of its own" in text
+    assert (
+        "Over complex parameters" in text
+        and "generic behaviours of theirs are none of its own" in text
+    )
 
 
 def test_a_distinguishable_pair_may_be_one_sided() -> None:
-    """Some positive models of the smaller rank behave like a larger one: then no experiment rules the larger one out."""
+    """Some positive models of the smaller rank behave like a larger one: then no experiment
+    rules the larger one out.
+    """
     shipped = catalog(4)
     sides = list(one_sided(shipped))
     assert len(sides) == 4 and {x.share for x in sides} == {Share.SOMETIMES}
@@ -106,7 +145,10 @@ def test_a_distinguishable_pair_may_be_one_sided() -> None:
         assert verdict.relation is Relation.DISTINGUISHABLE
         assert standing(x.given, x.other, verdict) is Relation.SOMETIMES
         assert standing(x.other, x.given, verdict) is Relation.DISTINGUISHABLE
-        assert f"generic ones of A{x.other} have none here" in Outline(model_page(shipped, x.given)).text
+        assert (
+            f"generic ones of A{x.other} have none here"
+            in Outline(model_page(shipped, x.given)).text
+        )
 
 
 def test_limits_look_the_same_from_both_sides() -> None:
@@ -115,7 +157,11 @@ def test_limits_look_the_same_from_both_sides() -> None:
     for number, of in found.items():
         assert all(number in found[other].holds for other in of.inside)
         assert all(number in found[other].inside for other in of.holds)
-    one_sided = [v for _, _, v in shipped.pairs() if v.closure in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)]
+    one_sided = [
+        v
+        for _, _, v in shipped.pairs()
+        if v.closure in (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+    ]
     assert sum(len(of.inside) for of in found.values()) == len(one_sided) == 32
 
 
@@ -129,7 +175,10 @@ def test_a_smaller_rank_lies_inside_a_larger_one() -> None:
 
 def test_the_page_of_the_damped_pair_gives_the_map() -> None:
     text = model_page(catalog(3, damped=True), 1)
-    assert "Whatever its positive parameters, no experiment with this force and sensor tells it from" in text
+    assert (
+        "Whatever its positive parameters, no experiment with this force and sensor tells it from"
+        in text
+    )
     assert "duality of chains with both ports at the gap" in text
     assert r"m_{3}&#39; &amp;= m_{1} + m_{2} + m_{3}" in text
 

@@ -1,4 +1,6 @@
-"""The page of a catalogue: complete, closed in itself, safe against hostile text, small and reproducible."""
+"""The page of a catalogue: complete, closed in itself, safe against hostile text, small and
+reproducible.
+"""
 
 import json
 import re
@@ -73,14 +75,20 @@ def test_packed_numbers_come_back(numbers: list[int]) -> None:
 def test_ids_are_unique_and_links_lead_somewhere(outline: Outline) -> None:
     ids = [a["id"] for _, a in outline.elements if "id" in a]
     assert len(ids) == len(set(ids))
-    inner = [str(a["href"])[1:] for _, a in outline.elements if str(a.get("href", "")).startswith("#")]
+    inner = [
+        str(a["href"])[1:] for _, a in outline.elements if str(a.get("href", "")).startswith("#")
+    ]
     assert inner and all(target in ids or re.fullmatch(r"\d+-\d+", target) for target in inner)
 
 
 def test_every_model_has_a_row_and_every_drawing_a_text(shipped: Catalog, outline: Outline) -> None:
     for row in shipped.rows:
         assert outline.count("tr", id=f"row-{row.number}") == 1
-    named = [a for t, a in outline.elements if t == "svg" and a.get("role") == "img" and "data-slot" not in a]
+    named = [
+        a
+        for t, a in outline.elements
+        if t == "svg" and a.get("role") == "img" and "data-slot" not in a
+    ]
     assert all(a.get("aria-label") for a in named)
 
 
@@ -92,7 +100,11 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
         entry = data["entries"][_unpacked(data["views"]["markov"])[place]]  # type: ignore[index]
         relation, by, where, _, domain, why, formula, rule = (data["texts"][n] for n in entry)  # type: ignore[index]
         assert (domain, rule) == ("complex", verdict.rule)
-        assert (relation, by, where) == (verdict.relation, verdict.decided_by, verdict.representation)
+        assert (relation, by, where) == (
+            verdict.relation,
+            verdict.decided_by,
+            verdict.representation,
+        )
         if verdict.evidence:
             assert why.replace("{L}", f"A{left}").replace("{R}", f"A{right}") in verdict.sentence
             assert formula == verdict.evidence.formula
@@ -100,18 +112,27 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
 
 def test_counts_are_printed_as_in_the_paper() -> None:
     text = page(catalog(3))
-    assert "26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided." in text
-    assert "26 pairs by condition 1, 7 by 4, 10 by 5 and 2 by 6; 10 left undecided." in page(catalog(3, damped=True))
+    assert (
+        "26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided." in text
+    )
+    assert "26 pairs by condition 1, 7 by 4, 10 by 5 and 2 by 6; 10 left undecided." in page(
+        catalog(3, damped=True)
+    )
 
 
 def test_hostile_text_stays_text() -> None:
     records = json.loads(json.dumps(catalog(3).records))
     records[0]["note"] = HOSTILE
-    pair = next(r for r in records[12:] if "markov" in r and r["markov"]["evidence"]["kind"] == "forms")
+    pair = next(
+        r for r in records[12:] if "markov" in r and r["markov"]["evidence"]["kind"] == "forms"
+    )
     pair["markov"]["evidence"]["only_left"] = [HOSTILE]
     text = page(Catalog.from_records(records))
     outline, before = Outline(text), Outline(page(catalog(3)))
-    assert outline.count("script") == before.count("script") and outline.count("img") == before.count("img") == 1
+    assert (
+        outline.count("script") == before.count("script")
+        and outline.count("img") == before.count("img") == 1
+    )
     assert HOSTILE in outline.texts["dd"]
     assert any(HOSTILE in str(t) for t in _data(text)["texts"])  # type: ignore[attr-defined]
     assert HOSTILE not in text
@@ -141,21 +162,31 @@ def test_the_same_bytes_again(shipped: Catalog, text: str) -> None:
 
 def test_the_headline_speaks_of_positive_parameters_and_names_the_domain_of_every_count() -> None:
     text = " ".join(Outline(page(catalog(4))).text.split())
-    assert "Over positive parameters: of 406 pairs of the 29 models, 357 are distinguishable" in text
-    assert "48 are indistinguishable: whatever the positive parameters of one, some of the other give the very same" in text
+    assert (
+        "Over positive parameters: of 406 pairs of the 29 models, 357 are distinguishable" in text
+    )
+    assert (
+        "48 are indistinguishable: whatever the positive parameters of one, some of the other give"
+        " the very same" in text
+    )
     assert "For 1 that is so for some positive parameters only" in text
     assert "Over complex parameters: of 406 pairs of the 29 models, 357 are distinguishable" in text
     assert "49 are indistinguishable: whatever the complex parameters of one" in text
     assert text.index("Over positive parameters") < text.index("Over complex parameters")
 
 
-def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_its_own_sentence() -> None:
+def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_its_own_sentence() -> (
+    None
+):
     outline = Outline(page(catalog(4)))
     ids = {str(a["id"]) for _, a in outline.elements if "id" in a}
     assert sum(re.fullmatch(r"group-\d+", i) is not None for i in ids) == 8
     assert sum(re.fullmatch(r"complex-group-\d+", i) is not None for i in ids) == 9
     text = " ".join(outline.text.split())
-    said = "For some positive parameters no experiment with this force and sensor tells them apart, for others one does: A2–A6"
+    said = (
+        "For some positive parameters no experiment with this force and sensor tells them apart,"
+        " for others one does: A2–A6"
+    )
     assert said in text
 
 
@@ -172,5 +203,9 @@ def test_the_first_view_is_that_of_positive_parameters() -> None:
     outline = Outline(page(catalog(4)))
     chosen = [a["value"] for t, a in outline.elements if t == "option" and "selected" in a]
     assert chosen == ["exact", "positive"]  # above and below the diagonal
-    checked = [a["value"] for t, a in outline.elements if t == "input" and a.get("name") == "domain" and "checked" in a]
+    checked = [
+        a["value"]
+        for t, a in outline.elements
+        if t == "input" and a.get("name") == "domain" and "checked" in a
+    ]
     assert checked == ["positive"]

@@ -7,7 +7,19 @@ import pytest
 from PIL import Image
 
 from disting.report.png import png
-from disting.report.scene import FILE_PALETTE, PAGE_PALETTE, Circle, Ink, Layer, Path, Rect, Scene, Text, arrow, extent
+from disting.report.scene import (
+    FILE_PALETTE,
+    PAGE_PALETTE,
+    Circle,
+    Ink,
+    Layer,
+    Path,
+    Rect,
+    Scene,
+    Text,
+    arrow,
+    extent,
+)
 from disting.report.svg import NAMESPACE, svg
 
 SCENE = Scene(
@@ -15,7 +27,10 @@ SCENE = Scene(
     30,
     (
         Layer("box <&>", (Rect(2, 2, 10, 10, Ink.FORCE), Circle(30, 7, 4, Ink.SENSOR))),
-        Layer("line", (Path(((2, 25), (20, 25))), Path(((22, 20), (30, 20), (26, 28)), Ink.NONE, Ink.FORCE))),
+        Layer(
+            "line",
+            (Path(((2, 25), (20, 25))), Path(((22, 20), (30, 20), (26, 28)), Ink.NONE, Ink.FORCE)),
+        ),
         Layer("text", (Text(20, 15, '<&">', bold=True),)),
     ),
     "a <scene> & more",
@@ -26,7 +41,11 @@ def test_svg_parses_and_escapes() -> None:
     root = ElementTree.fromstring(svg(SCENE))
     assert root.findtext(f"{{{NAMESPACE}}}title") == "a <scene> & more"
     assert [t.text for t in root.iter(f"{{{NAMESPACE}}}text")] == ['<&">']
-    assert [g.get("data-part") for g in root.iter() if g.get("data-part")] == ["box <&>", "line", "text"]
+    assert [g.get("data-part") for g in root.iter() if g.get("data-part")] == [
+        "box <&>",
+        "line",
+        "text",
+    ]
 
 
 def test_neighbours_of_one_style_share_a_group() -> None:
@@ -43,8 +62,15 @@ def test_png_has_the_asked_size(scale: float) -> None:
 
 def test_png_shows_the_shapes_where_they_are() -> None:
     image = Image.open(io.BytesIO(png(SCENE, scale=4))).convert("RGB")
-    colours = {ink: tuple(bytes.fromhex(code[1:])) for ink, code in FILE_PALETTE.items() if code.startswith("#")}
-    found = {place: image.getpixel((place[0] * 4, place[1] * 4)) for place in [(7, 7), (30, 7), (10, 25), (26, 22), (35, 25)]}
+    colours = {
+        ink: tuple(bytes.fromhex(code[1:]))
+        for ink, code in FILE_PALETTE.items()
+        if code.startswith("#")
+    }
+    found = {
+        place: image.getpixel((place[0] * 4, place[1] * 4))
+        for place in [(7, 7), (30, 7), (10, 25), (26, 22), (35, 25)]
+    }
     inks = (Ink.FORCE, Ink.SENSOR, Ink.LINE, Ink.FORCE, Ink.PAPER)
     assert list(found.values()) == [colours[ink] for ink in inks]
 
@@ -66,12 +92,16 @@ def test_palettes_know_every_ink() -> None:
     ],
 )
 def test_letters_are_readable(ground: Ink, letters: Ink) -> None:
-    bright, dark = sorted((_luminance(FILE_PALETTE[ground]), _luminance(FILE_PALETTE[letters])), reverse=True)
+    bright, dark = sorted(
+        (_luminance(FILE_PALETTE[ground]), _luminance(FILE_PALETTE[letters])), reverse=True
+    )
     assert (bright + 0.05) / (dark + 0.05) >= 4.5
 
 
 def test_relations_differ_in_grey_too() -> None:
-    first, second = (_luminance(FILE_PALETTE[ink]) for ink in (Ink.DISTINGUISHABLE, Ink.INDISTINGUISHABLE))
+    first, second = (
+        _luminance(FILE_PALETTE[ink]) for ink in (Ink.DISTINGUISHABLE, Ink.INDISTINGUISHABLE)
+    )
     assert (second + 0.05) / (first + 0.05) > 2
 
 

@@ -1,4 +1,6 @@
-"""The page of models of several sizes: its counts, its fields, its words; a browser finds no barrier."""
+"""The page of models of several sizes: its counts, its fields, its words; a browser finds no
+barrier.
+"""
 
 from pathlib import Path
 
@@ -31,12 +33,16 @@ def test_every_pair_has_its_sign(decided: Decisions) -> None:
     assert len(signs) == 14 * 13 // 2
     inside = [s for s in signs if isinstance(s, Text) and s.text in "⊂⊃"]
     kinds = (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
-    assert len(inside) == sum(decided.inclusion(j, i, Sense.CLOSURE) in kinds for i in range(14) for j in range(i))
+    assert len(inside) == sum(
+        decided.inclusion(j, i, Sense.CLOSURE) in kinds for i in range(14) for j in range(i)
+    )
 
 
 def test_the_page_says_it_in_words(decided: Decisions) -> None:
     text = sizes_page(decided)
-    assert "Chains of 2 to 3 masses, undamped" in text and "disting verdicts 2-3 --json FILE" in text
+    assert (
+        "Chains of 2 to 3 masses, undamped" in text and "disting verdicts 2-3 --json FILE" in text
+    )
     for one in outside(decided):
         assert f"<strong>{one.left} in {one.right}</strong>: " in text
     assert "is not known" not in text
@@ -54,8 +60,14 @@ def site(decided: Decisions, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
 def test_the_page_has_no_serious_barrier_and_fits(visit, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
     tab = visit("sizes-undamped.html", width, scheme)
     assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
     found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
-    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")] == []
+    assert [
+        (v["id"], v["nodes"][0]["html"][:120])
+        for v in found
+        if v["impact"] in ("serious", "critical")
+    ] == []

@@ -16,9 +16,9 @@ def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
     paths = write_report(catalogs, tmp_path / "new" / "folder")
     folder = tmp_path / "new" / "folder"
     names = [p.relative_to(folder).as_posix() for p in paths]
-    assert [name for name in names if "/" not in name] == [f"{c.name}{ending}" for c in catalogs for ending in ENDINGS] + [
-        "index.html"
-    ]
+    assert [name for name in names if "/" not in name] == [
+        f"{c.name}{ending}" for c in catalogs for ending in ENDINGS
+    ] + ["index.html"]
     models = ["models/1-undamped/1.html", *(f"models/2-damped/{i}.html" for i in range(1, 4))]
     guide = [name for name in names if name.startswith("guide/")]
     assert [name for name in names if "/" in name] == [*models, *guide, "models/style.css"]
@@ -38,7 +38,11 @@ def test_data_are_the_catalogues_own(tmp_path: Path) -> None:
 
 
 def test_every_link_of_the_site_leads_to_a_file(tmp_path: Path) -> None:
-    pages = [p for p in write_report([catalog(2), catalog(2, damped=True)], tmp_path) if p.suffix == ".html"]
+    pages = [
+        p
+        for p in write_report([catalog(2), catalog(2, damped=True)], tmp_path)
+        if p.suffix == ".html"
+    ]
     for path in pages:
         for target in re.findall(r'(?:href|src)="([^"#]+)', path.read_text(encoding="utf-8")):
             assert (path.parent / target).resolve().is_file(), (path.name, target)
@@ -54,10 +58,16 @@ def test_the_index_leads_to_pages_of_other_commands_where_they_are(tmp_path: Pat
 def test_families_with_ground_dampers_have_a_page_and_are_linked_both_ways(tmp_path: Path) -> None:
     found = [damper_family(2, damped=True), damper_family(1)]
     paths = write_report([catalog(2, damped=True)], tmp_path, found)
-    assert {p.name for p in paths if p.name.startswith("dampers-")} == {"dampers-1-undamped.html", "dampers-2-damped.html"}
+    assert {p.name for p in paths if p.name.startswith("dampers-")} == {
+        "dampers-1-undamped.html",
+        "dampers-2-damped.html",
+    }
     texts = {p.name: p.read_text(encoding="utf-8") for p in paths if p.suffix == ".html"}
     assert 'href="dampers-2-damped.html"' in texts["chains-2-damped.html"]
-    assert 'href="chains-2-damped.html"' in texts["dampers-2-damped.html"] and "12 models, 66 pairs" in texts["index.html"]
+    assert (
+        'href="chains-2-damped.html"' in texts["dampers-2-damped.html"]
+        and "12 models, 66 pairs" in texts["index.html"]
+    )
     assert 'href="chains-1-undamped.html"' not in texts["dampers-1-undamped.html"]  # not beside it
     for text in texts.values():
         for target in re.findall(r'href="(dampers-[^"#]+)', text):
@@ -67,10 +77,17 @@ def test_families_with_ground_dampers_have_a_page_and_are_linked_both_ways(tmp_p
 def test_the_index_keeps_pages_of_ground_dampers(tmp_path: Path) -> None:
     (tmp_path / "dampers-3-damped.html").write_text("", encoding="utf-8")
     texts = {
-        p.name: p.read_text(encoding="utf-8") for p in write_report([catalog(3, damped=True)], tmp_path) if p.suffix == ".html"
+        p.name: p.read_text(encoding="utf-8")
+        for p in write_report([catalog(3, damped=True)], tmp_path)
+        if p.suffix == ".html"
     }
-    assert "88 models, 3,828 pairs" in texts["index.html"] and 'href="dampers-3-damped.html"' in texts["chains-3-damped.html"]
-    assert "dampers-3-damped.html" not in texts and not (tmp_path / "dampers-3-damped.html").read_text(encoding="utf-8")
+    assert (
+        "88 models, 3,828 pairs" in texts["index.html"]
+        and 'href="dampers-3-damped.html"' in texts["chains-3-damped.html"]
+    )
+    assert "dampers-3-damped.html" not in texts and not (
+        tmp_path / "dampers-3-damped.html"
+    ).read_text(encoding="utf-8")
 
 
 def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
@@ -82,5 +99,8 @@ def test_the_index_keeps_the_pages_that_are_there(tmp_path: Path) -> None:
     for page in ("chains-3-undamped.html", "chains-1-damped.html"):
         (tmp_path / page).touch()
     start = write_report([catalog(2)], tmp_path)[-1].read_text(encoding="utf-8")
-    places = [start.index(f'href="chains-{name}.html"') for name in ("2-undamped", "3-undamped", "1-damped")]
+    places = [
+        start.index(f'href="chains-{name}.html"')
+        for name in ("2-undamped", "3-undamped", "1-damped")
+    ]
     assert places == sorted(places)  # one model has nothing to compare: last

@@ -31,7 +31,9 @@ BAND = Excitation(low=5.0, high=200.0)
 def truth(chain, seed=0):
     source = np.random.default_rng(seed)
     sizes = {"m": 0.01, "k": 500.0, "d": 0.1, "b": 0.1, "T": 2e-3}
-    return {name: sizes[name[0]] * float(np.exp(0.5 * source.normal())) for name in chain.parameters}
+    return {
+        name: sizes[name[0]] * float(np.exp(0.5 * source.normal())) for name in chain.parameters
+    }
 
 
 def sympy_response(chain, values, omega):
@@ -74,13 +76,33 @@ def test_a_record_without_noise_has_the_response_of_the_model(chain):
     assert len(found) == 196 and found.sensor is chain.sensor
     assert np.abs(found.G / model - 1).max() < 1e-8
     some = slice(0, None, 49)
-    np.testing.assert_allclose(model[some], sympy_response(chain, values, found.omega[some]), rtol=1e-10)
+    np.testing.assert_allclose(
+        model[some], sympy_response(chain, values, found.omega[some]), rtol=1e-10
+    )
     assert simulate(chain.structure, values, BAND, BENCH) == simulate(chain, values, BAND, BENCH)
 
 
 def test_matrices_of_three_masses_by_hand():
-    chain = Chain(3, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2, damped=True, ground_dampers=(3,))
-    values = {"m1": 1.0, "m2": 2.0, "m3": 3.0, "k01": 4.0, "k23": 5.0, "d01": 6.0, "d23": 7.0, "b3": 8.0}
+    chain = Chain(
+        3,
+        gap=1,
+        act_minus=1,
+        act_plus=2,
+        meas_minus=1,
+        meas_plus=2,
+        damped=True,
+        ground_dampers=(3,),
+    )
+    values = {
+        "m1": 1.0,
+        "m2": 2.0,
+        "m3": 3.0,
+        "k01": 4.0,
+        "k23": 5.0,
+        "d01": 6.0,
+        "d23": 7.0,
+        "b3": 8.0,
+    }
     M, D, K = matrices(chain, values)
     assert np.diag(M).tolist() == [1, 2, 3] and np.count_nonzero(M) == 3
     assert K.tolist() == [[4, 0, 0], [0, 5, -5], [0, -5, 5]]
@@ -97,11 +119,17 @@ def test_test_signals_have_the_band_and_the_size_asked_for(kind):
     if kind is not Kind.CHIRP:
         assert np.ptp(inside) / inside.max() < 1e-9
     found = simulate(DEMO_MODEL, DEMO_PARAMETERS, Excitation(kind), Bench(periods=2)).response()
-    assert np.abs(found.G / frequency_response(DEMO_MODEL, DEMO_PARAMETERS, found.omega) - 1).max() < 1e-9
+    assert (
+        np.abs(found.G / frequency_response(DEMO_MODEL, DEMO_PARAMETERS, found.omega) - 1).max()
+        < 1e-9
+    )
 
 
 def test_schroeder_phases_keep_the_peak_low_and_every_leaves_lines_out():
-    peaks = [np.abs(Excitation(kind, 10, 250).period(2500, 2500.0)).max() for kind in (Kind.SCHROEDER, Kind.RANDOM_PHASE)]
+    peaks = [
+        np.abs(Excitation(kind, 10, 250).period(2500, 2500.0)).max()
+        for kind in (Kind.SCHROEDER, Kind.RANDOM_PHASE)
+    ]
     assert peaks[0] < 2.0 < peaks[1]
     odd = simulate(DEMO_MODEL, DEMO_PARAMETERS, Excitation(low=11, high=249, every=2)).response()
     assert odd.frequency.round(6).tolist() == list(range(11, 250, 2))
@@ -113,13 +141,17 @@ def test_the_same_seed_gives_the_same_record(seed):
     chain = CHAINS[0]
     record = simulate(chain, truth(chain), replace(BAND, kind="random-phase"), bench)
     assert record == simulate(chain, truth(chain), replace(BAND, kind="random-phase"), bench)
-    assert record != simulate(chain, truth(chain), replace(BAND, kind="random-phase"), replace(bench, seed=seed + 1))
+    assert record != simulate(
+        chain, truth(chain), replace(BAND, kind="random-phase"), replace(bench, seed=seed + 1)
+    )
 
 
 def test_noise_is_as_large_as_asked_for_and_its_deviation_is_true():
     chain, values = CHAINS[0], truth(CHAINS[0])
     quiet = simulate(chain, values, BAND, replace(BENCH, periods=40))
-    loud = simulate(chain, values, BAND, replace(BENCH, periods=40, input_noise=0.05, output_noise=1e-5))
+    loud = simulate(
+        chain, values, BAND, replace(BENCH, periods=40, input_noise=0.05, output_noise=1e-5)
+    )
     assert np.std(loud.u - quiet.u) == pytest.approx(0.05, rel=0.02)
     assert np.std(loud.y - quiet.y) == pytest.approx(1e-5, rel=0.02)
     found = loud.response()
@@ -132,7 +164,9 @@ def test_an_encoder_shows_multiples_of_its_step():
     record = simulate(DEMO_MODEL, DEMO_PARAMETERS, bench=Bench(quantum=quantum, periods=2))
     steps = record.y / quantum
     assert np.abs(steps - np.rint(steps)).max() < 1e-6
-    assert np.abs(record.y - simulate(DEMO_MODEL, DEMO_PARAMETERS, bench=Bench(periods=2)).y).max() <= quantum / 2 * (1 + 1e-9)
+    assert np.abs(
+        record.y - simulate(DEMO_MODEL, DEMO_PARAMETERS, bench=Bench(periods=2)).y
+    ).max() <= quantum / 2 * (1 + 1e-9)
 
 
 def test_viscous_friction_is_a_ground_damper():
@@ -141,7 +175,9 @@ def test_viscous_friction_is_a_ground_damper():
     values = truth(chain)
     rest = {name: value for name, value in values.items() if name != "b2"}
     left = simulate(chain, values, BAND, BENCH)
-    right = simulate(plain, rest, BAND, replace(BENCH, friction={2: Friction(viscous=values["b2"])}))
+    right = simulate(
+        plain, rest, BAND, replace(BENCH, friction={2: Friction(viscous=values["b2"])})
+    )
     np.testing.assert_allclose(left.y, right.y, atol=1e-9 * np.abs(left.y).max())
 
 
@@ -153,7 +189,9 @@ def test_time_steps_agree_with_the_exact_lines_where_friction_vanishes():
 
 
 def test_coulomb_friction_acts_like_the_describing_function_of_a_sign():
-    """One sine, one mass: friction c sign(v) seen at the same frequency is a damper 4 c / (pi V) for speeds of amplitude V."""
+    """One sine, one mass: friction c sign(v) seen at the same frequency is a damper 4 c / (pi
+    V) for speeds of amplitude V.
+    """
     chain = Chain(1, sensor=Sensor.VELOCITY)
     c, low = 0.02, 10.0
     bench = Bench(samples=250, periods=12, friction={1: Friction(coulomb=c, speed=2e-3)})
@@ -167,12 +205,15 @@ def test_coulomb_friction_acts_like_the_describing_function_of_a_sign():
 
 def test_the_demonstration_is_a_bench_that_shows_its_model():
     found = demo().response("acceleration")
-    model = frequency_response(replace(DEMO_MODEL, sensor=Sensor.ACCELERATION), DEMO_PARAMETERS, found.omega)
+    model = frequency_response(
+        replace(DEMO_MODEL, sensor=Sensor.ACCELERATION), DEMO_PARAMETERS, found.omega
+    )
     assert len(found) == 241 and found.suspicions == () and demo() == demo() and demo() != demo(1)
     assert 0.7 < np.mean(np.abs((found.G - model) / found.deviation) ** 2) < 1.4
     assert (found.input.unit, found.output.unit, demo().output.unit) == ("A", "rad/s^2", "rad")
     assert (
-        found.frequency[np.argmin(np.abs(found.G))].round() == 53 and found.frequency[np.argmax(np.abs(found.G))].round() == 77
+        found.frequency[np.argmin(np.abs(found.G))].round() == 53
+        and found.frequency[np.argmax(np.abs(found.G))].round() == 77
     )
 
 
@@ -182,7 +223,10 @@ def test_the_demonstration_is_a_bench_that_shows_its_model():
         (lambda: simulate(Chain(2), {"m1": 1.0}), "parameters m1, m2, k12 are needed"),
         (lambda: simulate(Chain(1), {"m1": 0.0}), "m1 = 0.0 is no positive"),
         (lambda: simulate(Chain(1), {"m1": float("nan")}), "m1 = nan"),
-        (lambda: simulate(Chain(2), {"m1": 1.0, "m2": 1.0, "k12": -1.0}), "k12 = -1.0 is no non-negative"),
+        (
+            lambda: simulate(Chain(2), {"m1": 1.0, "m2": 1.0, "k12": -1.0}),
+            "k12 = -1.0 is no non-negative",
+        ),
         (lambda: Excitation(low=0.0), "0 < low < high"),
         (lambda: Excitation("noise"), "one of schroeder, random-phase, chirp"),
         (lambda: Excitation(high=600.0).period(1000, 1000.0), "half the sampling rate"),
@@ -190,8 +234,16 @@ def test_the_demonstration_is_a_bench_that_shows_its_model():
         (lambda: Bench(sampling_rate=0.0), "positive sampling rate"),
         (lambda: Bench(quantum=-1.0), "not negative"),
         (lambda: Friction(speed=0.0), "speed > 0"),
-        (lambda: simulate(Chain(1), {"m1": 1.0}, bench=Bench(friction={2: Friction(1.0)})), "masses 1 to 1"),
-        (lambda: simulate(Chain(1), {"m1": 1.0}, bench=Bench(friction={1: Friction(1e9, speed=1e-9)})), "steps are too many"),
+        (
+            lambda: simulate(Chain(1), {"m1": 1.0}, bench=Bench(friction={2: Friction(1.0)})),
+            "masses 1 to 1",
+        ),
+        (
+            lambda: simulate(
+                Chain(1), {"m1": 1.0}, bench=Bench(friction={1: Friction(1e9, speed=1e-9)})
+            ),
+            "steps are too many",
+        ),
         (lambda: frequency_response(Chain(1), {"m1": 1.0}, np.zeros(1)), "response is infinite"),
     ],
 )

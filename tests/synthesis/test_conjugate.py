@@ -1,4 +1,6 @@
-"""One way to share out conjugate zeros speaks for all: groups against SymPy, fibres against those with every way tried."""
+"""One way to share out conjugate zeros speaks for all: groups against SymPy, fibres against
+those with every way tried.
+"""
 
 import sys
 
@@ -36,7 +38,8 @@ def test_the_symmetric_group_is_found_where_sympy_finds_it(coefficients):
         ([[1, 1], [-2, 0, 0, 1]], True),
         ([[-2, 0, 1], [-3, 0, 1]], True),  # square roots of 2 and of 3
         ([[-2, 0, 1], [-8, 0, 1]], False),  # one field: what moves one moves the other
-        ([[-2, 0, 0, 1], [3, 0, 1]], False),  # the field of the cube roots of 2 holds the square root of -3
+        # the field of the cube roots of 2 holds the square root of -3
+        ([[-2, 0, 0, 1], [3, 0, 1]], False),
         ([[-2, 0, 0, 1], [-2, 0, 1]], True),
         ([[-2, 0, 1], [-2, 0, 1]], False),  # multiple
         ([[0, 1], [1, 1, 1]], True),
@@ -77,5 +80,8 @@ def test_the_solutions_of_a_models_own_fibre_are_those_of_every_way(monkeypatch)
     assert quick.status is slow.status is Status.COMPLETE
     assert len(quick.solutions) == len(slow.solutions)
     for one in quick.solutions:
-        assert any(all(one.values[name].overlaps(other.values[name]) for name in one.values) for other in slow.solutions)
+        assert any(
+            all(one.values[name].overlaps(other.values[name]) for name in one.values)
+            for other in slow.solutions
+        )
     assert quick.tests.refuted < slow.tests.refuted

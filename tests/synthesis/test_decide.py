@@ -16,7 +16,10 @@ OPEN_MEMBERS = {
     (4, True): {(1, 29), (8, 19)},
 }
 OPEN_COUNTS = {(3, True): 6, (4, False): 9, (4, True): 46}
-AGREES = {Relation.DISTINGUISHABLE: Membership.EXCLUDED, Relation.INDISTINGUISHABLE: Membership.MEMBER}
+AGREES = {
+    Relation.DISTINGUISHABLE: Membership.EXCLUDED,
+    Relation.INDISTINGUISHABLE: Membership.MEMBER,
+}
 
 
 def undecided(c: Catalog) -> list[tuple[int, int]]:
@@ -27,7 +30,11 @@ def undecided(c: Catalog) -> list[tuple[int, int]]:
 def test_agrees_with_the_conditions_on_pairs_of_equal_rank(n: int, damped: bool) -> None:
     c = catalog(n, damped=damped)
     rank = {row.number: row.rank for row in c.rows}
-    decided = [(i, j, v) for i, j, v in c.pairs(View.COMBINED) if rank[i] == rank[j] and v.relation in AGREES]
+    decided = [
+        (i, j, v)
+        for i, j, v in c.pairs(View.COMBINED)
+        if rank[i] == rank[j] and v.relation in AGREES
+    ]
     assert len(decided) > 15
     for i, j, verdict in decided if n < 4 else decided[::6]:
         assert decide(c.family[i], c.family[j]).membership is AGREES[verdict.relation], (i, j)
@@ -38,7 +45,9 @@ def test_decides_every_open_pair(n: int, damped: bool) -> None:
     c = catalog(n, damped=damped)
     found = {pair: decide(c.family[pair[0]], c.family[pair[1]]) for pair in undecided(c)}
     assert len(found) == OPEN_COUNTS[n, damped]
-    assert {pair for pair, e in found.items() if e.membership is Membership.MEMBER} == OPEN_MEMBERS[n, damped]
+    assert {pair for pair, e in found.items() if e.membership is Membership.MEMBER} == OPEN_MEMBERS[
+        n, damped
+    ]
     assert all(e.membership is not Membership.UNKNOWN for e in found.values())
 
 
@@ -52,7 +61,10 @@ def test_every_member_among_the_open_pairs_is_proven() -> None:
 def test_another_seed_says_the_same() -> None:
     c = catalog(3, damped=True)
     for i, j in undecided(c):
-        assert decide(c.family[i], c.family[j], "again").membership is decide(c.family[i], c.family[j]).membership
+        assert (
+            decide(c.family[i], c.family[j], "again").membership
+            is decide(c.family[i], c.family[j]).membership
+        )
 
 
 @pytest.mark.slow

@@ -17,7 +17,9 @@ def at_gap(n: int, g: int, damped: bool = True) -> Chain:
 
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(("n", "g"), [(n, g) for n in range(2, 7) for g in range(n)])
-def test_dual_parameters_are_positive_and_have_the_same_transfer_function(n: int, g: int, damped: bool) -> None:
+def test_dual_parameters_are_positive_and_have_the_same_transfer_function(
+    n: int, g: int, damped: bool
+) -> None:
     left, right = at_gap(n, g, damped), at_gap(n, n - 1 - g, damped)
     point = rational_point(left, "dual")
     image = dual(left, point)
@@ -29,7 +31,12 @@ def test_dual_parameters_are_positive_and_have_the_same_transfer_function(n: int
 
 def test_number_of_dual_pairs_of_a_family() -> None:
     models = Family(5, damped=True).models
-    pairs = [(i, j) for i, a in enumerate(models, 1) for j, b in enumerate(models, 1) if i <= j and are_dual(a, b)]
+    pairs = [
+        (i, j)
+        for i, a in enumerate(models, 1)
+        for j, b in enumerate(models, 1)
+        if i <= j and are_dual(a, b)
+    ]
     assert pairs == [(1, 73), (13, 56), (33, 33)]
 
 

@@ -1,4 +1,6 @@
-"""Fibres: planted solutions come back, counts are those of the theorems, special points are told."""
+"""Fibres: planted solutions come back, counts are those of the theorems, special points are
+told.
+"""
 
 from dataclasses import replace
 from math import comb
@@ -23,7 +25,9 @@ def own_fibre(chain: Chain, seed: str = "test") -> tuple[dict[str, fmpq], Fibre]
 
 
 def holds(fibre: Fibre, point: dict[str, fmpq]) -> int:
-    return sum(all(s.values[name].overlaps(acb(v)) for name, v in point.items()) for s in fibre.solutions)
+    return sum(
+        all(s.values[name].overlaps(acb(v)) for name, v in point.items()) for s in fibre.solutions
+    )
 
 
 def covered(chain: Chain) -> bool:
@@ -39,7 +43,11 @@ def test_a_planted_damped_solution_is_found_again(n: int) -> None:
         assert found.status is Status.COMPLETE, chain
         assert holds(found, point) == 1, chain
         assert all(s.confirmation is Confirmation.SUBSYSTEM for s in found.solutions), chain
-        planted = next(s for s in found.solutions if all(s.values[p].overlaps(acb(v)) for p, v in point.items()))
+        planted = next(
+            s
+            for s in found.solutions
+            if all(s.values[p].overlaps(acb(v)) for p, v in point.items())
+        )
         assert (planted.real, planted.positive) == (Answer.YES, Answer.YES)
 
 
@@ -120,14 +128,21 @@ def test_long_inner_equations_find_the_planted_model_alone() -> None:
     found = fibre(chain, target(chain.structure, point))
     assert found.status is Status.COMPLETE and len(found.solutions) == 1
     with ctx.workprec(400):
-        assert all(found.solutions[0].values[name].overlaps(acb(value)) for name, value in point.items())
+        assert all(
+            found.solutions[0].values[name].overlaps(acb(value)) for name, value in point.items()
+        )
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ports", [(2, 1, 3, 2, 5), (3, 1, 4, 2, 5), (3, 1, 4, 3, 5), (3, 2, 4, 3, 5)])
+@pytest.mark.parametrize(
+    "ports", [(2, 1, 3, 2, 5), (3, 1, 4, 2, 5), (3, 1, 4, 3, 5), (3, 2, 4, 3, 5)]
+)
 def test_long_inner_equations_refute_models_of_smaller_rank(ports: tuple[int, ...]) -> None:
     given = Chain(5, *ports, damped=True)
-    found = fibre(Chain(5, act_plus=2, meas_plus=3, damped=True), target(given.structure, rational_point(given, "test")))
+    found = fibre(
+        Chain(5, act_plus=2, meas_plus=3, damped=True),
+        target(given.structure, rational_point(given, "test")),
+    )
     assert found.status is Status.EMPTY
 
 
@@ -138,7 +153,11 @@ def test_uncovered_chains_say_so() -> None:
 
 def test_equal_ratios_of_stiffness_and_damping_are_no_generic_point() -> None:
     """Rayleigh damping: zeros of the springs coincide; whatever comes out, it is not 'empty'."""
-    for chain in (Chain(3, damped=True), Chain(3, act_plus=1, meas_plus=3, damped=True), Family(3, damped=True)[2]):
+    for chain in (
+        Chain(3, damped=True),
+        Chain(3, act_plus=1, meas_plus=3, damped=True),
+        Family(3, damped=True)[2],
+    ):
         point = rational_point(chain, "rayleigh")
         point |= {f"d{name[1:]}": value / 3 for name, value in point.items() if name[0] == "k"}
         assert fibre(chain, target(chain.structure, point)).status is not Status.EMPTY

@@ -1,4 +1,6 @@
-"""Dampers to the ground and lags: planted solutions come back, numbers agree with theory, and with the other engine."""
+"""Dampers to the ground and lags: planted solutions come back, numbers agree with theory, and
+with the other engine.
+"""
 
 from dataclasses import replace
 from itertools import combinations
@@ -40,11 +42,15 @@ def own_fibre(chain: Chain, seed: str = "friction") -> tuple[dict[str, fmpq], Fi
 
 
 def hits(found: Fibre, point: dict[str, fmpq]) -> int:
-    return sum(all(s.values[name].overlaps(acb(v)) for name, v in point.items()) for s in found.solutions)
+    return sum(
+        all(s.values[name].overlaps(acb(v)) for name, v in point.items()) for s in found.solutions
+    )
 
 
 def plain_receptance(chain: Chain, values: dict[str, fmpq]) -> tuple[fmpq_poly, fmpq_poly]:
-    """Numerator and denominator from the picture alone: determinants by Leibniz' formula, Cramer's rule."""
+    """Numerator and denominator from the picture alone: determinants by Leibniz' formula,
+    Cramer's rule.
+    """
     n, s = chain.n_masses, fmpq_poly([0, 1])
     a = [[fmpq_poly([0]) for _ in range(n + 1)] for _ in range(n + 1)]
     for name, value in values.items():
@@ -60,7 +66,9 @@ def plain_receptance(chain: Chain, values: dict[str, fmpq]) -> tuple[fmpq_poly, 
     sensor = [int(i == chain.meas_plus) - int(i == chain.meas_minus) for i in range(1, n + 1)]
     num = fmpq_poly([0])
     for i in range(n):
-        replaced = [[fmpq_poly([force[r]]) if c == i else matrix[r][c] for c in range(n)] for r in range(n)]
+        replaced = [
+            [fmpq_poly([force[r]]) if c == i else matrix[r][c] for c in range(n)] for r in range(n)
+        ]
         num += sensor[i] * determinant(replaced)
     den = determinant(matrix) * (1 + values["T1"] * s if "T1" in values else s**0)
     return num, den
@@ -70,14 +78,20 @@ def determinant(matrix: list[list[fmpq_poly]]) -> fmpq_poly:
     if not matrix:
         return fmpq_poly([1])
     minors = ([row[:j] + row[j + 1 :] for row in matrix[1:]] for j in range(len(matrix)))
-    return sum(((-1) ** j * matrix[0][j] * determinant(m) for j, m in enumerate(minors)), fmpq_poly([0]))
+    return sum(
+        ((-1) ** j * matrix[0][j] * determinant(m) for j, m in enumerate(minors)), fmpq_poly([0])
+    )
 
 
-@pytest.mark.parametrize(("n", "damped", "lag"), [(2, True, False), (2, False, False), (2, True, True), (3, True, False)])
+@pytest.mark.parametrize(
+    ("n", "damped", "lag"), [(2, True, False), (2, False, False), (2, True, True), (3, True, False)]
+)
 def test_a_planted_solution_is_found_again(n: int, damped: bool, lag: bool) -> None:
     for chain in (replace(c, lag=lag) for c in rubbed(n, damped) if covered(c)):
         point, found = own_fibre(chain)
-        full = max(t.rank for t in proof_tangents(chain.structure, "friction", 2)) == len(chain.parameters)
+        full = max(t.rank for t in proof_tangents(chain.structure, "friction", 2)) == len(
+            chain.parameters
+        )
         assert found.status is (Status.COMPLETE if full else Status.INFINITE), chain
         assert hits(found, point) == full, chain
         if full:
@@ -98,7 +112,9 @@ def test_what_is_covered_without_dampers_beside_the_springs() -> None:
 
 
 def test_what_is_covered() -> None:
-    """All damped 3-mass models but force and sensor at both ends, and two of force and sensor at neighbours."""
+    """All damped 3-mass models but force and sensor at both ends, and two of force and sensor
+    at neighbours.
+    """
     left = [c for c in rubbed(3, True) if not covered(c)]
     assert len(left) == 12
     distant = [c for c in left if c.meas_plus - c.act_plus == 2]
@@ -109,7 +125,10 @@ def test_what_is_covered() -> None:
         ((0, 2, 0, 3), (1, 3)),
         ((0, 2, 0, 3), (2, 3)),
     }
-    assert fibre(left[0], target(left[0].structure, rational_point(left[0], "x"))).status is Status.NOT_COVERED
+    assert (
+        fibre(left[0], target(left[0].structure, rational_point(left[0], "x"))).status
+        is Status.NOT_COVERED
+    )
 
 
 @pytest.mark.parametrize(
@@ -128,7 +147,10 @@ def test_solutions_have_the_receptance_judged_by_plain_determinants(chain: Chain
     at = fmpq(7, 3)
     exact = num(at) / den(at)
     for solution in (s for s in found.solutions if s.real is Answer.YES):
-        rounded = {name: fmpq(round(float(v.real.mid()) * 2**60), 2**60) for name, v in solution.values.items()}
+        rounded = {
+            name: fmpq(round(float(v.real.mid()) * 2**60), 2**60)
+            for name, v in solution.values.items()
+        }
         ours = plain_receptance(chain, rounded)
         ratio = (ours[0](at) / ours[1](at)) / exact
         assert abs(int(ratio.p) / int(ratio.q) - 1) < 1e-9
@@ -146,8 +168,12 @@ def test_solutions_have_the_receptance_judged_by_plain_determinants(chain: Chain
     ],
 )
 def test_numbers_of_solutions(chain: Chain, count: int) -> None:
-    """Stationary points: 2 for one mass, 6 * 2 for two; 2 * 2 on both sides of the middle mass, times 6 shares of the zeros."""
-    assert len(own_fibre(chain)[1].solutions) == len(own_fibre(chain, "other")[1].solutions) == count
+    """Stationary points: 2 for one mass, 6 * 2 for two; 2 * 2 on both sides of the middle mass,
+    times 6 shares of the zeros.
+    """
+    assert (
+        len(own_fibre(chain)[1].solutions) == len(own_fibre(chain, "other")[1].solutions) == count
+    )
 
 
 @pytest.mark.parametrize(
@@ -177,9 +203,14 @@ def test_parallel_dampers_are_a_family_of_halves() -> None:
 def test_an_undamped_lag_is_found_exactly() -> None:
     chain = Chain(3, 0, 0, 2, 0, 2, lag=True)
     point, found = own_fibre(chain)
-    assert len(found.solutions) == 2 and all(s.values["T1"].overlaps(acb(point["T1"])) for s in found.solutions)
+    assert len(found.solutions) == 2 and all(
+        s.values["T1"].overlaps(acb(point["T1"])) for s in found.solutions
+    )
     damped = Chain(3, damped=True, lag=False)
-    other = target(replace(damped, ground_dampers=(2,)).structure, rational_point(replace(damped, ground_dampers=(2,)), "x"))
+    other = target(
+        replace(damped, ground_dampers=(2,)).structure,
+        rational_point(replace(damped, ground_dampers=(2,)), "x"),
+    )
     assert fibre(chain, other).status is not Status.EMPTY
     assert fibre(replace(chain, n_masses=2, act_plus=1, meas_plus=1), other).status is Status.EMPTY
 
@@ -188,17 +219,27 @@ def test_a_lag_is_told_from_none() -> None:
     plain = Chain(3, damped=True, ground_dampers=(2,))
     point = rational_point(replace(plain, lag=True), "x")
     assert fibre(plain, target(replace(plain, lag=True).structure, point)).status is Status.EMPTY
-    assert fibre(replace(plain, lag=True), target(plain.structure, point)).status is Status.DEGENERATE
+    assert (
+        fibre(replace(plain, lag=True), target(plain.structure, point)).status is Status.DEGENERATE
+    )
 
 
 def test_the_pole_at_zero_rules_out() -> None:
-    """One damper stops the motion of the whole; two with the sum zero do not, so nothing is said of them there."""
+    """One damper stops the motion of the whole; two with the sum zero do not, so nothing is
+    said of them there.
+    """
     plain = Chain(2, damped=True)
     t = target(plain.structure, rational_point(plain, "test"))
     assert fibre(replace(plain, ground_dampers=(1,)), t).status is Status.EMPTY
-    assert fibre(replace(plain, ground_dampers=(1, 2)), t).reason != "the multiplicities of the pole at zero differ"
+    assert (
+        fibre(replace(plain, ground_dampers=(1, 2)), t).reason
+        != "the multiplicities of the pole at zero differ"
+    )
     rubbing = replace(plain, ground_dampers=(2,))
-    assert fibre(plain, target(rubbing.structure, rational_point(rubbing, "test"))).status is Status.EMPTY
+    assert (
+        fibre(plain, target(rubbing.structure, rational_point(rubbing, "test"))).status
+        is Status.EMPTY
+    )
 
 
 def test_dampers_of_opposite_sign_are_found_where_their_sum_is_zero() -> None:
@@ -228,8 +269,14 @@ def test_a_sum_of_dampers_that_is_zero_is_never_called_empty() -> None:
 @given(st.data())
 def test_a_model_is_never_proven_to_be_no_model_of_its_own_structure(data: st.DataObject) -> None:
     """Small integers of both signs, where poles, zeros and elements coincide often."""
-    chain = data.draw(st.sampled_from([c for n in (2, 3) for damped in (False, True) for c in rubbed(n, damped) if covered(c)]))
-    values = data.draw(st.lists(st.sampled_from((-3, -2, -1, 1, 2, 3, 5)), min_size=16, max_size=16))
+    chain = data.draw(
+        st.sampled_from(
+            [c for n in (2, 3) for damped in (False, True) for c in rubbed(n, damped) if covered(c)]
+        )
+    )
+    values = data.draw(
+        st.lists(st.sampled_from((-3, -2, -1, 1, 2, 3, 5)), min_size=16, max_size=16)
+    )
     point = {name: fmpq(v) for name, v in zip(chain.parameters, values, strict=False)}
     found = fibre(chain, target(chain.structure, point))
     assert found.status is not Status.EMPTY
@@ -244,10 +291,15 @@ def test_special_values_are_told() -> None:
 
 
 def test_a_single_mass() -> None:
-    for chain in (Chain(1, ground_dampers=(1,)), Chain(1, damped=True, ground_dampers=(1,), lag=True), Chain(1, lag=True)):
+    for chain in (
+        Chain(1, ground_dampers=(1,)),
+        Chain(1, damped=True, ground_dampers=(1,), lag=True),
+        Chain(1, lag=True),
+    ):
         point, found = own_fibre(chain)
         assert found.status is Status.COMPLETE and hits(found, point) == 1
-        assert len(found.solutions) == (2 if chain.lag and chain.ground_dampers else 1)  # which pole is the lag's
+        # which pole is the lag's
+        assert len(found.solutions) == (2 if chain.lag and chain.ground_dampers else 1)
 
 
 def test_an_element_near_zero_is_no_proof_of_emptiness() -> None:
@@ -257,7 +309,11 @@ def test_an_element_near_zero_is_no_proof_of_emptiness() -> None:
 
 
 def test_friction_is_never_untested() -> None:
-    assert is_untested(Chain(3)) and not is_untested(Chain(3, ground_dampers=(1,))) and not is_untested(Chain(3, lag=True))
+    assert (
+        is_untested(Chain(3))
+        and not is_untested(Chain(3, ground_dampers=(1,)))
+        and not is_untested(Chain(3, lag=True))
+    )
 
 
 def test_a_dead_time_is_left_out() -> None:
@@ -270,13 +326,23 @@ def test_a_dead_time_is_left_out() -> None:
 def comparable(models: list[Chain]) -> list[tuple[Chain, Chain]]:
     """Pairs of equal rank and degrees."""
     kinds = [
-        (max(t.rank for t in proof_tangents(c.structure, "kind", 2)), coefficient_map(c.structure).degrees) for c in models
+        (
+            max(t.rank for t in proof_tangents(c.structure, "kind", 2)),
+            coefficient_map(c.structure).degrees,
+        )
+        for c in models
     ]
-    return [(models[i], models[j]) for i, j in combinations(range(len(models)), 2) if kinds[i] == kinds[j]]
+    return [
+        (models[i], models[j])
+        for i, j in combinations(range(len(models)), 2)
+        if kinds[i] == kinds[j]
+    ]
 
 
 def agreements(pairs: list[tuple[Chain, Chain]]) -> dict[Membership, int]:
-    """How many pairs are decided how; each decision must be that of the conditions and the ideals."""
+    """How many pairs are decided how; each decision must be that of the conditions and the
+    ideals.
+    """
     engine, counts = Engine(), dict.fromkeys(Membership, 0)
     said = {Membership.MEMBER: "indistinguishable", Membership.EXCLUDED: "distinguishable"}
     for left, right in pairs:
@@ -294,7 +360,9 @@ def test_both_engines_agree_on_a_sample_of_the_88_models() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("damped", "expected"), [(True, (127, 487, 23)), (False, None)])
-def test_both_engines_agree_on_all_88_models(damped: bool, expected: tuple[int, ...] | None) -> None:
+def test_both_engines_agree_on_all_88_models(
+    damped: bool, expected: tuple[int, ...] | None
+) -> None:
     counts = agreements(comparable(rubbed(3, damped)))
     assert expected is None or tuple(counts[m] for m in Membership) == expected
     assert counts[Membership.EXCLUDED] > 300

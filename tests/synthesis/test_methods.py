@@ -19,10 +19,16 @@ def test_inner_method_finds_what_the_end_method_finds(n: int) -> None:
     t = target(chain.structure, rational_point(chain, "test"))
     segment = Segment(n, n - 1, n, wall=False, q=2)
     with ctx.workprec(500):
-        ways = [[p for p in way(segment, t.balls) if isinstance(p, Part)] for way in (next_to_end, inner_neighbours)]
+        ways = [
+            [p for p in way(segment, t.balls) if isinstance(p, Part)]
+            for way in (next_to_end, inner_neighbours)
+        ]
         assert len(ways[0]) == len(ways[1]) >= 1
         for part in ways[0]:
-            assert any(all(a.overlaps(b) for a, b in zip(part.masses, other.masses, strict=True)) for other in ways[1])
+            assert any(
+                all(a.overlaps(b) for a, b in zip(part.masses, other.masses, strict=True))
+                for other in ways[1]
+            )
 
 
 def test_interpolation_returns_the_polynomial() -> None:

@@ -1,14 +1,15 @@
 """Batched complex Levenberg-Marquardt on a fibre, in NumPy: an independent numeric witness.
 
-num(s) = det A(s) e_meas' A(s)^-1 e_act and den(s) = det A(s) are evaluated on the unit circle, at more points than their
-degree; a discrete Fourier transform gives the coefficients. A parameter that enters as w v v' has, with x = A^-1 e_act and
-y = A^-1 e_meas,
+num(s) = det A(s) e_meas' A(s)^-1 e_act and den(s) = det A(s) are evaluated on the unit circle, at
+more points than their degree; a discrete Fourier transform gives the coefficients. A parameter
+that enters as w v v' has, with x = A^-1 e_act and y = A^-1 e_meas,
 
     d det A = det A w v' A^-1 v        d (e_meas' A^-1 e_act) = -w (v' x)(v' y)
 
-The unknowns are complex logarithms, so no element is ever zero. Residuals are relative errors of the coefficients of num and
-den over the product of the masses, those that vanish for the given model left out. A solution found is evidence for "same
-transfer function"; a failure to find one proves nothing: it may lie far from all starts.
+The unknowns are complex logarithms, so no element is ever zero. Residuals are relative errors of
+the coefficients of num and den over the product of the masses, those that vanish for the given
+model left out. A solution found is evidence for "same transfer function"; a failure to find one
+proves nothing: it may lie far from all starts.
 """
 
 from dataclasses import dataclass
@@ -20,12 +21,16 @@ from numpy.typing import NDArray
 from tests.witness.mechanics import elements, ports
 
 Array = NDArray[np.complex128]
-ZERO = 1e-9  # a coefficient this small beside the largest one is zero: values between 1/2 and 2 leave no small ones
+# a coefficient this small beside the largest one is zero: values between 1/2 and 2 leave no small
+# ones
+ZERO = 1e-9
 
 
 @dataclass(frozen=True)
 class Model:
-    """A chain as arrays: vectors of the elements (n, N), powers of s (n,), ports (N,), which parameters are masses (n,)."""
+    """A chain as arrays: vectors of the elements (n, N), powers of s (n,), ports (N,), which
+    parameters are masses (n,).
+    """
 
     vectors: NDArray[np.float64]
     powers: NDArray[np.int64]
@@ -53,17 +58,28 @@ def model(chain: Any) -> Model:
 
 
 def coefficients(m: Model, q: Array) -> tuple[Array, Array]:
-    """Coefficients (b, c) of num and den over the product of the masses, and their Jacobian (b, c, n), at parameters (b, n)."""
+    """Coefficients (b, c) of num and den over the product of the masses, and their Jacobian (b,
+    c, n), at parameters (b, n).
+    """
     weights = m.circle[:, None] ** m.powers  # (k, n)
     pencil = np.einsum("bn,kn,ni,nj->bkij", q, weights, m.vectors, m.vectors, optimize=True)
     inverse, det = np.linalg.inv(pencil), np.linalg.det(pencil)
     x, y = inverse @ m.force, inverse @ m.sensor
     transfer = x @ m.sensor
-    d_det = det[..., None] * weights * np.einsum("ni,bkij,nj->bkn", m.vectors, inverse, m.vectors, optimize=True)
+    d_det = (
+        det[..., None]
+        * weights
+        * np.einsum("ni,bkij,nj->bkn", m.vectors, inverse, m.vectors, optimize=True)
+    )
     d_transfer = -weights * (x @ m.vectors.T) * (y @ m.vectors.T)
     lead = np.prod(q[:, m.masses], axis=1)[:, None]
     values = _over_powers(np.stack([det * transfer, det], 1)) / lead
-    slopes = _over_powers(np.stack([d_det * transfer[..., None] + det[..., None] * d_transfer, d_det], 1)) / lead[..., None]
+    slopes = (
+        _over_powers(
+            np.stack([d_det * transfer[..., None] + det[..., None] * d_transfer, d_det], 1)
+        )
+        / lead[..., None]
+    )
     slopes[:, :, m.masses] -= values[..., None] / q[:, None, m.masses]
     return values, slopes
 
@@ -74,9 +90,12 @@ def _over_powers(at_points: Array) -> Array:
     return found.reshape(found.shape[0], -1, *found.shape[3:])
 
 
-def best_residual(given: Any, searched: Any, starts: int = 64, steps: int = 150, seed: int = 0) -> float:
-    """Smallest residual (maximum norm) over random complex starts for a random positive model of `given`; infinite where the
-    coefficients of the two chains do not vanish together."""
+def best_residual(
+    given: Any, searched: Any, starts: int = 64, steps: int = 150, seed: int = 0
+) -> float:
+    """Smallest residual (maximum norm) over random complex starts for a random positive model of
+    `given`; infinite where the coefficients of the two chains do not vanish together.
+    """
     draw = np.random.default_rng(seed)
     point = np.exp(draw.uniform(-0.7, 0.7, (1, len(given.parameters)))).astype(complex)
     goal = coefficients(model(given), point)[0][0]
@@ -89,8 +108,12 @@ def best_residual(given: Any, searched: Any, starts: int = 64, steps: int = 150,
     return float(_descended(m, goal[used], used, u, steps).min())
 
 
-def _descended(m: Model, goal: Array, used: NDArray[np.bool_], u: Array, steps: int) -> NDArray[np.float64]:
-    """Residuals (maximum norm) of all starts after the steps; the damping of each start grows and shrinks by itself."""
+def _descended(
+    m: Model, goal: Array, used: NDArray[np.bool_], u: Array, steps: int
+) -> NDArray[np.float64]:
+    """Residuals (maximum norm) of all starts after the steps; the damping of each start grows
+    and shrinks by itself.
+    """
 
     def at(u: Array) -> tuple[Array, Array]:
         q = np.exp(u)
@@ -108,6 +131,11 @@ def _descended(m: Model, goal: Array, used: NDArray[np.bool_], u: Array, steps: 
         f_new, j_new = at(trial)
         new = np.linalg.norm(f_new, axis=1)
         better = new < size
-        u[better], f[better], j[better], size[better] = trial[better], f_new[better], j_new[better], new[better]
+        u[better], f[better], j[better], size[better] = (
+            trial[better],
+            f_new[better],
+            j_new[better],
+            new[better],
+        )
         damping = np.clip(np.where(better, damping / 4, damping * 4), 1e-15, 1e6)
     return np.abs(f).max(axis=1)

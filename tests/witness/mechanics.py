@@ -1,6 +1,8 @@
-"""Equations of motion A(s) = M s^2 + D s + K, assembled from indices and parameter names alone, over any numbers.
+"""Equations of motion A(s) = M s^2 + D s + K, assembled from indices and parameter names alone,
+over any numbers.
 
-Each element adds parameter * s^power * v v' for a vector v of the masses. This shares no code with disting.
+Each element adds parameter * s^power * v v' for a vector v of the masses. This shares no code with
+disting.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,12 +24,17 @@ class Element:
 
 
 def elements(chain: Any) -> list[Element]:
-    """Masses, springs and dampers of a chain, by its indices and the order of its names: m1.., k.., d.."""
+    """Masses, springs and dampers of a chain, by its indices and the order of its names: m1..,
+    k.., d..
+    """
     n = chain.n_masses
     joints = [unit(n, i + 1, i) for i in range(n) if i != chain.gap]
     masses = [unit(n, i, 0) for i in range(1, n + 1)]
     kinds = {"m": (2, iter(masses)), "k": (0, iter(joints)), "d": (1, iter(joints))}
-    return [Element(name, kinds[name[0]][0], tuple(next(kinds[name[0]][1]))) for name in chain.parameters]
+    return [
+        Element(name, kinds[name[0]][0], tuple(next(kinds[name[0]][1])))
+        for name in chain.parameters
+    ]
 
 
 def ports(chain: Any) -> tuple[Vector, Vector]:
@@ -54,7 +61,9 @@ def response(chain: Any, values: Mapping[str, Fraction], s: Fraction) -> Fractio
 
 
 def solved(rows: Sequence[Sequence[Fraction]]) -> list[Fraction]:
-    """Solution of the linear system [A | b]; A is positive definite for s > 0, so no pivot is zero."""
+    """Solution of the linear system [A | b]; A is positive definite for s > 0, so no pivot is
+    zero.
+    """
     work = [list(row) for row in rows]
     for i, pivot in enumerate(work):
         work[i] = [x / pivot[i] for x in pivot]

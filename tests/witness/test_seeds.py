@@ -1,4 +1,6 @@
-"""Verdicts are facts about models: the seed, the order of a pair and the sensor quantity change nothing."""
+"""Verdicts are facts about models: the seed, the order of a pair and the sensor quantity change
+nothing.
+"""
 
 from itertools import combinations
 
@@ -13,9 +15,14 @@ def computed(family: Family, seed: str = "disting", *, backwards: bool = False) 
     """Relation of every pair of a family by a fresh engine, the models numbered from 1."""
     numbers = range(len(family), 0, -1) if backwards else range(1, len(family) + 1)
     engine = Engine(Settings(seed=seed))
-    found = engine.decisions([engine.subject(f"A{n}", family[n]) for n in numbers], Query(View.EXACT))
+    found = engine.decisions(
+        [engine.subject(f"A{n}", family[n]) for n in numbers], Query(View.EXACT)
+    )
     place = {number: i for i, number in enumerate(numbers)}
-    return {(i, j): found.relation(place[i], place[j]) for i, j in combinations(range(1, len(family) + 1), 2)}
+    return {
+        (i, j): found.relation(place[i], place[j])
+        for i, j in combinations(range(1, len(family) + 1), 2)
+    }
 
 
 def shipped(n: int, damped: bool) -> Relations:
@@ -47,7 +54,9 @@ def test_four_masses_in_the_other_order(damped: bool) -> None:
 
 
 def test_a_verdict_of_a_pair_does_not_depend_on_its_order() -> None:
-    """Pair by pair, each order by an engine of its own: the relation, what decided it, and how surely."""
+    """Pair by pair, each order by an engine of its own: the relation, what decided it, and how
+    surely.
+    """
     family = Family(3, damped=True)
     for i, j in list(combinations(range(1, len(family) + 1), 2))[::3]:
         one, other = (_verdict(family, *pair) for pair in ((i, j), (j, i)))
@@ -57,7 +66,11 @@ def test_a_verdict_of_a_pair_does_not_depend_on_its_order() -> None:
 
 def _verdict(family: Family, left: int, right: int) -> Verdict:
     engine = Engine()
-    return engine.verdict(engine.subject("left", family[left]), engine.subject("right", family[right]), Query(View.EXACT))
+    return engine.verdict(
+        engine.subject("left", family[left]),
+        engine.subject("right", family[right]),
+        Query(View.EXACT),
+    )
 
 
 @pytest.mark.parametrize("damped", [False, True])

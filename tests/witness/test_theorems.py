@@ -27,11 +27,15 @@ def at_gap(n: int, g: int, damped: bool) -> Chain:
 def random_point(chain: Chain, label: str) -> Point:
     """Fractions between 1/9 and 9, which need no common denominator."""
     draw = random.Random(f"{chain}:{label}")
-    return {name: Fraction(draw.randint(100, 900), draw.randint(100, 900)) for name in chain.parameters}
+    return {
+        name: Fraction(draw.randint(100, 900), draw.randint(100, 900)) for name in chain.parameters
+    }
 
 
 def same_receptance(left: Chain, p: Point, right: Chain, q: Point) -> bool:
-    """num/den of degree 2 N at most agree if they do at more than 4 N points; s > 0 is never a pole of a passive chain."""
+    """num/den of degree 2 N at most agree if they do at more than 4 N points; s > 0 is never a
+    pole of a passive chain.
+    """
     points = map(Fraction, range(1, 4 * left.n_masses + 2))
     return all(response(left, p, s) == response(right, q, s) for s in points)
 
@@ -63,7 +67,9 @@ def test_dual_chains_have_one_receptance(n: int, g: int, damped: bool) -> None:
 @given(st.data())
 def test_duality_holds_for_every_instance(data: st.DataObject) -> None:
     n = data.draw(st.integers(1, 6))
-    left = at_gap(n, data.draw(st.integers(0, n - 1)), data.draw(st.booleans())) if n > 1 else Chain(1)
+    left = (
+        at_gap(n, data.draw(st.integers(0, n - 1)), data.draw(st.booleans())) if n > 1 else Chain(1)
+    )
     right = at_gap(n, n - 1 - left.gap, left.damped) if n > 1 else Chain(1)
     positive = st.fractions(Fraction(1, 50), 50, max_denominator=50)
     point = {name: data.draw(positive, name) for name in left.parameters}
@@ -85,7 +91,9 @@ def test_dual_chains_of_six_to_eight_masses(n: int, g: int, damped: bool, label:
 
 
 def test_duality_needs_the_ports_at_the_gap() -> None:
-    """The evaluation can tell: the dual's parameters in a chain with the force one mass further give something else."""
+    """The evaluation can tell: the dual's parameters in a chain with the force one mass further
+    give something else.
+    """
     left, other = at_gap(3, 0, True), Chain(3, 2, 1, 3, 2, 3, damped=True)
     point = random_point(left, "other")
     assert not are_dual(left, other)
@@ -125,11 +133,19 @@ SPECIAL = [
     Chain(4, 2, 2, 3, 2, 3, damped=True),
     Chain(4, 2, 1, 3, 1, 3, damped=True),
 ]
-UNDAMPED = [Chain(3), Chain(3, 1, 1, 2, 1, 2), Chain(3, 2, 2, 3, 2, 3), Chain(4, 2, 1, 3, 2, 4), Chain(4, 0, 0, 2, 0, 3)]
+UNDAMPED = [
+    Chain(3),
+    Chain(3, 1, 1, 2, 1, 2),
+    Chain(3, 2, 2, 3, 2, 3),
+    Chain(4, 2, 1, 3, 2, 4),
+    Chain(4, 0, 0, 2, 0, 3),
+]
 
 
 def is_right(chain: Chain, values: Point, found: Fibre) -> bool:
-    """DEGENERATE and NOT_COVERED claim nothing; a family needs no special member; a complete list holds the planted one."""
+    """DEGENERATE and NOT_COVERED claim nothing; a family needs no special member; a complete
+    list holds the planted one.
+    """
     if found.status is Status.COMPLETE:
         return any(holds(s, values) for s in found.solutions)
     return found.status is not Status.EMPTY
@@ -164,7 +180,9 @@ def test_small_whole_numbers_are_never_empty(chain: Chain, data: st.DataObject) 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("chain", [c for n in (2, 3, 4) for damped in (False, True) for c in Family(n, damped)], ids=str)
+@pytest.mark.parametrize(
+    "chain", [c for n in (2, 3, 4) for damped in (False, True) for c in Family(n, damped)], ids=str
+)
 def test_many_small_whole_numbers_are_never_empty(chain: Chain) -> None:
     draw = random.Random(str(chain))
     for _ in range(30 if chain.n_masses < 4 else 8):
@@ -174,11 +192,15 @@ def test_many_small_whole_numbers_are_never_empty(chain: Chain) -> None:
 
 @pytest.mark.parametrize("n", [3, 4])
 def test_collocated_undamped_chains_are_never_missed_at_equal_elements(n: int) -> None:
-    """Foster: all of them realise each other's receptances, with positive elements, unless poles coincide or get lost."""
+    """Foster: all of them realise each other's receptances, with positive elements, unless
+    poles coincide or get lost.
+    """
     collocated = [c for c in Family(n) if c.collocated]
     statuses = set()
     for left, right in permutations(collocated, 2):
-        found = fibre(right, target(left.structure, exact(dict.fromkeys(left.parameters, Fraction(1)))))
+        found = fibre(
+            right, target(left.structure, exact(dict.fromkeys(left.parameters, Fraction(1))))
+        )
         statuses.add(found.status)
         assert all(s.positive is Answer.YES for s in found.solutions)
     assert statuses == {Status.COMPLETE, Status.DEGENERATE}

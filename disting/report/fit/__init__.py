@@ -1,4 +1,6 @@
-"""A fit as a page and figures. This package renders what `disting.fit` found, and asks it for what a figure needs."""
+"""A fit as a page and figures. This package renders what `disting.fit` found, and asks it for
+what a figure needs.
+"""
 
 from disting.report.fit.bode import bode as bode
 from disting.report.fit.convergence import profile_panels as profile_panels

@@ -1,7 +1,8 @@
-"""Bode diagram of data and model, as in Figs. 3 and 4 of the paper: asymptotes, resonances and antiresonances marked.
+"""Bode diagram of data and model, as in Figs. 3 and 4 of the paper: asymptotes, resonances and
+antiresonances marked.
 
-Data that tell how much they scatter have error bars, the model has its confidence band, and what the lines without excitation
-of a multisine show lies under the response, in the same unit.
+Data that tell how much they scatter have error bars, the model has its confidence band, and what
+the lines without excitation of a multisine show lies under the response, in the same unit.
 """
 
 from collections.abc import Sequence
@@ -57,7 +58,9 @@ class Mark:
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """The model at rising angular frequencies [rad/s], its phase [degree] without jumps, and standard errors."""
+    """The model at rising angular frequencies [rad/s], its phase [degree] without jumps, and
+    standard errors.
+    """
 
     omega: Real
     G: Complex
@@ -65,15 +68,23 @@ class Line:
     sure: Confidence
 
     def phase_of(self, measured: FrequencyResponse) -> Real:
-        """Phase of the data [degree]: that of the model and the difference arg(G/G_model), which is free of jumps."""
+        """Phase of the data [degree]: that of the model and the difference arg(G/G_model),
+        which is free of jumps.
+        """
         at = np.searchsorted(self.omega, measured.omega)
         return np.asarray(self.phase[at] + np.degrees(np.angle(measured.G / self.G[at])))
 
 
 def bode(
-    candidate: Candidate, task: Task, results: Sequence[Result], train: FrequencyResponse, test: FrequencyResponse | None = None
+    candidate: Candidate,
+    task: Task,
+    results: Sequence[Result],
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
 ) -> Drawn:
-    """Training and test data, coherence where there is one, the model, its inertia asymptotes and its resonances."""
+    """Training and test data, coherence where there is one, the model, its inertia asymptotes
+    and its resonances.
+    """
     series = series_of(candidate, task, train, test)
     line = model_line(candidate, task, [s.measured for s in series])
     strips = any(s.measured.coherence is not None for s in series)
@@ -82,26 +93,40 @@ def bode(
 
     def draw(figure: "Figure") -> None:
         """Amplitude, phase and coherence, one below the other."""
-        panels = figure.subplots(2 + strips, 1, sharex=True, height_ratios=[3 + tall, 1.8, 0.7][: 2 + strips])
+        panels = figure.subplots(
+            2 + strips, 1, sharex=True, height_ratios=[3 + tall, 1.8, 0.7][: 2 + strips]
+        )
         low, high = line.omega[0] / (2 * pi) / EDGE, line.omega[-1] / (2 * pi) * EDGE
         panels[0].set_xscale("log")
         panels[0].set_xlim(low, high)
         logarithmic(panels[-1].xaxis, low, high)
         inertias = asymptotes(candidate.chain, results, line.omega, train)
-        _amplitude(panels[0], line, series, [(_short(label) if is_narrow(figure) else label, y) for label, y in inertias])
+        _amplitude(
+            panels[0],
+            line,
+            series,
+            [(_short(label) if is_narrow(figure) else label, y) for label, y in inertias],
+        )
         if under:
             beneath(panels[0], under, float(np.abs(line.G).min()))
             logarithmic(panels[0].yaxis, *panels[0].get_ylim())
         _phase(panels[1], line, series)
         if strips:
             _coherence(panels[2], series)
-        _marks(panels[0], panels[1], line, marks(results, line.omega), figure.get_figwidth() - FRAME)
+        _marks(
+            panels[0], panels[1], line, marks(results, line.omega), figure.get_figwidth() - FRAME
+        )
         panels[-1].set_xlabel("Frequency [Hz]")
         heading(figure, f"Measured response and model: {name(candidate.chain)}")
-        figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3, columnspacing=2)
+        figure.legend(
+            loc="outside lower center", ncols=2 if is_narrow(figure) else 3, columnspacing=2
+        )
 
     found = marks(results, line.omega)
-    said = ", ".join(f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}" for m in found)
+    said = ", ".join(
+        f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}"
+        for m in found
+    )
     title = f"Bode diagram of {name(candidate.chain)} and the data. {said}"
     more = 0.8 * strips + tall
     return drawn("bode", title, (6.4 + more, 6.2 + more), draw)
@@ -119,32 +144,48 @@ def model_line(candidate: Candidate, task: Task, measured: Sequence[FrequencyRes
     response = response_of(candidate, task, omega)
     phase = np.degrees(np.unwrap(np.angle(response)))
     highest = HIGHEST + 90 * candidate.chain.sensor.order
-    return Line(omega, response, phase - 360 * ceil((phase.max() - highest) / 360), confidence(candidate, task, omega))
+    return Line(
+        omega,
+        response,
+        phase - 360 * ceil((phase.max() - highest) / 360),
+        confidence(candidate, task, omega),
+    )
 
 
 def marks(results: Sequence[Result], omega: Real) -> list[Mark]:
-    """The resonances and antiresonances in the measured band that are damped little enough to show, by rising frequency."""
+    """The resonances and antiresonances in the measured band that are damped little enough to
+    show, by rising frequency.
+    """
     values = {r.name: r.value for r in results}
     low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
     found = [
         Mark(kind, value, values[f"damping ratio of {key}"])
         for key, value in values.items()
         for kind in MARKERS
-        if key.startswith(kind) and low <= value <= high and values[f"damping ratio of {key}"] < PEAK
+        if key.startswith(kind)
+        and low <= value <= high
+        and values[f"damping ratio of {key}"] < PEAK
     ]
     return sorted(found, key=lambda m: m.frequency)
 
 
-def asymptotes(chain: Chain, results: Sequence[Result], omega: Real, measured: FrequencyResponse) -> list[tuple[str, Real]]:
-    """Label and amplitude of omega^(n-2)/inertia: all masses move together at low, the motor alone at high frequencies.
+def asymptotes(
+    chain: Chain, results: Sequence[Result], omega: Real, measured: FrequencyResponse
+) -> list[tuple[str, Real]]:
+    """Label and amplitude of omega^(n-2)/inertia: all masses move together at low, the motor alone
+    at high frequencies.
 
-    Only where the response tends to them: a free chain, force and sensor against the ground, for the motor's at one mass.
+    Only where the response tends to them: a free chain, force and sensor against the ground, for
+    the motor's at one mass.
     """
     inertias = {r.name: r for r in results}
     free = chain.gap == 0 and chain.act_minus == 0 and chain.meas_minus == 0
     wanted = ["total inertia"] * free + ["motor inertia"] * (free and chain.collocated)
     return [
-        (f"{key} {readable(inertias[key].value)} {result_unit(inertias[key], measured)}", _inertia(inertias[key], chain, omega))
+        (
+            f"{key} {readable(inertias[key].value)} {result_unit(inertias[key], measured)}",
+            _inertia(inertias[key], chain, omega),
+        )
         for key in wanted
         if key in inertias
     ]
@@ -154,24 +195,38 @@ def _inertia(found: Result, chain: Chain, omega: Real) -> Real:
     return np.asarray(omega ** (chain.sensor.order - 2) / found.value)
 
 
-def _amplitude(panel: "Axes", line: Line, series: Sequence[Series], inertias: Sequence[tuple[str, Real]]) -> None:
+def _amplitude(
+    panel: "Axes", line: Line, series: Sequence[Series], inertias: Sequence[tuple[str, Real]]
+) -> None:
     hertz = line.omega / (2 * pi)
     for s in series:
         size, factor = np.abs(s.measured.G), np.exp(QUANTILE * s.scatter.rho)
         points(panel, s, size, label=s.label + ", 95 % bars" * s.has_bars)
         bars(panel, s, size, size / factor, size * factor)
-    panel.semilogy(hertz, np.abs(line.G), color=Tone.INK, linewidth=1.5, label="model, 95 % band", zorder=3)
+    panel.semilogy(
+        hertz, np.abs(line.G), color=Tone.INK, linewidth=1.5, label="model, 95 % band", zorder=3
+    )
     wide = np.exp(QUANTILE * np.minimum(line.sure.amplitude, WIDEST))
     band(panel, hertz, np.abs(line.G) / wide, np.abs(line.G) * wide)
     for (label, values), dashes in zip(inertias, ((0, (6, 3)), (0, (1.5, 2))), strict=False):
-        panel.semilogy(hertz, values, color=Tone.MUTED, linestyle=dashes, linewidth=1.2, label=label, zorder=1.5)
+        panel.semilogy(
+            hertz,
+            values,
+            color=Tone.MUTED,
+            linestyle=dashes,
+            linewidth=1.2,
+            label=label,
+            zorder=1.5,
+        )
     shown = np.concatenate([np.abs(line.G), *(np.abs(s.measured.G) for s in series)])
     low, high = shown.min() / 1.4, shown.max() * 1.4
     panel.set_ylim(low, high)
     logarithmic(panel.yaxis, low, high)
     panel.grid(which="minor", linewidth=0.35)
     of = response_unit(series[0].measured)
-    panel.set_ylabel(f"Amplitude [{of}]" if of else f"Amplitude, {series[0].measured.sensor.value} per input")
+    panel.set_ylabel(
+        f"Amplitude [{of}]" if of else f"Amplitude, {series[0].measured.sensor.value} per input"
+    )
 
 
 def _phase(panel: "Axes", line: Line, series: Sequence[Series]) -> None:
@@ -194,7 +249,9 @@ def _coherence(panel: "Axes", series: Sequence[Series]) -> None:
     for s in series:
         if s.measured.coherence is not None:
             points(panel, s, s.measured.coherence)
-    lowest = min(float(s.measured.coherence.min()) for s in series if s.measured.coherence is not None)
+    lowest = min(
+        float(s.measured.coherence.min()) for s in series if s.measured.coherence is not None
+    )
     floor = CLEAN if lowest >= CLEAN else 0.0
     panel.set_ylim(floor, 1 + 0.1 * (1 - floor))
     panel.set_yticks([floor, (1 + floor) / 2, 1])
@@ -202,7 +259,8 @@ def _coherence(panel: "Axes", series: Sequence[Series]) -> None:
 
 
 def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark], width: float) -> None:
-    """Signs on the model's line, thin lines through both panels, and labels above that keep their distance.
+    """Signs on the model's line, thin lines through both panels, and labels above that keep their
+    distance.
 
     `width` of the panels [inch]; where it is scarce, the labels go without their unit.
     """
@@ -214,9 +272,28 @@ def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark], width:
         at = [m.frequency for m in found if m.kind == kind]
         heights = np.interp(np.array(at), line.omega / (2 * pi), np.abs(line.G))
         said = f"{kind}, ζ: damping ratio" if at else ""
-        top.plot(at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=said)
+        top.plot(
+            at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=said
+        )
     for mark, place, label in zip(found, places, labels, strict=True):
         for panel in (top, below):
-            panel.axvline(mark.frequency, color=Tone.MUTED, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1)
-        top.plot([place, label], [1.0, 1.035], transform=top.transAxes, color=Tone.MUTED, linewidth=0.7, clip_on=False)
-        top.text(label, 1.045, mark.label(unit), transform=top.transAxes, ha="center", va="bottom", size=8.5)
+            panel.axvline(
+                mark.frequency, color=Tone.MUTED, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1
+            )
+        top.plot(
+            [place, label],
+            [1.0, 1.035],
+            transform=top.transAxes,
+            color=Tone.MUTED,
+            linewidth=0.7,
+            clip_on=False,
+        )
+        top.text(
+            label,
+            1.045,
+            mark.label(unit),
+            transform=top.transAxes,
+            ha="center",
+            va="bottom",
+            size=8.5,
+        )

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 LOWEST = 1e-12  # of the highest cost: what is below is drawn here, a perfect fit too
 COLUMNS, NARROW_COLUMNS = 3, 2  # of the profiles
-LIMIT = 1.96**2  # of (ln p/p0)^2 / sigma^2 that 95 % of all measurements stay below, were the model linear
+# of (ln p/p0)^2 / sigma^2 that 95 % of all measurements stay below, were the model linear
+LIMIT = 1.96**2
 
 
 def hits(candidate: Candidate) -> int:
@@ -36,7 +37,9 @@ def hits_in_words(candidate: Candidate) -> str:
 
 
 def waterfall(candidate: Candidate) -> Drawn:
-    """Cost of each start after the rough search, in rising order; a long flat stretch at the bottom tells of a safe optimum."""
+    """Cost of each start after the rough search, in rising order; a long flat stretch at the
+    bottom tells of a safe optimum.
+    """
     costs = np.array([cost for cost in candidate.estimate.costs if isfinite(cost)])
     hit = np.arange(len(costs)) < hits(candidate)
     highest = float(costs.max(initial=candidate.j_train))
@@ -54,8 +57,16 @@ def waterfall(candidate: Candidate) -> Drawn:
             (~hit, "none", Tone.SECOND, "stopped above it"),
         ):
             if chosen.any():
-                panel.semilogy(place[chosen], shown[chosen], "o", ms=4.5, mfc=inside, mec=edge, label=label)
-        panel.axhline(best, color=Tone.INK, linewidth=1, label=f"best cost J = {readable(candidate.j_train)}", zorder=1)
+                panel.semilogy(
+                    place[chosen], shown[chosen], "o", ms=4.5, mfc=inside, mec=edge, label=label
+                )
+        panel.axhline(
+            best,
+            color=Tone.INK,
+            linewidth=1,
+            label=f"best cost J = {readable(candidate.j_train)}",
+            zorder=1,
+        )
         edge = max(1.3, (highest / best) ** 0.04)
         low, high = best / edge, highest * edge
         panel.set_ylim(low, high)
@@ -70,7 +81,9 @@ def waterfall(candidate: Candidate) -> Drawn:
 
 
 def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]) -> Drawn:
-    """Smallest cost at each value of a parameter, beside the parabola that its standard error stands for."""
+    """Smallest cost at each value of a parameter, beside the parabola that its standard error
+    stands for.
+    """
     title = "Smallest cost at each value of one parameter, all others fitted anew"
 
     def rows(columns: int) -> int:
@@ -88,35 +101,56 @@ def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]
         for panel in panels[len(profiles) :]:
             panel.remove()
         panels[0].plot([], [], "-o", ms=4, color=Tone.FIRST, label="profile")
-        panels[0].plot([], [], color=Tone.SECOND, linestyle=(0, (5, 3)), label="as the standard error predicts")
-        panels[0].plot([], [], color=Tone.MUTED, linestyle=(0, (1, 2)), label="limit of the 95 % interval")
+        panels[0].plot(
+            [], [], color=Tone.SECOND, linestyle=(0, (5, 3)), label="as the standard error predicts"
+        )
+        panels[0].plot(
+            [], [], color=Tone.MUTED, linestyle=(0, (1, 2)), label="limit of the 95 % interval"
+        )
         heading(figure, title)
         figure.supylabel("Cost J on training data", size=9)
         handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=1 if is_narrow(figure) else 3)
+        figure.legend(
+            handles, labels, loc="outside lower center", ncols=1 if is_narrow(figure) else 3
+        )
 
-    return drawn("profiles", title, (1.0 + 2.1 * rows(COLUMNS), 1.7 + 1.9 * rows(NARROW_COLUMNS)), draw)
+    return drawn(
+        "profiles", title, (1.0 + 2.1 * rows(COLUMNS), 1.7 + 1.9 * rows(NARROW_COLUMNS)), draw
+    )
 
 
-def _profile(panel: "Axes", candidate: Candidate, task: Task, found: Profile, *, unit: bool) -> None:
-    """J(p) and J (1 + (ln p/p0)^2 / (sigma^2 (n_y - N_p))), what it would be were the model linear in ln p."""
+def _profile(
+    panel: "Axes", candidate: Candidate, task: Task, found: Profile, *, unit: bool
+) -> None:
+    """J(p) and J (1 + (ln p/p0)^2 / (sigma^2 (n_y - N_p))), what it would be were the model
+    linear in ln p.
+    """
     from matplotlib.ticker import FuncFormatter
 
-    best, sigma = candidate.estimate.parameters[found.name], candidate.practical.relative_errors[found.name]
+    best, sigma = (
+        candidate.estimate.parameters[found.name],
+        candidate.practical.relative_errors[found.name],
+    )
     freedom = task.cost.n_residuals - candidate.n_parameters
     fine = np.geomspace(found.values[0], found.values[-1], 60)
     if np.isfinite(sigma) and freedom > 0:
         parabola = candidate.j_train * (1 + (np.log(fine / best) / sigma) ** 2 / freedom)
-        panel.plot(_change(fine, best), parabola, color=Tone.SECOND, linestyle=(0, (5, 3)), linewidth=1.2)
+        panel.plot(
+            _change(fine, best), parabola, color=Tone.SECOND, linestyle=(0, (5, 3)), linewidth=1.2
+        )
         limit = candidate.j_train * (1 + LIMIT / freedom)
         panel.axhline(limit, color=Tone.MUTED, linestyle=(0, (1, 2)), linewidth=1.2)
-    panel.plot(_change(found.values, best), found.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2)
+    panel.plot(
+        _change(found.values, best), found.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2
+    )
     panel.axvline(0, color=Tone.MUTED, linewidth=0.8)
     of = f" {unit_of(found.name[0], task.cost.measured)}" if unit else ""
     panel.set_title(f"{found.name} = {readable(best)}{of}", weight="normal")
     panel.ticklabel_format(axis="y", useOffset=False)
     panel.locator_params(axis="x", nbins=4)
-    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: readable(value).replace("-", "−")))
+    panel.xaxis.set_major_formatter(
+        FuncFormatter(lambda value, _: readable(value).replace("-", "−"))
+    )
 
 
 def _change(values: Real, best: float) -> Real:

@@ -1,4 +1,6 @@
-"""The criteria of a candidate as a report puts them: value, threshold and meaning, what is least determined, who is nearest."""
+"""The criteria of a candidate as a report puts them: value, threshold and meaning, what is
+least determined, who is nearest.
+"""
 
 from dataclasses import dataclass, fields
 from math import isfinite
@@ -11,8 +13,12 @@ from disting.report.fit.words import readable
 
 MEANINGS = {
     "condition_index": "how unevenly the data determine combinations of parameters: 1 is best",
-    "importance_ratio": "influence of the strongest parameter on the response, divided by that of the weakest",
-    "collinearity": "how far the other parameters can compensate a change of one: 1 not at all, 20 to 95 %",
+    "importance_ratio": (
+        "influence of the strongest parameter on the response, divided by that of the weakest"
+    ),
+    "collinearity": (
+        "how far the other parameters can compensate a change of one: 1 not at all, 20 to 95 %"
+    ),
 }
 
 
@@ -37,8 +43,13 @@ class Limit:
 
 
 def nearest(selection: Selection) -> list[Candidate]:
-    """Excluded candidates, those first whose worst criterion exceeds its threshold by the smallest factor."""
-    return sorted((c for c in selection.candidates if not c.admissible), key=lambda c: _excess(c, selection.thresholds))
+    """Excluded candidates, those first whose worst criterion exceeds its threshold by the
+    smallest factor.
+    """
+    return sorted(
+        (c for c in selection.candidates if not c.admissible),
+        key=lambda c: _excess(c, selection.thresholds),
+    )
 
 
 def _excess(candidate: Candidate, thresholds: Thresholds) -> float:
@@ -48,11 +59,19 @@ def _excess(candidate: Candidate, thresholds: Thresholds) -> float:
 def limits(candidate: Candidate, thresholds: Thresholds) -> list[Limit]:
     """The three criteria."""
     names = [f.name for f in fields(thresholds)]
-    return [Limit(TITLES[n], MEANINGS[n], getattr(candidate.practical, n), getattr(thresholds, n)) for n in names]
+    return [
+        Limit(TITLES[n], MEANINGS[n], getattr(candidate.practical, n), getattr(thresholds, n))
+        for n in names
+    ]
 
 
 def weakest(candidate: Candidate) -> str:
-    """The combination of parameters that the data determine least, such as "ln k12 + 0.81 ln m2"."""
+    """The combination of parameters that the data determine least, such as "ln k12 + 0.81 ln
+    m2".
+    """
     terms = sorted(candidate.practical.worst_direction.items(), key=lambda row: -abs(row[1]))
-    texts = [("− " if v < 0 else "+ ") + (f"{abs(v):.2g} " if abs(v) < 0.995 else "") + f"ln {n}" for n, v in terms]
+    texts = [
+        ("− " if v < 0 else "+ ") + (f"{abs(v):.2g} " if abs(v) < 0.995 else "") + f"ln {n}"
+        for n, v in terms
+    ]
     return " ".join(texts).removeprefix("+ ")

@@ -1,4 +1,6 @@
-"""The structures that the data do not exclude, as the page shows them: drawn, with intervals, links and commands."""
+"""The structures that the data do not exclude, as the page shows them: drawn, with intervals,
+links and commands.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +20,9 @@ from disting.report.svg import body, number
 
 @dataclass(frozen=True, slots=True)
 class Same:
-    """A structure that behaves as one of the set does: its drawing, its page in the catalogue, how to compare both."""
+    """A structure that behaves as one of the set does: its drawing, its page in the catalogue,
+    how to compare both.
+    """
 
     twin: Twin
     drawing: Markup
@@ -28,7 +32,9 @@ class Same:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A structure of the set: its drawing, its page in the catalogue, parameters, what behaves the same, what comes next."""
+    """A structure of the set: its drawing, its page in the catalogue, parameters, what behaves
+    the same, what comes next.
+    """
 
     member: Member
     drawing: Markup
@@ -46,7 +52,10 @@ def shown_set(selection: Selection, measured: FrequencyResponse, site: Site | No
             drawing(m.candidate.chain),
             site.page(m.candidate.chain) if site else None,
             intervals(m, measured),
-            [Same(t, drawing(t.chain), site.page(t.chain) if site else None, step_to(m, t)) for t in m.twins],
+            [
+                Same(t, drawing(t.chain), site.page(t.chain) if site else None, step_to(m, t))
+                for t in m.twins
+            ],
             steps_of(selection, m),
         )
         for m in selection.members
@@ -57,6 +66,6 @@ def drawing(chain: Chain) -> Markup:
     """The chain as an engineer sketches it."""
     scene = draw(chain)
     box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    return Markup('<svg class="chain" width="{}" viewBox="{}" role="img" aria-label="{}">{}</svg>').format(
-        number(1.4 * scene.width), box, scene.title, Markup(body(scene, PAGE_PALETTE))
-    )
+    return Markup(
+        '<svg class="chain" width="{}" viewBox="{}" role="img" aria-label="{}">{}</svg>'
+    ).format(number(1.4 * scene.width), box, scene.title, Markup(body(scene, PAGE_PALETTE)))

@@ -1,4 +1,6 @@
-"""What leads on from a fit: pages of the catalogues, where they lie, and ready commands for each structure."""
+"""What leads on from a fit: pages of the catalogues, where they lie, and ready commands for
+each structure.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -38,11 +40,14 @@ class Site:
     folder: Path
 
     def page(self, chain: Chain) -> Link | None:
-        """The page about a structure, or about it without its ground dampers where its family has none; None without either.
+        """The page about a structure, or about it without its ground dampers where its family has
+        none; None without either.
 
         Lag and dead time have no pages of their own.
         """
-        return next((self._link(*page) for page in _pages(chain) if (self.root / page[1]).is_file()), None)
+        return next(
+            (self._link(*page) for page in _pages(chain) if (self.root / page[1]).is_file()), None
+        )
 
     def _link(self, name: str, file: str, fragment: str) -> Link:
         target = (self.root / file).resolve()
@@ -62,12 +67,18 @@ class Step:
 
 
 def beside(folder: Path) -> Path:
-    """Where the pages of the catalogues may lie that nobody named: in the folder itself, or in the one that holds it."""
-    return next((root for root in (folder, folder.resolve().parent) if (root / "models").is_dir()), folder)
+    """Where the pages of the catalogues may lie that nobody named: in the folder itself, or in
+    the one that holds it.
+    """
+    return next(
+        (root for root in (folder, folder.resolve().parent) if (root / "models").is_dir()), folder
+    )
 
 
 def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
-    """Name, file and fragment of the pages that tell of a structure, the one that tells most first."""
+    """Name, file and fragment of the pages that tell of a structure, the one that tells most
+    first.
+    """
     chain = as_listed(chain).chain
     name = reference(replace(chain, ground_dampers=(), lag=False, dead_time=False))
     size, colon, number = name.partition(":")
@@ -86,9 +97,15 @@ def next_steps(selection: Selection) -> list[Step]:
 
 
 def steps_of(selection: Selection, member: Member) -> list[Step]:
-    """Commands that lead on from a structure of the set, against the first one; of that itself `next_steps` are."""
+    """Commands that lead on from a structure of the set, against the first one; of that itself
+    `next_steps` are.
+    """
     first = selection.members[0]
-    return [] if member is first else next_steps(replace(selection, selected=member.candidate, members=(member, first)))
+    return (
+        []
+        if member is first
+        else next_steps(replace(selection, selected=member.candidate, members=(member, first)))
+    )
 
 
 def step_to(member: Member, twin: Twin) -> Step:

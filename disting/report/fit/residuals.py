@@ -1,7 +1,9 @@
-"""Residuals over frequency against the scatter of the data and the confidence band of the model: where the model misses.
+"""Residuals over frequency against the scatter of the data and the confidence band of the model:
+where the model misses.
 
-With G measured and G_m fitted, ln |G / G_m| and arg (G / G_m) of each line; a line that only scatters lies within +-1.96 rho of
-the model with 95 % (`disting.fit.scatter`), the model itself within its band about zero (`disting.fit.fitted`).
+With G measured and G_m fitted, ln |G / G_m| and arg (G / G_m) of each line; a line that only
+scatters lies within +-1.96 rho of the model with 95 % (`disting.fit.scatter`), the model itself
+within its band about zero (`disting.fit.fitted`).
 """
 
 from collections.abc import Callable, Sequence
@@ -38,7 +40,9 @@ DECIBEL = 20 / np.log(10)
 
 @dataclass(frozen=True, eq=False)
 class Missed:
-    """ln |G / G_m| and arg (G / G_m) [rad] of one measurement, shape (n_f,) each, and by how much its lines scatter."""
+    """ln |G / G_m| and arg (G / G_m) [rad] of one measurement, shape (n_f,) each, and by how
+    much its lines scatter.
+    """
 
     series: Series
     amplitude: Real
@@ -46,13 +50,19 @@ class Missed:
 
     @property
     def outside(self) -> float:
-        """Share of the residuals beyond 1.96 standard deviations of the scatter: 0.05 where noise alone is left."""
+        """Share of the residuals beyond 1.96 standard deviations of the scatter: 0.05 where
+        noise alone is left.
+        """
         both = np.concatenate([self.amplitude, self.phase])
         return float(np.mean(np.abs(both) > QUANTILE * np.tile(self.series.scatter.rho, 2)))
 
 
-def missed(selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None) -> list[Missed]:
-    """Residuals of the shown candidate; those that it is judged by against the scatter that it is judged by."""
+def missed(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None
+) -> list[Missed]:
+    """Residuals of the shown candidate; those that it is judged by against the scatter that it
+    is judged by.
+    """
     candidate, task, judged = selection.described, selection.task, selection.explanation.scatter
     found = []
     for s in series_of(candidate, task, train, test):
@@ -66,10 +76,16 @@ def _is_judged(judged: Scatter, s: Series, test: FrequencyResponse | None) -> bo
     return s.measured is test and len(judged.rho) == len(s.measured)
 
 
-def residuals(selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None) -> Drawn:
-    """Amplitude above, phase below; each measurement's scatter and the model's confidence as bands about zero."""
+def residuals(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
+) -> Drawn:
+    """Amplitude above, phase below; each measurement's scatter and the model's confidence as
+    bands about zero.
+    """
     found, model = missed(selection, train, test), name(selection.described.chain)
-    low, high = (end(m.series.measured.frequency[i] for m in found) for end, i in ((min, 0), (max, -1)))
+    low, high = (
+        end(m.series.measured.frequency[i] for m in found) for end, i in ((min, 0), (max, -1))
+    )
     omega = 2 * np.pi * np.geomspace(low, high, LINES)
     sure = confidence(selection.described, selection.task, omega)
     unit, scaled = _amplitude_unit(found)
@@ -87,24 +103,37 @@ def residuals(selection: Selection, train: FrequencyResponse, test: FrequencyRes
         panels[1].set_ylabel("Phase [degree]")
         panels[-1].set_xlabel("Frequency [Hz]")
         heading(figure, f"Residuals, data against model: {model}")
-        figure.legend(loc="outside lower center", ncols=1 if is_narrow(figure) else 3, columnspacing=2)
+        figure.legend(
+            loc="outside lower center", ncols=1 if is_narrow(figure) else 3, columnspacing=2
+        )
 
     return drawn(
-        "residuals", f"Residuals of {name(selection.described.chain)} over frequency. {_outside(found)}", (4.6, 5.4), draw
+        "residuals",
+        f"Residuals of {name(selection.described.chain)} over frequency. {_outside(found)}",
+        (4.6, 5.4),
+        draw,
     )
 
 
 def bands_in_words(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
 ) -> tuple[list[str], list[str]]:
-    """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for below the residuals."""
-    candidate, task, found, omega = selection.described, selection.task, missed(selection, train, test), train.omega
+    """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for
+    below the residuals.
+    """
+    candidate, task, found, omega = (
+        selection.described,
+        selection.task,
+        missed(selection, train, test),
+        train.omega,
+    )
     sure = confidence(candidate, task, omega)
     own = series_of(candidate, task, train, test)
     bars = [_bars(s) for s in own if s.has_bars]
     told = {s.label: s.scatter.source for s in own if s.has_bars}
     said = [
-        f"Scatter of the {m.series.label}: {_interval(m.series.scatter.typical)} (95 %), from {m.series.scatter.source}."
+        f"Scatter of the {m.series.label}: {_interval(m.series.scatter.typical)} (95 %), from"
+        f" {m.series.scatter.source}."
         for m in found
         if told.get(m.series.label) != m.series.scatter.source
     ]
@@ -114,19 +143,27 @@ def bands_in_words(
 
 def _bars(s: Series) -> str:
     size = float(np.median(s.scatter.rho))
-    return f"Error bars of the {s.label} hold 95 %: {_interval(size)} in the median, from {s.scatter.source}."
+    return (
+        f"Error bars of the {s.label} hold 95 %: {_interval(size)} in the median, from"
+        f" {s.scatter.source}."
+    )
 
 
 def _model_band(sure: Confidence, omega: Real) -> str:
     if not np.all(np.isfinite(sure.amplitude)):
-        return "The data do not determine the response of the model everywhere: where its band fills the panel, it is open."
+        return (
+            "The data do not determine the response of the model everywhere: where its band fills"
+            " the panel, it is open."
+        )
     if not sure.amplitude.any():
         return "All parameters are given, so the model has no band."
     widest = int(np.argmax(sure.amplitude))
-    typical, largest = (_interval(float(size)) for size in (np.median(sure.amplitude), sure.amplitude[widest]))
+    typical, largest = (
+        _interval(float(size)) for size in (np.median(sure.amplitude), sure.amplitude[widest])
+    )
     return (
-        f"The band of the model holds 95 % at each frequency, if the structure is right: {typical} in the median, at most "
-        f"{largest}, at {readable(float(omega[widest]) / (2 * np.pi))} Hz."
+        f"The band of the model holds 95 % at each frequency, if the structure is right: {typical}"
+        f" in the median, at most {largest}, at {readable(float(omega[widest]) / (2 * np.pi))} Hz."
     )
 
 
@@ -151,9 +188,16 @@ def _amplitude_unit(found: Sequence[Missed]) -> tuple[str, Callable[[Real], Real
 
 
 def _panel(
-    panel: "Axes", found: Sequence[Missed], what: str, scaled: Callable[[Real], Real], omega: Real, sure: Confidence
+    panel: "Axes",
+    found: Sequence[Missed],
+    what: str,
+    scaled: Callable[[Real], Real],
+    omega: Real,
+    sure: Confidence,
 ) -> None:
-    """One component: scatter of each measurement, band of the model, residuals, those beyond the axis at its edge."""
+    """One component: scatter of each measurement, band of the model, residuals, those beyond
+    the axis at its edge.
+    """
     first = what == "amplitude"
     for m in found:
         _scatter(panel, m, scaled, f"scatter of the {m.series.label}, 95 %" * first)
@@ -161,23 +205,48 @@ def _panel(
     wide = np.where(np.isfinite(wide), wide, np.nan)
     band(panel, omega / (2 * np.pi), scaled(-wide), scaled(wide), label="model, 95 %" * first)
     panel.axhline(0.0, color=Tone.INK, linewidth=1.0, zorder=1.9)
-    limit = _limit([(scaled(getattr(m, what)), scaled(QUANTILE * m.series.scatter.rho)) for m in found])
+    limit = _limit(
+        [(scaled(getattr(m, what)), scaled(QUANTILE * m.series.scatter.rho)) for m in found]
+    )
     for m in found:
         values = scaled(getattr(m, what))
-        points(panel, m.series, np.where(np.abs(values) <= limit, values, np.nan), label=m.series.label * first)
+        points(
+            panel,
+            m.series,
+            np.where(np.abs(values) <= limit, values, np.nan),
+            label=m.series.label * first,
+        )
         for sign, marker in ((1, "^"), (-1, "v")):
             at = m.series.measured.frequency[sign * values > limit]
-            panel.plot(at, np.full(len(at), sign * 0.97 * limit), marker, ms=4, mfc=m.series.tone, mec="none", zorder=3)
+            panel.plot(
+                at,
+                np.full(len(at), sign * 0.97 * limit),
+                marker,
+                ms=4,
+                mfc=m.series.tone,
+                mec="none",
+                zorder=3,
+            )
     panel.set_ylim(-limit, limit)
     panel.grid(which="minor", axis="x", linewidth=0.35)
 
 
 def _missed_ranges(panels: Sequence["Axes"], misses: Sequence[Miss]) -> None:
-    """Ranges of frequencies where the model misses the data by more than they scatter, in all panels."""
+    """Ranges of frequencies where the model misses the data by more than they scatter, in all
+    panels.
+    """
     for panel in panels:
         for i, miss in enumerate(misses):
             said = "missed by more than the scatter" if i == 0 and panel is panels[0] else ""
-            panel.axvspan(miss.low / EDGE, miss.high * EDGE, color=Tone.SECOND, alpha=0.13, lw=0, label=said, zorder=0)
+            panel.axvspan(
+                miss.low / EDGE,
+                miss.high * EDGE,
+                color=Tone.SECOND,
+                alpha=0.13,
+                lw=0,
+                label=said,
+                zorder=0,
+            )
 
 
 def _scatter(panel: "Axes", m: Missed, scaled: Callable[[Real], Real], label: str) -> None:
@@ -188,9 +257,19 @@ def _scatter(panel: "Axes", m: Missed, scaled: Callable[[Real], Real], label: st
         return
     for sign in (1, -1):
         dashes = (0, (4, 2))
-        panel.plot(hertz, scaled(sign * rho), color=m.series.tone, lw=0.9, ls=dashes, label=label * (sign > 0), zorder=1.9)
+        panel.plot(
+            hertz,
+            scaled(sign * rho),
+            color=m.series.tone,
+            lw=0.9,
+            ls=dashes,
+            label=label * (sign > 0),
+            zorder=1.9,
+        )
 
 
 def _limit(each: Sequence[tuple[Real, Real]]) -> float:
     """Half of the axis: most residuals and half of the scatter bands lie within."""
-    return ROOM * max(max(float(np.quantile(np.abs(r), MOST)), float(np.median(wide))) for r, wide in each)
+    return ROOM * max(
+        max(float(np.quantile(np.abs(r), MOST)), float(np.median(wide))) for r, wide in each
+    )

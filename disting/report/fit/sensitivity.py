@@ -1,4 +1,6 @@
-"""What the criteria say about the parameters of one model: importance by parameter, collinearity by set of parameters."""
+"""What the criteria say about the parameters of one model: importance by parameter,
+collinearity by set of parameters.
+"""
 
 from typing import TYPE_CHECKING
 
@@ -22,7 +24,9 @@ INFINITE = 1e12  # indices are drawn up to here
 
 
 def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | None:
-    """Importance delta^msqr (16) of each parameter, the smallest admissible one dashed; None where all are given."""
+    """Importance delta^msqr (16) of each parameter, the smallest admissible one dashed; None
+    where all are given.
+    """
     if not candidate.practical.names:
         return None
     rows = sorted(candidate.practical.importance.items(), key=lambda row: row[1])
@@ -30,7 +34,10 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | Non
     least = highest / thresholds.importance_ratio
     floor = max(min(rows[0][1], least) / 2, least * 10.0**-DECADES)
     ratio = readable(candidate.practical.importance_ratio)
-    title = f"Importance of each parameter: largest / smallest = {ratio}, allowed {readable(thresholds.importance_ratio)}"
+    title = (
+        f"Importance of each parameter: largest / smallest = {ratio}, allowed"
+        f" {readable(thresholds.importance_ratio)}"
+    )
 
     def draw(figure: "Figure") -> None:
         """A bar a parameter, the most important on top."""
@@ -42,46 +49,80 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | Non
         panel.set_xlim(floor, highest * 2.2)
         for i, value in enumerate(values):
             panel.annotate(
-                readable(value), (max(value, floor), i), xytext=(5, 0), textcoords="offset points", va="center", size=8.5,
+                readable(value),
+                (max(value, floor), i),
+                xytext=(5, 0),
+                textcoords="offset points",
+                va="center",
+                size=8.5,
                 bbox={"facecolor": Tone.PAPER.value, "edgecolor": "none", "pad": 1.0},
-            )  # fmt: skip
+            )
         panel.axvline(least, color=Tone.SECOND, linewidth=1.2, linestyle=(0, (5, 3)), zorder=2)
         panel.annotate(
-            f"smallest allowed: largest / {readable(thresholds.importance_ratio)}", (least, 1.0),
-            xycoords=("data", "axes fraction"), xytext=(4, 3), textcoords="offset points", color=Tone.SECOND, size=8.5,
-        )  # fmt: skip
+            f"smallest allowed: largest / {readable(thresholds.importance_ratio)}",
+            (least, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(4, 3),
+            textcoords="offset points",
+            color=Tone.SECOND,
+            size=8.5,
+        )
         panel.grid(axis="y", visible=False)
         logarithmic(panel.xaxis, floor, highest * 2.2)
         parted = "\n" if is_narrow(figure) else " "
-        panel.set_xlabel(f"Importance: change of the residuals{parted}for a relative change of the parameter")
+        panel.set_xlabel(
+            f"Importance: change of the residuals{parted}for a relative change of the parameter"
+        )
         heading(figure, title)
 
     return drawn("importance", title, (1.5 + 0.29 * len(rows), 2.0 + 0.29 * len(rows)), draw)
 
 
 def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) -> Drawn | None:
-    """Collinearity index (17) of every set of parameters against its size; None for one parameter or for very many."""
+    """Collinearity index (17) of every set of parameters against its size; None for one
+    parameter or for very many.
+    """
     names = candidate.practical.names
     if not 2 <= len(names) <= MOST:
         return None
-    found = [(chosen, min(index, INFINITE)) for chosen, index in collinearity_by_subset(_triangle(candidate, task))]
+    found = [
+        (chosen, min(index, INFINITE))
+        for chosen, index in collinearity_by_subset(_triangle(candidate, task))
+    ]
     sizes = np.array([len(chosen) for chosen, _ in found])
     indices = np.array([index for _, index in found])
     pair, worst = max((row for row in found if len(row[0]) == 2), key=lambda row: row[1])
     both = " and ".join(names[i] for i in pair)
-    values = f"{_index(indices[-1])} for all {len(names)}, {_index(worst)} for the worst pair, {both}"
+    values = (
+        f"{_index(indices[-1])} for all {len(names)}, {_index(worst)} for the worst pair, {both}"
+    )
     title = f"Collinearity of sets of parameters: {values}"
 
     def draw(figure: "Figure") -> None:
         """A dot a set, by its size."""
         panel = figure.subplots()
         dots = np.unique(np.stack([sizes, np.round(np.log10(indices) / ONE_DOT)]), axis=1)
-        panel.semilogy(dots[0], 10 ** (dots[1] * ONE_DOT), "o", ms=4, mfc="none", mec=Tone.FIRST, mew=0.9, label="one set")
+        panel.semilogy(
+            dots[0],
+            10 ** (dots[1] * ONE_DOT),
+            "o",
+            ms=4,
+            mfc="none",
+            mec=Tone.FIRST,
+            mew=0.9,
+            label="one set",
+        )
         steps = np.unique(sizes)
         worsts = [indices[sizes == size].max() for size in steps]
         panel.plot(steps, worsts, color=Tone.INK, linewidth=1.4, label="largest of each size")
         limit = thresholds.collinearity
-        panel.axhline(limit, color=Tone.SECOND, linewidth=1.2, linestyle=(0, (5, 3)), label=f"threshold {readable(limit)}")
+        panel.axhline(
+            limit,
+            color=Tone.SECOND,
+            linewidth=1.2,
+            linestyle=(0, (5, 3)),
+            label=f"threshold {readable(limit)}",
+        )
         top = max(limit, float(indices.max())) ** 1.05 * 1.3
         panel.set_ylim(0.9, top)
         panel.set_xlim(1.7, len(names) + 0.3)
@@ -100,7 +141,9 @@ def _index(value: float) -> str:
 
 
 def _triangle(candidate: Candidate, task: Task) -> Real:
-    """A matrix with few rows whose sets of columns are as collinear as those of the sensitivity matrix: R of S = Q R."""
+    """A matrix with few rows whose sets of columns are as collinear as those of the sensitivity
+    matrix: R of S = Q R.
+    """
     names = candidate.chain.parameters
     p = np.array([candidate.estimate.parameters[name] for name in names])
     columns = task.cost.of(task.plant(candidate.chain), p)[1][:, task.box(names).free]

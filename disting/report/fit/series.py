@@ -39,7 +39,9 @@ class Series:
         return self.measured.deviation is not None or self.measured.coherence is not None
 
 
-def series_of(candidate: Candidate, task: Task, train: FrequencyResponse, test: FrequencyResponse | None) -> list[Series]:
+def series_of(
+    candidate: Candidate, task: Task, train: FrequencyResponse, test: FrequencyResponse | None
+) -> list[Series]:
     """Training and test data, each with its own scatter."""
     named = (("training data", train, Tone.FIRST, "o"), ("test data", test, Tone.SECOND, "x"))
     return [
@@ -66,7 +68,9 @@ def points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
 
 
 def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
-    """Error bars from `low` to `high` where the data tell their scatter, at lines that are spread over the axis."""
+    """Error bars from `low` to `high` where the data tell their scatter, at lines that are
+    spread over the axis.
+    """
     if not s.has_bars:
         return
     at = barred(s.measured.omega)
@@ -82,21 +86,28 @@ def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
 
 
 def barred(omega: Real) -> NDArray[np.intp]:
-    """Indices of at most `BARRED` lines, as evenly spread over a logarithmic axis as the lines allow."""
+    """Indices of at most `BARRED` lines, as evenly spread over a logarithmic axis as the lines
+    allow.
+    """
     wanted = np.linspace(np.log(omega[0]), np.log(omega[-1]), BARRED)
     nearest = np.abs(np.log(omega)[None, :] - wanted[:, None]).argmin(axis=1)
     return np.arange(len(omega)) if len(omega) <= BARRED else np.unique(nearest)
 
 
-def band(panel: "Axes", hertz: Real, low: Real, high: Real, tone: Tone = Tone.INK, label: str = "") -> None:
+def band(
+    panel: "Axes", hertz: Real, low: Real, high: Real, tone: Tone = Tone.INK, label: str = ""
+) -> None:
     """A translucent band between two lines."""
     plain = np.log if panel.get_yscale() == "log" else np.asarray
     at = corners(np.log(hertz), plain(low), plain(high))
-    panel.fill_between(hertz[at], low[at], high[at], color=tone, alpha=BAND, linewidth=0, label=label, zorder=1.8)
+    panel.fill_between(
+        hertz[at], low[at], high[at], color=tone, alpha=BAND, linewidth=0, label=label, zorder=1.8
+    )
 
 
 def corners(x: Real, *curves: Real) -> NDArray[np.intp]:
-    """Indices of points, straight lines between which stay within `FINE` of each curve's range; a band has few of them.
+    """Indices of points, straight lines between which stay within `FINE` of each curve's range; a
+    band has few of them.
 
     (D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points, 1973.)
     """

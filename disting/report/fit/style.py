@@ -1,9 +1,9 @@
 """One look for all figures of a fit, and files that repeat byte by byte.
 
-A figure is drawn in few tones. In a file they are colours; in the page each becomes a variable of the style sheet, which knows
-light and dark. Every figure is drawn twice, wide for files and screens, narrow for phones, with letters of one size; the page
-shows the one that fits. Settings of the user's matplotlib, dates and version names do not enter the files, and no global state
-remains.
+A figure is drawn in few tones. In a file they are colours; in the page each becomes a variable of
+the style sheet, which knows light and dark. Every figure is drawn twice, wide for files and
+screens, narrow for phones, with letters of one size; the page shows the one that fits. Settings of
+the user's matplotlib, dates and version names do not enter the files, and no global state remains.
 """
 
 import re
@@ -27,7 +27,9 @@ LETTER = 0.65  # width of a bold letter, in its size
 
 
 class Tone(StrEnum):
-    """A colour of the figures; pairs in one panel differ for colour-blind readers too, and in marker or dash."""
+    """A colour of the figures; pairs in one panel differ for colour-blind readers too, and in
+    marker or dash.
+    """
 
     INK = "#16202b"
     MUTED = "#55616e"
@@ -95,7 +97,9 @@ METADATA: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A figure: its file name without ending, what it shows in words, its files, and an SVG for phones."""
+    """A figure: its file name without ending, what it shows in words, its files, and an SVG for
+    phones.
+    """
 
     name: str
     title: str
@@ -115,8 +119,12 @@ class Drawn:
         return wide + inlined(self.narrow.decode(), f"{name}-n", self.title, "narrow")
 
 
-def drawn(name: str, title: str, heights: tuple[float, float], draw: Callable[["Figure"], None]) -> Drawn:
-    """SVG, PNG and PDF of what `draw` draws into a figure; `heights` [inch] of the wide and of the narrow one."""
+def drawn(
+    name: str, title: str, heights: tuple[float, float], draw: Callable[["Figure"], None]
+) -> Drawn:
+    """SVG, PNG and PDF of what `draw` draws into a figure; `heights` [inch] of the wide and of
+    the narrow one.
+    """
     import matplotlib
 
     with matplotlib.rc_context():
@@ -149,7 +157,9 @@ def heading(figure: "Figure", text: str) -> None:
 
 
 def _file(figure: "Figure", kind: str) -> bytes:
-    """What `savefig` writes, without its rehearsal: it draws all twice, the first time for a layout that is known here."""
+    """What `savefig` writes, without its rehearsal: it draws all twice, the first time for a
+    layout that is known here.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.backends.backend_pdf import FigureCanvasPdf
     from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -167,9 +177,11 @@ def _file(figure: "Figure", kind: str) -> bytes:
 
 
 def inlined(svg: str, name: str, title: str, width: str) -> Markup:
-    """A stand-alone SVG of matplotlib as part of an HTML page; `width`: its class there, wide or narrow.
+    """A stand-alone SVG of matplotlib as part of an HTML page; `width`: its class there, wide or
+    narrow.
 
-    Tones become variables, coordinates hundredths of a point; no other figure has its ids, and nothing refers to elsewhere.
+    Tones become variables, coordinates hundredths of a point; no other figure has its ids, and
+    nothing refers to elsewhere.
 
     Its own style rule, which would act on the whole page, becomes attributes of the root.
     """
@@ -177,14 +189,25 @@ def inlined(svg: str, name: str, title: str, width: str) -> Markup:
     body = re.search(r"<svg[^>]*>(.*)</svg>", svg, re.DOTALL)
     if box is None or body is None:
         raise ValueError("this is no SVG")
-    text = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>|<style.*?</style>", "", body[1], flags=re.DOTALL)
+    text = re.sub(
+        r"<!--.*?-->|<metadata>.*?</metadata>|<style.*?</style>", "", body[1], flags=re.DOTALL
+    )
     text = text.replace("xlink:href", "href")
     text = _with_own_ids(text, name)
     for tone, variable in VARIABLES.items():
         text = text.replace(tone.value, f"var(--{variable})")
-    text = re.sub(r'( d="| x="| y="|translate\()([^")]*)', lambda m: m[1] + re.sub(r"(\.\d\d)\d+", r"\1", m[2]), text)
-    text = re.sub(r"<g([^>]*)>\s*((?:<use [^>]*/>\s*)+)</g>", _with_common_style, re.sub(r"\n\s*", "\n", text))
-    attributes = f'viewBox="{box[1]}" role="img" aria-label="{escape(title)}" stroke-linejoin="round" stroke-linecap="butt"'
+    text = re.sub(
+        r'( d="| x="| y="|translate\()([^")]*)',
+        lambda m: m[1] + re.sub(r"(\.\d\d)\d+", r"\1", m[2]),
+        text,
+    )
+    text = re.sub(
+        r"<g([^>]*)>\s*((?:<use [^>]*/>\s*)+)</g>", _with_common_style, re.sub(r"\n\s*", "\n", text)
+    )
+    attributes = (
+        f'viewBox="{box[1]}" role="img" aria-label="{escape(title)}" stroke-linejoin="round"'
+        ' stroke-linecap="butt"'
+    )
     return Markup(f'<svg class="plot {width}" {attributes}>{text}</svg>')
 
 

@@ -29,13 +29,22 @@ CROWDED = 0.3  # share of the height below which the line would meet a note at t
 def parameters_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
     """N_p of the best candidate that fulfils one criterion alone, against its threshold."""
     title = "Parameters of the best model that fulfils one criterion alone"
-    return _panels("parameters-by-threshold", title, "Parameters", candidates, thresholds, lambda s: s.n_parameters)
+    return _panels(
+        "parameters-by-threshold",
+        title,
+        "Parameters",
+        candidates,
+        thresholds,
+        lambda s: s.n_parameters,
+    )
 
 
 def models_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
     """Number of candidates that fulfil one criterion alone, against its threshold."""
     title = f"Models that fulfil one criterion alone, of {len(candidates)} fitted"
-    return _panels("models-by-threshold", title, "Models", candidates, thresholds, lambda s: s.fulfilling)
+    return _panels(
+        "models-by-threshold", title, "Models", candidates, thresholds, lambda s: s.fulfilling
+    )
 
 
 def _panels(
@@ -51,7 +60,9 @@ def _panels(
     def draw(figure: "Figure") -> None:
         """A panel a criterion, side by side or one below the other."""
         narrow = is_narrow(figure)
-        panels = figure.subplots(*((len(CRITERIA), 1) if narrow else (1, len(CRITERIA))), sharey=True)
+        panels = figure.subplots(
+            *((len(CRITERIA), 1) if narrow else (1, len(CRITERIA))), sharey=True
+        )
         for panel, criterion in zip(panels, CRITERIA, strict=True):
             found = sweep(candidates, criterion)
             _steps(panel, found.thresholds, values(found), getattr(thresholds, criterion))
@@ -66,7 +77,9 @@ def _panels(
 
 
 def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:
-    """A staircase; nothing where no candidate is left. A threshold beyond the axis is written at its end."""
+    """A staircase; nothing where no candidate is left. A threshold beyond the axis is written
+    at its end.
+    """
     from matplotlib.ticker import MaxNLocator
 
     shown = np.where(counts > 0, counts, np.nan)
@@ -87,6 +100,13 @@ def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:
     side, place = "right" if used > 100 else "left", min(max(used, thresholds[0]), thresholds[-1])
     low = float(np.interp(place, thresholds, counts)) < CROWDED * panel.get_ylim()[1]
     panel.annotate(
-        note, (place, 0.78 if low else 0.03), xycoords=("data", "axes fraction"), xytext=(-5 if side == "right" else 5, 0),
-        textcoords="offset points", ha=side, va="bottom", color=Tone.SECOND, size=8.5,
-    )  # fmt: skip
+        note,
+        (place, 0.78 if low else 0.03),
+        xycoords=("data", "axes fraction"),
+        xytext=(-5 if side == "right" else 5, 0),
+        textcoords="offset points",
+        ha=side,
+        va="bottom",
+        color=Tone.SECOND,
+        size=8.5,
+    )

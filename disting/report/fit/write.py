@@ -24,8 +24,9 @@ from disting.report.fit.words import name
 from disting.written import write_whole
 
 COLUMNS = (
-    "n_masses", "gap", "actuator", "sensor", "ground_dampers", "lag", "delay", "n_parameters", "j_train", "j_test",
-    "condition_index", "pii_ratio", "collinearity", "akaike_weight", "hit_rate", "admissible", "reasons",
+    "n_masses", "gap", "actuator", "sensor", "ground_dampers", "lag", "delay", "n_parameters",
+    "j_train", "j_test", "condition_index", "pii_ratio", "collinearity", "akaike_weight",
+    "hit_rate", "admissible", "reasons",
 )  # fmt: skip
 
 
@@ -38,13 +39,15 @@ def write_fit_report(
     profiles: Sequence[str] = (),
     site: Path | None = None,
 ) -> list[Path]:
-    """Write fit.html, its figures (SVG, PNG, PDF), fit.json and candidates.csv; the paths written, in order.
+    """Write fit.html, its figures (SVG, PNG, PDF), fit.json and candidates.csv; the paths written,
+    in order.
 
-    `train` and `test` are the data of the selection; `profiles` names parameters whose profiles are drawn, which takes a second
-    each. `site`: folder with the pages of the catalogues, to which the structures are linked; by default those that lie in
-    `folder` or in the folder that holds it. The same selection, with the same pages there, gives the same bytes. `folder` is
-    made if it does not exist; other files in it stay as they are.
-    Raises InputError for the name of a parameter that the described candidate does not have.
+    `train` and `test` are the data of the selection; `profiles` names parameters whose profiles
+    are drawn, which takes a second each. `site`: folder with the pages of the catalogues, to which
+    the structures are linked; by default those that lie in `folder` or in the folder that holds
+    it. The same selection, with the same pages there, gives the same bytes. `folder` is made if it
+    does not exist; other files in it stay as they are. Raises InputError for the name of a
+    parameter that the described candidate does not have.
     """
     candidate = selection.described
     found = [profile(candidate, selection.task, n) for n in profiles]
@@ -52,7 +55,9 @@ def write_fit_report(
     figures = fit_figures(selection, results, train, test, found)
     folder.mkdir(parents=True, exist_ok=True)
     page = fit_page(selection, results, figures, train, test, Site(site or beside(folder), folder))
-    return [write_whole(folder / file, content) for file, content in _files(selection, page, figures)]
+    return [
+        write_whole(folder / file, content) for file, content in _files(selection, page, figures)
+    ]
 
 
 def fit_figures(
@@ -62,7 +67,9 @@ def fit_figures(
     test: FrequencyResponse | None = None,
     profiles: Sequence[Profile] = (),
 ) -> list[Drawn]:
-    """Bode diagram, residuals, criteria against thresholds, importance, collinearity, starts, profiles."""
+    """Bode diagram, residuals, criteria against thresholds, importance, collinearity, starts,
+    profiles.
+    """
     candidate, task, thresholds = selection.described, selection.task, selection.thresholds
     drawn = [
         bode(candidate, task, results, train, test),
@@ -78,18 +85,28 @@ def fit_figures(
     return [figure for figure in drawn if figure is not None]
 
 
-def _files(selection: Selection, page: str, figures: Sequence[Drawn]) -> Iterator[tuple[str, bytes | list[str]]]:
+def _files(
+    selection: Selection, page: str, figures: Sequence[Drawn]
+) -> Iterator[tuple[str, bytes | list[str]]]:
     yield "fit.html", [page]
     for figure in figures:
         yield f"{figure.name}.svg", figure.svg
         yield f"{figure.name}.png", figure.png
         yield f"{figure.name}.pdf", figure.pdf
-    yield "fit.json", [json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False), "\n"]
+    yield (
+        "fit.json",
+        [
+            json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False),
+            "\n",
+        ],
+    )
     yield "candidates.csv", [candidates_csv(selection)]
 
 
 def candidates_csv(selection: Selection) -> str:
-    """The candidates in the order of the cost on test, a line each; lists with blanks between; infinite numbers are empty."""
+    """The candidates in the order of the cost on test, a line each; lists with blanks between;
+    infinite numbers are empty.
+    """
     text = StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(["rank", "name", *COLUMNS])

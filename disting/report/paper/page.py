@@ -1,4 +1,6 @@
-"""The page "The paper, claim by claim": every claim with what is found here, then the figures and the tables."""
+"""The page "The paper, claim by claim": every claim with what is found here, then the figures
+and the tables.
+"""
 
 import re
 from collections import Counter
@@ -57,7 +59,11 @@ class Part:
 def parts(findings: Findings) -> tuple[Part, ...]:
     """All claims, each checked now."""
     return tuple(
-        Part(f"part-{number}", title, tuple(Line(c, c.check(findings) if c.check else None) for c in claims))
+        Part(
+            f"part-{number}",
+            title,
+            tuple(Line(c, c.check(findings) if c.check else None) for c in claims),
+        )
         for number, (title, claims) in enumerate(SECTIONS, 1)
     )
 
@@ -70,11 +76,16 @@ def paper_page(findings: Findings, pictures: Sequence[Picture]) -> str:
     return render(
         "paper.html",
         parts=listed,
-        counts=[(outcome, outcome.name.lower(), SIGNS[outcome], counts[outcome]) for outcome in Outcome],
+        counts=[
+            (outcome, outcome.name.lower(), SIGNS[outcome], counts[outcome]) for outcome in Outcome
+        ],
         total=len(lines),
         differing=[line for line in lines if line.outcome is Outcome.DIFFERS],
         pictures=pictures,
-        sizes=[(n, PRINTED[n - 1] if n <= len(PRINTED) else "", len(Family(n))) for n in range(1, LARGEST + 1)],
+        sizes=[
+            (n, PRINTED[n - 1] if n <= len(PRINTED) else "", len(Family(n)))
+            for n in range(1, LARGEST + 1)
+        ],
         models=model_rows(findings),
         drawing=drawing,
         raised=raised,
@@ -84,7 +95,9 @@ def paper_page(findings: Findings, pictures: Sequence[Picture]) -> str:
 
 
 def model_rows(findings: Findings) -> list[tuple[ModelRow, int]]:
-    """Table 3: the 3-mass models without damping, and how many parameters of each are determinable with damping."""
+    """Table 3: the 3-mass models without damping, and how many parameters of each are
+    determinable with damping.
+    """
     rows = zip(findings.catalog(3).rows, findings.catalog(3, damped=True).rows, strict=True)
     return [(row, damped.rank) for row, damped in rows]
 

@@ -41,7 +41,11 @@ def _draw(axes: "Axes", shape: Shape) -> None:
     match shape:
         case Text(x, _, text, size):
             words = axes.text(x, shape.baseline, text, ha=SIDES[shape.anchor], va="baseline")
-            words.set(size=size * NARROWER, color=_colour(shape.fill), weight="bold" if shape.bold else "normal")
+            words.set(
+                size=size * NARROWER,
+                color=_colour(shape.fill),
+                weight="bold" if shape.bold else "normal",
+            )
             return
         case Rect(x, y, width, height):
             patch: patches.Patch = patches.Rectangle((x, y), width, height)

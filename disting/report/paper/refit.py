@@ -1,4 +1,6 @@
-"""Fig. 12: the responses of A1 and of the fitted A4, and the damping ratios of their poles and zeros side by side."""
+"""Fig. 12: the responses of A1 and of the fitted A4, and the damping ratios of their poles and
+zeros side by side.
+"""
 
 from math import pi
 from typing import TYPE_CHECKING
@@ -39,14 +41,26 @@ def refit_figure(refit: Refit) -> Drawn:
         figure.legend(*top.get_legend_handles_labels(), loc="outside lower left", ncols=2)
         heading(figure, "The best A4 has the resonances of A1, but not their damping")
 
-    said = "; ".join(f"{m.name}: damping {readable(m.damping[0])} and {readable(m.damping[1])}" for m in refit.modes)
-    return drawn("figure-12", f"Bode diagrams of A1 and of A4 fitted to it. {said}", (4.9, 7.6), draw)
+    said = "; ".join(
+        f"{m.name}: damping {readable(m.damping[0])} and {readable(m.damping[1])}"
+        for m in refit.modes
+    )
+    return drawn(
+        "figure-12", f"Bode diagrams of A1 and of A4 fitted to it. {said}", (4.9, 7.6), draw
+    )
 
 
 def _amplitude(panel: "Axes", refit: Refit, fitted: Complex) -> None:
     hertz = refit.measured.omega / (2 * pi)
     panel.loglog(hertz, np.abs(refit.measured.G), color=Tone.FIRST, linewidth=2.2, label="A1")
-    panel.loglog(hertz, np.abs(fitted), color=Tone.SECOND, linewidth=1.4, linestyle=(0, (5, 2)), label="A4, fitted to A1")
+    panel.loglog(
+        hertz,
+        np.abs(fitted),
+        color=Tone.SECOND,
+        linewidth=1.4,
+        linestyle=(0, (5, 2)),
+        label="A4, fitted to A1",
+    )
     panel.set_xlim(float(hertz[0]), float(hertz[-1]))
     low, high = (float(f(np.abs([refit.measured.G, fitted]))) for f in (np.min, np.max))
     panel.set_ylim(low / 1.4, high * 1.4)
@@ -58,8 +72,17 @@ def _amplitude(panel: "Axes", refit: Refit, fitted: Complex) -> None:
 
 def _phase(panel: "Axes", refit: Refit, fitted: Complex) -> None:
     hertz = refit.measured.omega / (2 * pi)
-    for response, tone, dashes in ((refit.measured.G, Tone.FIRST, "-"), (fitted, Tone.SECOND, (0, (5, 2)))):
-        panel.semilogx(hertz, np.degrees(np.unwrap(np.angle(response))), color=tone, linewidth=1.6, linestyle=dashes)
+    for response, tone, dashes in (
+        (refit.measured.G, Tone.FIRST, "-"),
+        (fitted, Tone.SECOND, (0, (5, 2))),
+    ):
+        panel.semilogx(
+            hertz,
+            np.degrees(np.unwrap(np.angle(response))),
+            color=tone,
+            linewidth=1.6,
+            linestyle=dashes,
+        )
     logarithmic(panel.xaxis, float(hertz[0]), float(hertz[-1]))
     degrees(panel.yaxis, 180.0)
     panel.set_ylabel("Phase")
@@ -72,11 +95,23 @@ def _damping(panel: "Axes", refit: Refit) -> None:
     for row, mode in enumerate(rows):
         panel.plot(mode.damping, [row, row], color=Tone.MUTED, linewidth=1.2, zorder=2)
         panel.plot(mode.damping[0], row, "o", color=Tone.FIRST, ms=7, zorder=3)
-        panel.plot(mode.damping[1], row, "s", mfc=Tone.PAPER, mec=Tone.SECOND, mew=1.6, ms=6.5, zorder=3)
+        panel.plot(
+            mode.damping[1], row, "s", mfc=Tone.PAPER, mec=Tone.SECOND, mew=1.6, ms=6.5, zorder=3
+        )
         change = f"{100 * (mode.damping[1] / mode.damping[0] - 1):+.0f} %".replace("-", "−")
-        panel.text(sum(mode.damping) / 2, row - GAP, change, ha="center", va="bottom", color=Tone.MUTED, size=8.5)
+        panel.text(
+            sum(mode.damping) / 2,
+            row - GAP,
+            change,
+            ha="center",
+            va="bottom",
+            color=Tone.MUTED,
+            size=8.5,
+        )
     labels = [
-        f"{SIGNS[m.name.split()[0]]} {readable(m.frequencies[0], 3)} Hz\n{readable(m.frequencies[1], 3)} Hz" for m in rows
+        f"{SIGNS[m.name.split()[0]]} {readable(m.frequencies[0], 3)}"
+        f" Hz\n{readable(m.frequencies[1], 3)} Hz"
+        for m in rows
     ]
     panel.set_yticks(range(len(rows)), labels)
     panel.set_ylim(len(rows) - 0.5, -0.6)

@@ -1,4 +1,6 @@
-"""Verdicts as triangles of fields, any number of them side by side, as in Figs. 10, 11, 13 and 14."""
+"""Verdicts as triangles of fields, any number of them side by side, as in Figs. 10, 11, 13 and
+14.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -7,7 +9,15 @@ from itertools import combinations
 from disting.catalogs import Catalog
 from disting.catalogs.dampers import DamperTable, spelled
 from disting.engine import Decisions
-from disting.report.fields import CORNERS, LETTERS, corner, field, legend, legend_entry, legend_width
+from disting.report.fields import (
+    CORNERS,
+    LETTERS,
+    corner,
+    field,
+    legend,
+    legend_entry,
+    legend_width,
+)
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
 from disting.report.words import sign
 from disting.verdict import Relation, View
@@ -38,7 +48,11 @@ def of_decisions(title: str, found: Decisions, names: Sequence[str] = ()) -> Pan
 def of_catalog(title: str, catalog: Catalog, view: View) -> Panel:
     """Every pair of a catalogue in one view."""
     names = tuple(f"A{number}" for number in range(1, len(catalog.family) + 1))
-    return Panel(title, names, {(i - 1, j - 1): (v.relation, sign(v.decided_by)) for i, j, v in catalog.pairs(view)})
+    return Panel(
+        title,
+        names,
+        {(i - 1, j - 1): (v.relation, sign(v.decided_by)) for i, j, v in catalog.pairs(view)},
+    )
 
 
 def of_dampers(title: str, table: DamperTable) -> Panel:
@@ -55,13 +69,19 @@ def triangles(title: str, panels: Sequence[Panel], columns: int, cell: float) ->
         row, column = divmod(place, columns)
         layers += _panel(panel, MARGIN + 2.0 * cell + column * width, 8 + HEAD + row * height, cell)
     rows = -(-len(panels) // columns)
-    occurring = [r for r in Relation if any(r is relation for p in panels for relation, _ in p.fields.values())]
+    occurring = [
+        r
+        for r in Relation
+        if any(r is relation for p in panels for relation, _ in p.fields.values())
+    ]
     total = max(2 * MARGIN + min(columns, len(panels)) * width, LEAST)
     foot = 8 + rows * height + FOOT / 2
     if sum(map(legend_width, occurring)) < total + LINE:
         layers += legend(occurring, MARGIN, foot)
     else:
-        layers += (legend_entry(relation, MARGIN, foot + i * LINE) for i, relation in enumerate(occurring))
+        layers += (
+            legend_entry(relation, MARGIN, foot + i * LINE) for i, relation in enumerate(occurring)
+        )
         foot += (len(occurring) - 1) * LINE
     return Scene(total, foot + FOOT / 2 + 4, tuple(layers), title)
 
@@ -69,15 +89,26 @@ def triangles(title: str, panels: Sequence[Panel], columns: int, cell: float) ->
 def _panel(panel: Panel, x: float, y: float, cell: float) -> Iterator[Layer]:
     places = {(i, j): (x + i * cell, y + j * cell) for i, j in panel.fields}
     by_relation = sorted(panel.fields.items(), key=lambda item: list(Relation).index(item[1][0]))
-    marked = [(places[pair], relation) for pair, (relation, _) in by_relation if relation in CORNERS]
+    marked = [
+        (places[pair], relation) for pair, (relation, _) in by_relation if relation in CORNERS
+    ]
     signs = [(places[pair], relation, mark) for pair, (relation, mark) in by_relation if mark]
     half = (cell - 1) / 2
     yield Layer("title", (Text(x, y - 4, panel.title, 13, anchor=Anchor.START, bold=True),))
     yield Layer("names", tuple(_names(panel.names, x, y, cell)))
-    yield Layer("fields", tuple(s for pair, (relation, _) in by_relation for s in field(*places[pair], relation, cell)))
+    yield Layer(
+        "fields",
+        tuple(
+            s for pair, (relation, _) in by_relation for s in field(*places[pair], relation, cell)
+        ),
+    )
     yield Layer("corners", tuple(corner(*place, relation, cell) for place, relation in marked))
     yield Layer(
-        "signs", tuple(Text(a + half, b + half, mark, 0.62 * cell, LETTERS[relation]) for (a, b), relation, mark in signs)
+        "signs",
+        tuple(
+            Text(a + half, b + half, mark, 0.62 * cell, LETTERS[relation])
+            for (a, b), relation, mark in signs
+        ),
     )
 
 

@@ -13,7 +13,8 @@ from disting.written import write_whole
 def write_paper(findings: Findings, out: Path) -> list[Path]:
     """Write index.html and every figure as SVG, PNG and PDF; the paths written, in order.
 
-    The same findings give the same bytes. `out` is made if it does not exist; other files in it stay as they are.
+    The same findings give the same bytes. `out` is made if it does not exist; other files in it
+    stay as they are.
     """
     pictures = paper_figures(findings)
     page = paper_page(findings, pictures)

@@ -12,7 +12,8 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
-VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}  # antiresonance 33.8 Hz, resonance 58.5 Hz
+# antiresonance 33.8 Hz, resonance 58.5 Hz
+VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}
 HOSTILE = """</script><img src=x onerror='alert(1)'>&amp;{{ 7*7 }} $x^2$ <!-- --"""
 
 
@@ -46,4 +47,11 @@ def nothing(train: FrequencyResponse) -> Selection:
     """No candidate is admissible, no test data, one parameter fixed, one at its bound."""
     strict = Thresholds(condition_index=5.0, importance_ratio=10.0, collinearity=2.0)
     candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag and not c.dead_time]
-    return select(train, candidates, thresholds=strict, rule=Rule.PAPER, fixed={"k12": 900.0}, bounds={"m1": (0.0, 0.009)})
+    return select(
+        train,
+        candidates,
+        thresholds=strict,
+        rule=Rule.PAPER,
+        fixed={"k12": 900.0},
+        bounds={"m1": (0.0, 0.009)},
+    )

@@ -1,4 +1,6 @@
-"""The page of a fit in a real browser: sort, scroll, print; nothing is fetched and nothing goes wrong."""
+"""The page of a fit in a real browser: sort, scroll, print; nothing is fetched and nothing goes
+wrong.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -18,9 +20,13 @@ REPORTS = Path(__file__).parents[3] / "reports"
 
 
 @pytest.fixture(scope="module")
-def page(selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(
+    selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
     path = tmp_path_factory.mktemp("browser") / "fit.html"
-    path.write_text(fit_page(selection, [], [waterfall(selection.described)], train), encoding="utf-8")
+    path.write_text(
+        fit_page(selection, [], [waterfall(selection.described)], train), encoding="utf-8"
+    )
     return path
 
 
@@ -89,7 +95,9 @@ def test_commands_break_between_their_words(tab) -> None:  # type: ignore[no-unt
     """On a phone --damped stays one word, and the command is read to its end."""
     tab.set_viewport_size({"width": 390, "height": 844})
     code = tab.locator("#next .command code").first
-    heights = code.evaluate("(e) => [...e.children].slice(0, 4).map((word) => word.getClientRects().length)")
+    heights = code.evaluate(
+        "(e) => [...e.children].slice(0, 4).map((word) => word.getClientRects().length)"
+    )
     assert heights == [1, 1, 1, 1]
     assert code.evaluate("(e) => e.scrollWidth - e.clientWidth") <= 0
 

@@ -17,7 +17,17 @@ from disting.fit.sweep import profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit import bode, collinearity_dots, importance_bars, profile_panels, waterfall
 from disting.report.fit.bode import Mark, asymptotes, marks, model_line
-from disting.report.fit.style import NARROW, POINTS, VARIABLES, WIDE, Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.style import (
+    NARROW,
+    POINTS,
+    VARIABLES,
+    WIDE,
+    Drawn,
+    Tone,
+    drawn,
+    heading,
+    is_narrow,
+)
 
 from .conftest import DRIVE, VALUES
 
@@ -25,7 +35,13 @@ from .conftest import DRIVE, VALUES
 @pytest.fixture(scope="module")
 def figure(selection: Selection, train: FrequencyResponse, test: FrequencyResponse) -> Drawn:
     assert selection.selected is not None
-    return bode(selection.selected, selection.task, physical(selection.selected, selection.task), train, test)
+    return bode(
+        selection.selected,
+        selection.task,
+        physical(selection.selected, selection.task),
+        train,
+        test,
+    )
 
 
 def test_the_drive_is_found(selection: Selection) -> None:
@@ -41,20 +57,29 @@ def test_files_are_what_they_claim(figure: Drawn) -> None:
 
 
 def test_nothing_is_cut_off_where_units_are_not_known(train: FrequencyResponse) -> None:
-    """The legend then says "input per acceleration", its longest, behind inertias of seven characters."""
+    """The legend then says "input per acceleration", its longest, behind inertias of seven
+    characters.
+    """
     nameless = {"input": train.input._replace(unit=""), "output": train.output._replace(unit="")}
     found = select(replace(train, G=train.G / 0.3177, **nameless), [DRIVE])
     assert found.selected is not None
-    drawing = bode(found.selected, found.task, physical(found.selected, found.task), found.test, found.test)
+    drawing = bode(
+        found.selected, found.task, physical(found.selected, found.task), found.test, found.test
+    )
     pixels = np.asarray(Image.open(BytesIO(drawing.png)).convert("L"))
     assert pixels.min() < 100
-    assert min(edge.min() for edge in (pixels[:3], pixels[-3:], pixels[:, :3], pixels[:, -3:])) == pixels.max()
+    assert (
+        min(edge.min() for edge in (pixels[:3], pixels[-3:], pixels[:, :3], pixels[:, -3:]))
+        == pixels.max()
+    )
 
 
 def test_settings_of_the_user_neither_enter_nor_change(selection: Selection) -> None:
     assert selection.selected is not None
     before = waterfall(selection.selected)
-    with matplotlib.rc_context({"lines.linewidth": 9, "font.size": 20, "axes.facecolor": "red", "svg.hashsalt": "other"}):
+    with matplotlib.rc_context(
+        {"lines.linewidth": 9, "font.size": 20, "axes.facecolor": "red", "svg.hashsalt": "other"}
+    ):
         after = waterfall(selection.selected)
         assert matplotlib.rcParams["font.size"] == 20
     assert (before.svg, before.png, before.pdf) == (after.svg, after.png, after.pdf)
@@ -63,7 +88,10 @@ def test_settings_of_the_user_neither_enter_nor_change(selection: Selection) -> 
 def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: Drawn) -> None:
     text = str(figure.inline)
     assert not any(tone.value in text for tone in VARIABLES)
-    assert all(f"var(--{VARIABLES[tone]})" in text for tone in (Tone.INK, Tone.FIRST, Tone.SECOND, Tone.MUTED))
+    assert all(
+        f"var(--{VARIABLES[tone]})" in text
+        for tone in (Tone.INK, Tone.FIRST, Tone.SECOND, Tone.MUTED)
+    )
     assert "<style" not in text and "xlink:" not in text and "http" not in text
     ids = re.findall(r'\bid="([^"]*)"', text)
     assert ids and all(i.startswith("bode-") for i in ids) and len(ids) == len(set(ids))
@@ -72,7 +100,10 @@ def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: Drawn) -> 
 
 def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
     seen: list[bool] = []
-    long = "a title that is so long that it needs more than one line on a phone, but one line elsewhere"
+    long = (
+        "a title that is so long that it needs more than one line on a phone, but one line"
+        " elsewhere"
+    )
 
     def draw(figure: Figure) -> None:
         seen.append(is_narrow(figure))
@@ -87,7 +118,9 @@ def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
     assert lines[0] == 1 and lines[1] >= 2
 
 
-def test_marks_of_one_measurement_carry_their_style_once(figure: Drawn, train: FrequencyResponse) -> None:
+def test_marks_of_one_measurement_carry_their_style_once(
+    figure: Drawn, train: FrequencyResponse
+) -> None:
     uses = re.findall(r"<use [^>]*>", str(figure.inline))
     assert len(uses) > 2 * 2 * len(train) and sum("stroke" in use for use in uses) < 60
     assert not re.search(r'<use [^>]*="\d+\.\d{3,}', str(figure.inline))
@@ -110,7 +143,10 @@ def test_marks_stay_in_the_band_and_where_something_shows() -> None:
         ("resonance 2", 40.0, 0.02),
         ("resonance 3", 500.0, 0.1),
     ]
-    pairs = [(Result(n, v, 0.0, "Hz"), Result(f"damping ratio of {n}", ratio, 0.0, "")) for n, v, ratio in rows]
+    pairs = [
+        (Result(n, v, 0.0, "Hz"), Result(f"damping ratio of {n}", ratio, 0.0, ""))
+        for n, v, ratio in rows
+    ]
     omega = 2 * np.pi * np.array([10.0, 100.0])
     assert marks([r for pair in pairs for r in pair], omega) == [
         Mark("antiresonance", 20.0, 0.1),
@@ -118,7 +154,9 @@ def test_marks_stay_in_the_band_and_where_something_shows() -> None:
     ]
 
 
-def test_marks_and_asymptotes_are_those_of_the_drive(selection: Selection, train: FrequencyResponse) -> None:
+def test_marks_and_asymptotes_are_those_of_the_drive(
+    selection: Selection, train: FrequencyResponse
+) -> None:
     assert selection.selected is not None
     results = physical(selection.selected, selection.task)
     low, high = (2 * np.pi * m.frequency for m in marks(results, train.omega))
@@ -126,11 +164,19 @@ def test_marks_and_asymptotes_are_those_of_the_drive(selection: Selection, train
     assert low == pytest.approx(np.sqrt(k / m2), rel=0.01)
     assert high == pytest.approx(np.sqrt(k * (m1 + m2) / (m1 * m2)), rel=0.01)
     (total, at_low), (motor, at_high) = asymptotes(DRIVE, results, train.omega, train)
-    assert total.startswith("total inertia") and motor.startswith("motor inertia") and total.endswith("kg m²")
-    assert at_low[0] == pytest.approx(1 / (m1 + m2), rel=0.01) and at_high[0] == pytest.approx(1 / m1, rel=0.01)
+    assert (
+        total.startswith("total inertia")
+        and motor.startswith("motor inertia")
+        and total.endswith("kg m²")
+    )
+    assert at_low[0] == pytest.approx(1 / (m1 + m2), rel=0.01) and at_high[0] == pytest.approx(
+        1 / m1, rel=0.01
+    )
 
 
-def test_measured_phases_follow_the_model_without_jumps(selection: Selection, train: FrequencyResponse) -> None:
+def test_measured_phases_follow_the_model_without_jumps(
+    selection: Selection, train: FrequencyResponse
+) -> None:
     assert selection.selected is not None
     line = model_line(selection.selected, selection.task, [train])
     assert line.phase.max() <= 200.0

@@ -23,7 +23,10 @@ LOADED = Chain(3, damped=True, ground_dampers=(1, 3))
     ("chain", "link"),
     [
         (LOADED, Link("3:1+b1+b3", "dampers-3-damped.html#1+b1+b3")),
-        (replace(LOADED, lag=True, dead_time=True), Link("3:1+b1+b3", "dampers-3-damped.html#1+b1+b3")),
+        (
+            replace(LOADED, lag=True, dead_time=True),
+            Link("3:1+b1+b3", "dampers-3-damped.html#1+b1+b3"),
+        ),
         (replace(LOADED, ground_dampers=(), dead_time=True), Link("3:1", "models/3-damped/1.html")),
         (Chain(3, meas_plus=3), Link("3:3", "models/3-undamped/3.html")),
         (DRIVE, Link("2:1", "models/2-damped/1.html")),  # no page of ground dampers for 2 masses
@@ -41,7 +44,9 @@ def test_what_has_no_page_has_no_link(tmp_path: Path) -> None:
 def test_pages_beside_are_found_and_addresses_are_quoted(tmp_path: Path) -> None:
     (tmp_path / "a b" / "models" / "2-damped").mkdir(parents=True)
     (tmp_path / "a b" / "models" / "2-damped" / "1.html").touch()
-    assert Site(tmp_path / "a b", tmp_path).page(DRIVE) == Link("2:1", "a%20b/models/2-damped/1.html")
+    assert Site(tmp_path / "a b", tmp_path).page(DRIVE) == Link(
+        "2:1", "a%20b/models/2-damped/1.html"
+    )
     assert beside(tmp_path / "a b") == tmp_path / "a b" == beside(tmp_path / "a b" / "fit")
     assert beside(tmp_path) == tmp_path
 
@@ -66,7 +71,9 @@ def test_each_structure_has_its_commands(both: Selection) -> None:
     ]
 
 
-def test_commands_run_as_they_are_printed(both: Selection, capsys: pytest.CaptureFixture[str]) -> None:
+def test_commands_run_as_they_are_printed(
+    both: Selection, capsys: pytest.CaptureFixture[str]
+) -> None:
     first, second = both.members
     twin = Twin(second.candidate.chain, second.candidate.estimate.parameters)
     steps = [*next_steps(both), *steps_of(both, second), step_to(first, twin)]

@@ -16,7 +16,13 @@ from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
-from disting.report.fit import collinearity_dots, fit_page, importance_bars, waterfall, write_fit_report
+from disting.report.fit import (
+    collinearity_dots,
+    fit_page,
+    importance_bars,
+    waterfall,
+    write_fit_report,
+)
 from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.page import reasoning
 from disting.report.fit.thresholds import parameters_by_threshold
@@ -26,7 +32,15 @@ from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
 
-FIGURES = ["bode", "residuals", "parameters-by-threshold", "models-by-threshold", "importance", "collinearity", "starts"]
+FIGURES = [
+    "bode",
+    "residuals",
+    "parameters-by-threshold",
+    "models-by-threshold",
+    "importance",
+    "collinearity",
+    "starts",
+]
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +49,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def written(selection: Selection, train: FrequencyResponse, test: FrequencyResponse, folder: Path) -> list[Path]:
+def written(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse, folder: Path
+) -> list[Path]:
     return write_fit_report(selection, folder, train, test)
 
 
@@ -62,7 +78,9 @@ def test_all_files_are_written_and_linked(written: list[Path], outline: Outline)
 def test_the_same_figures_page_and_data_again(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path]
 ) -> None:
-    """Two figures, drawn and written by what draws and writes all; `disting fit` writes all twice in the slow one."""
+    """Two figures, drawn and written by what draws and writes all; `disting fit` writes all
+    twice in the slow one.
+    """
     found = selection.described
     content = {p.name: p.read_bytes() for p in written}
     for drawn in (importance_bars(found, selection.thresholds), waterfall(found)):
@@ -75,7 +93,11 @@ def test_the_same_figures_page_and_data_again(
 
 @pytest.mark.slow
 def test_two_runs_write_the_same_bytes(
-    selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path], tmp_path: Path
+    selection: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse,
+    written: list[Path],
+    tmp_path: Path,
 ) -> None:
     again = write_fit_report(selection, tmp_path, train, test)
     assert [p.read_bytes() for p in again] == [p.read_bytes() for p in written]
@@ -93,7 +115,9 @@ def test_nothing_is_fetched(written: list[Path], outline: Outline) -> None:
 def test_ids_are_unique_and_links_lead_somewhere(outline: Outline) -> None:
     ids = [a["id"] for _, a in outline.elements if "id" in a]
     assert len(ids) == len(set(ids))
-    inner = {str(a["href"])[1:] for _, a in outline.elements if str(a.get("href", "")).startswith("#")}
+    inner = {
+        str(a["href"])[1:] for _, a in outline.elements if str(a.get("href", "")).startswith("#")
+    }
     assert inner and inner <= set(ids)
 
 
@@ -106,11 +130,16 @@ def test_hostile_text_stays_text(outline: Outline, empty: Outline) -> None:
 def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     said = " ".join(outline.text.split())
     admissible = sum(c.admissible for c in selection.candidates)
-    assert f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are admissible: 5 parameters" in said
+    assert (
+        f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are"
+        " admissible: 5 parameters" in said
+    )
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
     sketched = len(selection.members) + sum(len(m.twins) for m in selection.members)
-    assert len(drawings) == 1 + sketched + 2 * len(FIGURES) and all(a.get("aria-label") for a in drawings)
+    assert len(drawings) == 1 + sketched + 2 * len(FIGURES) and all(
+        a.get("aria-label") for a in drawings
+    )
 
 
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
@@ -139,14 +168,20 @@ def test_data_are_the_selection_s_own(selection: Selection, written: list[Path])
     rows = list(csv.DictReader(written[-1].read_text(encoding="utf-8").splitlines()))
     assert [row["rank"] for row in rows] == [str(i) for i in range(1, 25)]
     assert [float(row["j_test"]) for row in rows] == [c.j_test for c in selection.candidates]
-    assert [row["admissible"] == "true" for row in rows] == [c.admissible for c in selection.candidates]
+    assert [row["admissible"] == "true" for row in rows] == [
+        c.admissible for c in selection.candidates
+    ]
     assert all(bool(row["reasons"]) != (row["admissible"] == "true") for row in rows)
 
 
-def test_nothing_admissible_is_said_with_the_nearest_and_why(nothing: Selection, empty: Outline) -> None:
+def test_nothing_admissible_is_said_with_the_nearest_and_why(
+    nothing: Selection, empty: Outline
+) -> None:
     assert nothing.selected is None
     said = " ".join(empty.text.split())
-    assert said.startswith("Fit: no admissible model No model is admissible Each of the 3 fitted candidates")
+    assert said.startswith(
+        "Fit: no admissible model No model is admissible Each of the 3 fitted candidates"
+    )
     first = nearest(nothing)[0]
     assert all(reason in said for reason in first.reasons)
     assert "at its bound" in said and "fixed" in said and "J cross-validated" in said
@@ -154,11 +189,15 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(nothing: Selection,
 
 
 def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
-    excess = [max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)]
+    excess = [
+        max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)
+    ]
     assert excess == sorted(excess) and excess[0] > 1
 
 
-def test_the_page_describes_the_candidate_that_its_first_lines_are_about(nothing: Selection, empty: Outline) -> None:
+def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
+    nothing: Selection, empty: Outline
+) -> None:
     """Where none is admissible: not the one nearest to its thresholds, which may fit worse."""
     assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
     said = " ".join(empty.text.split())
@@ -171,7 +210,15 @@ def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
     best = next(c for c in selection.candidates if c.admissible)
     assert ("lowest cost of all admissible ones." in said["Margin"]) == (best is selection.selected)
     assert ("that noise alone may make" in said["Margin"]) == (best is not selection.selected)
-    assert set(said) == {"Validation", "Scatter", "Repeatability", "Margin", "Akaike weights", "Starts", "Standard errors"}
+    assert set(said) == {
+        "Validation",
+        "Scatter",
+        "Repeatability",
+        "Margin",
+        "Akaike weights",
+        "Starts",
+        "Standard errors",
+    }
 
 
 def test_the_weakest_combination_names_its_largest_part_first(selection: Selection) -> None:
@@ -180,32 +227,46 @@ def test_the_weakest_combination_names_its_largest_part_first(selection: Selecti
     assert weakest(selection.described).startswith(f"ln {terms[0]}")
 
 
-def test_an_unknown_parameter_has_no_profile(selection: Selection, train: FrequencyResponse, tmp_path: Path) -> None:
+def test_an_unknown_parameter_has_no_profile(
+    selection: Selection, train: FrequencyResponse, tmp_path: Path
+) -> None:
     with pytest.raises(InputError, match="k23"):
         write_fit_report(selection, tmp_path / "x", train, profiles=["k23"])
     assert not (tmp_path / "x").exists()
 
 
-def test_structures_that_no_data_can_tell_apart_are_named(train: FrequencyResponse, test: FrequencyResponse) -> None:
+def test_structures_that_no_data_can_tell_apart_are_named(
+    train: FrequencyResponse, test: FrequencyResponse
+) -> None:
     loose = Thresholds(1e12, 1e12, 1e12)
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
     found = select(train, candidates, test=test, thresholds=loose)
-    assert found.selected is not None and len(found.selected.chain.ground_dampers) == 1 and found.saved == 1
+    assert (
+        found.selected is not None
+        and len(found.selected.chain.ground_dampers) == 1
+        and found.saved == 1
+    )
     said = " ".join(Outline(fit_page(found, [], [waterfall(found.described)], train)).text.split())
-    assert "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
+    assert (
+        "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
+    )
     assert "2 masses, force 1, sensor 2, dampers b1, b2." in said
     assert "1 fit saved" in said and "None: each of" not in said
 
 
 def test_no_alternatives_are_said_so(outline: Outline) -> None:
     assert (
-        "None: for generic positive parameters none of the 15 other candidates with 2 masses has the transfer function"
-        in " ".join(outline.text.split())
+        "None: for generic positive parameters none of the 15 other candidates with 2 masses has"
+        " the transfer function" in " ".join(outline.text.split())
     )
 
 
-def test_what_no_data_determine_is_said_in_words(train: FrequencyResponse, test: FrequencyResponse) -> None:
-    found = select(train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)], test=test)
+def test_what_no_data_determine_is_said_in_words(
+    train: FrequencyResponse, test: FrequencyResponse
+) -> None:
+    found = select(
+        train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)], test=test
+    )
     candidate = found.described
     drawn = [
         waterfall(candidate),

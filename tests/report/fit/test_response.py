@@ -1,4 +1,6 @@
-"""Error bars, bands, residuals and distortion: drawn where there is something to draw, and told with their sizes."""
+"""Error bars, bands, residuals and distortion: drawn where there is something to draw, and told
+with their sizes.
+"""
 
 from dataclasses import replace
 
@@ -34,7 +36,9 @@ def plain(train: FrequencyResponse) -> Selection:
 @pytest.fixture(scope="module")
 def wrong(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
     """Nothing explains the data."""
-    return select(train, [c for c in figure_1((1,)) if c.damped and not c.lag and not c.dead_time], test=test)
+    return select(
+        train, [c for c in figure_1((1,)) if c.damped and not c.lag and not c.dead_time], test=test
+    )
 
 
 @pytest.fixture(scope="module")
@@ -56,10 +60,18 @@ def panel() -> Axes:
 
 
 def series(measured: FrequencyResponse, rho: float = 0.05) -> Series:
-    return Series("training data", measured, Tone.FIRST, "o", Scatter(np.full(len(measured), rho), "somewhere"))
+    return Series(
+        "training data",
+        measured,
+        Tone.FIRST,
+        "o",
+        Scatter(np.full(len(measured), rho), "somewhere"),
+    )
 
 
-def test_lines_that_tell_their_scatter_have_bars_of_that_length(train: FrequencyResponse, panel: Axes) -> None:
+def test_lines_that_tell_their_scatter_have_bars_of_that_length(
+    train: FrequencyResponse, panel: Axes
+) -> None:
     size = np.abs(train.G)
     bars(panel, series(replace(train, coherence=None)), size, 0.9 * size, 1.2 * size)
     assert not panel.collections
@@ -69,19 +81,25 @@ def test_lines_that_tell_their_scatter_have_bars_of_that_length(train: Frequency
     assert ends == pytest.approx(np.stack([0.9 * size, 1.2 * size], axis=1))
 
 
-@pytest.mark.parametrize("omega", [np.geomspace(1, 1e4, 3000), np.linspace(1, 1e4, 3000), np.arange(1.0, 21.0)])
+@pytest.mark.parametrize(
+    "omega", [np.geomspace(1, 1e4, 3000), np.linspace(1, 1e4, 3000), np.arange(1.0, 21.0)]
+)
 def test_bars_of_many_lines_are_thinned_over_the_whole_axis(omega: np.ndarray) -> None:
     at = barred(omega)
     assert len(at) <= BARRED and (len(at) == len(omega) or len(omega) > BARRED)
     assert at[0] == 0 and at[-1] == len(omega) - 1 and np.all(np.diff(at) > 0)
 
 
-def test_residuals_are_those_of_data_and_model(selection: Selection, train: FrequencyResponse, test: FrequencyResponse) -> None:
+def test_residuals_are_those_of_data_and_model(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse
+) -> None:
     first, second = missed(selection, train, test)
     model = predicted(DRIVE, selection.described.estimate.parameters, train.omega)
     assert np.exp(first.amplitude + 1j * first.phase) == pytest.approx(train.G / model)
     assert second.series.scatter is selection.explanation.scatter
-    wide = replace(first, series=replace(first.series, scatter=Scatter(np.full(len(train), 1.0), "")))
+    wide = replace(
+        first, series=replace(first.series, scatter=Scatter(np.full(len(train), 1.0), ""))
+    )
     assert wide.outside == 0.0 and first.outside < 0.2
 
 
@@ -89,8 +107,13 @@ def test_what_the_figures_show_is_said_with_sizes(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:
     above, below = (" ".join(said) for said in bands_in_words(selection, train, test))
-    assert "Error bars of the training data hold 95 %: ±" in above and "Error bars of the test data" in above
-    assert "The band of the model holds 95 % at each frequency, if the structure is right: ±" in above
+    assert (
+        "Error bars of the training data hold 95 %: ±" in above
+        and "Error bars of the test data" in above
+    )
+    assert (
+        "The band of the model holds 95 % at each frequency, if the structure is right: ±" in above
+    )
     assert "Residuals outside the scatter: " in below and "noise alone leaves 5 % there" in below
     assert "Under the response" not in above
 
@@ -120,7 +143,9 @@ def test_distortion_lies_under_the_response(multisine: Selection, panel: Axes) -
     beneath(panel, s, 3.0)
     drawn = {line.get_label(): line for line in panel.lines}
     assert set(drawn) == {"odd distortion", "even distortion", "noise"}
-    even, odd = (np.median(np.asarray(drawn[f"{kind} distortion"].get_ydata())) for kind in ("even", "odd"))
+    even, odd = (
+        np.median(np.asarray(drawn[f"{kind} distortion"].get_ydata())) for kind in ("even", "odd")
+    )
     assert even > 5 * odd  # a square makes even ones
     assert panel.get_ylim()[0] < even < 3.0 and panel.get_ylim()[1] == 2000.0
     assert "Under the response" in " ".join(bands_in_words(multisine, multisine.test)[0])
@@ -131,7 +156,11 @@ def test_no_rounding_is_drawn_as_distortion(multisine: Selection, panel: Axes) -
     assert s.measured.distortion is not None
     panel.set_xlim(5.0, 200.0)
     panel.set_ylim(3.0, 2000.0)
-    beneath(panel, replace(s, measured=replace(s.measured, distortion=s.measured.distortion.times(1e-9))), 3.0)
+    beneath(
+        panel,
+        replace(s, measured=replace(s.measured, distortion=s.measured.distortion.times(1e-9))),
+        3.0,
+    )
     assert not panel.lines and panel.get_ylim() == (3.0, 2000.0)
 
 
@@ -149,7 +178,10 @@ def test_the_fit_in_percent_is_said_and_exported(
     plainly = selection_to_dict(selection)["fit_percent"]
     assert 95 < plainly["train"] < 100 and 95 < plainly["test"] < 100
     said = fit_in_words(selection, train, test)
-    assert said.startswith(f"fit: {plainly['train']:.4g} % of the training data, {plainly['test']:.4g} % of the test data (")
+    assert said.startswith(
+        f"fit: {plainly['train']:.4g} % of the training data, {plainly['test']:.4g} % of the test"
+        " data ("
+    )
     assert selection_to_dict(plain)["fit_percent"]["test"] is None
 
 

@@ -15,7 +15,9 @@ def test_straight_lines_between_the_corners_are_the_curves(width, place, slope):
     lower = peak - 0.1 * np.abs(np.sin(X))
     at = corners(X, lower, peak)
     for curve in (lower, peak):
-        assert np.abs(np.interp(X, X[at], curve[at]) - curve).max() <= FINE * np.ptp(curve) * (1 + 1e-9)
+        assert np.abs(np.interp(X, X[at], curve[at]) - curve).max() <= FINE * np.ptp(curve) * (
+            1 + 1e-9
+        )
     assert {0, len(X) - 1} <= set(at) and len(at) < 200
 
 

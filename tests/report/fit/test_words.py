@@ -31,7 +31,11 @@ def test_numbers(value: float, said: str) -> None:
 
 
 def test_columns_keep_their_digits() -> None:
-    assert [readable(v, 4, all_digits=True) for v in (0.63, 0.6299, 3.0)] == ["0.6300", "0.6299", "3.000"]
+    assert [readable(v, 4, all_digits=True) for v in (0.63, 0.6299, 3.0)] == [
+        "0.6300",
+        "0.6299",
+        "3.000",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -54,7 +58,10 @@ def test_shares() -> None:
 
 
 def test_names_tell_all_that_differs() -> None:
-    chains = [Chain(3, g, a, b, c, d) for g, a, b, c, d in [(0, 0, 1, 0, 1), (0, 0, 1, 0, 3), (1, 1, 2, 1, 3), (2, 2, 3, 1, 3)]]
+    chains = [
+        Chain(3, g, a, b, c, d)
+        for g, a, b, c, d in [(0, 0, 1, 0, 1), (0, 0, 1, 0, 3), (1, 1, 2, 1, 3), (2, 2, 3, 1, 3)]
+    ]
     assert [name(c) for c in chains] == [
         "3 masses",
         "3 masses, force 1, sensor 3",
@@ -68,18 +75,27 @@ def test_names_tell_all_that_differs() -> None:
     [
         ("position", "N", "m", ["kg", "N/m", "N s/m"]),
         ("acceleration", "A", "rad/s^2", ["A/(rad/s²)", "A/rad", "A/(rad/s)"]),
-        ("velocity", "", "rad/s", ["input per acceleration", "input per position", "input per velocity"]),
+        (
+            "velocity",
+            "",
+            "rad/s",
+            ["input per acceleration", "input per position", "input per velocity"],
+        ),
         ("velocity", "V", "counts", ["input per acceleration", "input per position", "V/counts"]),
     ],
 )
-def test_units_follow_from_those_of_the_data(sensor: str, given: str, shown: str, units: list[str]) -> None:
+def test_units_follow_from_those_of_the_data(
+    sensor: str, given: str, shown: str, units: list[str]
+) -> None:
     signals = {"input": ("", given), "output": ("", shown)}
     measured = FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex), sensor=sensor, **signals)  # type: ignore[arg-type]
     assert [unit_of(kind, measured) for kind in "mkd"] == units
     assert unit_of("T", measured) == "s"
 
 
-@pytest.mark.parametrize("places", [[], [0.3], [0.1, 0.1, 0.1, 0.9], [0.0, 0.01, 0.5, 0.52, 0.53, 1.0]])
+@pytest.mark.parametrize(
+    "places", [[], [0.3], [0.1, 0.1, 0.1, 0.9], [0.0, 0.01, 0.5, 0.52, 0.53, 1.0]]
+)
 def test_labels_keep_their_distance(places: list[float]) -> None:
     moved = spread(places, 0.08)
     assert np.all(np.diff(moved) >= 0.08 - 1e-12)
