@@ -1,12 +1,12 @@
 """`compare` and `findings`: any two chains, named as the paper names them, or general models."""
 
-from disting import parametric
+from disting import general
 from disting.conditions import Subject
-from disting.engine import Engine
 from disting.errors import InputError
+from disting.general import Model
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.parametric import Model
+from disting.store import Engine
 from disting.verdict import Query, Step, Verdict, steps
 
 # masses; larger families are long to list, so their chains are named by their indices
@@ -38,7 +38,7 @@ def compare(
     """
     engine = engine or Engine()
     if isinstance(left, Model) or isinstance(right, Model):
-        return parametric.compare(
+        return general.compare(
             _model(left), _model(right), query=query, audit=audit, settings=engine.settings
         )
     subjects = _subjects(left, right, engine)
@@ -60,9 +60,7 @@ def findings(
     """
     engine = engine or Engine()
     if isinstance(left, Model) or isinstance(right, Model):
-        return parametric.findings(
-            _model(left), _model(right), query=query, settings=engine.settings
-        )
+        return general.findings(_model(left), _model(right), query=query, settings=engine.settings)
     return tuple(steps(*_subjects(left, right, engine), query or Query()))
 
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from pathlib import Path
 
+from disting.behaviour.sample import Representation
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import (
     INCLUSIONS,
@@ -16,15 +17,14 @@ from disting.catalogs.files import (
 )
 from disting.catalogs.provenance import write_provenance
 from disting.conditions.subject import Subject
-from disting.domain import Domain
-from disting.engine import Decisions, Engine, Progress, silent
+from disting.evidence.domain import Domain
 from disting.evidence.plain import to_dict
-from disting.identifiability import Identifiability
-from disting.inclusion import inclusions_to_dict
-from disting.invariants.sample import Representation
+from disting.files import write_whole
 from disting.model.family import Family
+from disting.questions.identifiability import Identifiability
+from disting.questions.inclusion import inclusions_to_dict
+from disting.store import Decisions, Engine, Progress, silent
 from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
-from disting.written import write_whole
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
 # what holds over positive parameters follows from the shares of both sides

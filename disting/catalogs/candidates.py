@@ -17,16 +17,15 @@ from string import ascii_letters
 
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
-from disting.certainty import Certainty
 from disting.comparison import name_of
 from disting.conditions.table import RULES
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
+from disting.evidence.certainty import Certainty
+from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
-from disting.packaged import intact_text
+from disting.store import Decisions, Engine, Progress, silent
 from disting.verdict import Query, Relation, View
-from disting.written import write_whole
 
 SCHEMA = 1
 FILE = "candidates.jsonl"

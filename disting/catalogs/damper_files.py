@@ -16,18 +16,17 @@ from pathlib import Path
 
 import numpy as np
 
+from disting.algebra.settings import Settings
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
-from disting.conditions.codec import WRITTEN
+from disting.conditions.finding_json import WRITTEN
 from disting.conditions.rule import EXACT
-from disting.engine.classes import Classes
 from disting.errors import CatalogError
+from disting.files import intact_text, write_whole
 from disting.model.family import Family
-from disting.packaged import intact_text
-from disting.settings import Settings
-from disting.written import write_whole
+from disting.verdict.classes import Classes
 
 SCHEMA = 1
 SHIPPED_SIZES = (3, 4, 5)

@@ -5,12 +5,12 @@ other, each kept at once.
 from collections.abc import Callable
 from pathlib import Path
 
+from disting.algebra.settings import Settings
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_settled import append, read_settled
 from disting.conditions.finding import Outcome
-from disting.conditions.quick import sharing_finding
 from disting.conditions.subject import Subject
-from disting.settings import Settings
+from disting.questions.same.limited import sharing_finding
 
 
 def settle_dampers(

@@ -8,14 +8,14 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.finding import Finding
-from disting.conditions.quick import SETTLED
+from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.subject import Subject
-from disting.engine import Engine
-from disting.engine.engine import question_key
+from disting.files import intact_text
 from disting.model.chain import Chain
-from disting.packaged import intact_text
+from disting.questions.same.limited import SETTLED
+from disting.store import Engine
+from disting.store.engine import question_key
 
 FILE = "settled-dampers.jsonl"
 Settled = dict[tuple[str, str], Finding]

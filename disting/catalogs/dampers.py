@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
 
-from disting.domain import Domain
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import InputError
+from disting.evidence.domain import Domain
 from disting.model.chain import Chain
+from disting.store import Decisions, Engine, Progress, silent
 from disting.verdict import Query, Relation, Verdict, View
 
 Masses = tuple[int, ...]

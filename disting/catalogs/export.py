@@ -5,11 +5,11 @@ import io
 import json
 from collections.abc import Iterable, Sequence
 
-from disting.certainty import Certainty
-from disting.domain import Domain
-from disting.engine import Decisions, family_safety
+from disting.evidence.certainty import Certainty
+from disting.evidence.domain import Domain
 from disting.evidence.positive import PositiveFinding
-from disting.inclusion import Inclusion, Sense
+from disting.questions.inclusion import Inclusion, Sense
+from disting.store import Decisions, family_safety
 from disting.verdict import Relation, error_bound
 
 CSV_COLUMNS = (

@@ -1,22 +1,22 @@
 """Questions about rows that pairs of chains leave open: decided once, for chains of any size, and
 shipped as `rows.jsonl`.
 
-The file is read wherever a pair is decided (see `disting.ideals.by_rows`), so an answer serves
-every command at once.
+The file is read wherever a pair is decided (see `disting.fibres.ideals.by_rows`), so an answer
+serves every command at once.
 """
 
 from collections.abc import Callable, Iterator
 from itertools import combinations
 from pathlib import Path
 
-from disting.certainty import LEAST_SAFETY
-from disting.conditions.exact import rational_part
-from disting.engine import Engine
-from disting.ideals.by_rows import row_pairs
-from disting.ideals.row_answers import ROWS, line_of, read_answers
-from disting.ideals.rows import DampedRow
-from disting.ideals.zeros import Branched, branches, refute, safety_of_branches
+from disting.evidence.certainty import LEAST_SAFETY
+from disting.fibres.ideals.by_rows import row_pairs
+from disting.fibres.ideals.row_answers import ROWS, line_of, read_answers
+from disting.fibres.ideals.rows import DampedRow
+from disting.fibres.ideals.zeros import Branched, branches, refute, safety_of_branches
 from disting.model.family import Family
+from disting.questions.same.exact import rational_part
+from disting.store import Engine
 from disting.verdict import Query, Relation, View
 
 LABEL = "rows:disting"

@@ -19,11 +19,11 @@ zero, that is, where one has a damper from its free part to the ground and the o
 from collections import Counter
 from dataclasses import dataclass, replace
 
+from disting.behaviour.sample import Representation
 from disting.conditions.necessary import DEGREES, INVARIANTS
-from disting.engine import Engine
-from disting.invariants.sample import Representation
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
+from disting.store import Engine
 from disting.verdict import Query, Relation, Verdict, View
 
 

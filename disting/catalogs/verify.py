@@ -8,12 +8,12 @@ from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
 from disting.conditions.subject import Subject
-from disting.conditions.verify import Witness
-from disting.engine import Engine, Progress, silent
-from disting.ideals.row_answers import false_answers
-from disting.inclusion import confirms
+from disting.fibres.ideals.row_answers import false_answers
 from disting.model.symmetry import canonical
-from disting.positivity import proves
+from disting.questions.inclusion import confirms
+from disting.questions.positive import proves
+from disting.questions.same.verify import Witness
+from disting.store import Engine, Progress, silent
 from disting.verdict import View
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from disting.comparison import name_of
-from disting.equivalence import (
+from disting.equivalents import (
     NONE,
     Equivalent,
     Equivalents,
@@ -22,7 +22,7 @@ from disting.equivalence import (
     chains_of,
     explicit_map,
 )
-from disting.equivalence import equivalents as find
+from disting.equivalents import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing

@@ -13,12 +13,12 @@ from disting.cli.common import (
     relations_in_words,
     rules_in_words,
 )
-from disting.cli.work import engine_for
-from disting.engine import Decisions, family_safety
+from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.inclusion import ONE_SIDED, Sense
 from disting.model.chain import Sensor
-from disting.proof import prove_all
+from disting.questions.inclusion import ONE_SIDED, Sense
+from disting.store import Decisions, family_safety
+from disting.verdict.proof import prove_all
 
 
 def run(options: argparse.Namespace) -> int:

@@ -8,7 +8,7 @@ how many conditions there are, or in what order.
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.domain import Domain
+from disting.evidence.domain import Domain
 
 
 class Role(StrEnum):

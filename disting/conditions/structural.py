@@ -8,13 +8,13 @@ they are equal.
 
 from dataclasses import replace
 
-from disting.certainty import Grade, graded
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
 from disting.conditions.subject import Subject
+from disting.evidence.certainty import Grade, graded
 from disting.evidence.conditions import Embedding, Supermodel
-from disting.invariants.profile import Profile, profile
-from disting.invariants.sample import Representation
 
 SUBMODEL = Rule(
     "8", Role.STRUCTURAL, "submodel", "one model is a part of the other, with equal rank"

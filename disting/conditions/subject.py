@@ -8,21 +8,27 @@ from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
-from disting.conditions.admissible import LACKING, POSITIVELY, Asked, positive_ways, real_finding
-from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import exact_finding, mirrored, resting_on_ranks
+from disting.algebra.settings import Settings
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.sample import Representation, sample
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
-from disting.domain import Domain
+from disting.evidence.domain import Domain
 from disting.evidence.positive import PositiveFinding, Values
-from disting.identifiability import IDENTIFIABILITY, Identifiability
-from disting.invariants.profile import Profile, profile
-from disting.invariants.sample import Representation, sample
 from disting.model.chain import Chain
+from disting.model.question import Answerer, Question, computed
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
-from disting.question import Answerer, Question, computed
-from disting.settings import Settings
+from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
+from disting.questions.same.exact import exact_finding, mirrored, resting_on_ranks
+from disting.questions.same.real_and_positive import (
+    LACKING,
+    POSITIVELY,
+    Asked,
+    positive_ways,
+    real_finding,
+)
 
 ProfileSource = Callable[[Structure, Representation, int, Settings], Profile]
 EXACTLY = Question("exact decisions", exact_finding, finding_to_json, finding_from_json)

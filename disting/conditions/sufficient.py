@@ -5,13 +5,13 @@ complex parameter space.
 from itertools import islice
 
 from disting.algebra.colouring import renamings
-from disting.certainty import Certainty
+from disting.behaviour.expanded import is_renaming
+from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
 from disting.conditions.subject import Subject
+from disting.evidence.certainty import Certainty
 from disting.evidence.conditions import FreeChoice, Renaming
-from disting.invariants.expanded import is_renaming
-from disting.invariants.profile import Profile
 
 RENAMING = Rule(
     "6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical"

@@ -8,13 +8,13 @@ says how it is asked.
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
-from disting.certainty import Grade
+from disting.behaviour.profile import Profile
+from disting.behaviour.sample import Representation
 from disting.conditions import necessary, structural, sufficient
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.conditions.subject import Subject
-from disting.invariants.profile import Profile
-from disting.invariants.sample import Representation
+from disting.evidence.certainty import Grade
 
 STRUCTURE = "structure"  # the representation of structural conditions
 

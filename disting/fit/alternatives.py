@@ -22,11 +22,11 @@ from math import inf
 
 from disting.catalogs import candidates as stored
 from disting.conditions.subject import Subject
-from disting.engine import Engine
 from disting.errors import CatalogError
 from disting.evidence.positive import Share
 from disting.model.chain import Chain
-from disting.positivity import renamings
+from disting.questions.positive import renamings
+from disting.store import Engine
 from disting.verdict import Query, Relation, View
 
 Limits = Mapping[str, tuple[float, float]]

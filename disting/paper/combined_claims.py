@@ -5,14 +5,14 @@
 from collections import Counter
 from itertools import combinations
 
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome as Holding
 from disting.conditions.structural import condition_9
-from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome
 from disting.paper.findings import Findings
+from disting.paper.told import counted, named, told, undecided
 from disting.paper.verdict_claims import MISREAD
-from disting.paper.words import counted, named, told, undecided
 from disting.verdict import Relation, View
 
 FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}

@@ -8,8 +8,7 @@ from functools import cached_property
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
-from disting.domain import Domain
-from disting.engine import Decisions, Engine, Progress, silent
+from disting.evidence.domain import Domain
 from disting.fit.candidates import figure_1
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
@@ -17,6 +16,7 @@ from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.paper.refit import Refit, refitted
 from disting.simulation import demo
+from disting.store import Decisions, Engine, Progress, silent
 from disting.verdict import Query, View
 
 PictureKey = tuple[int, bool, View, int, Sensor]

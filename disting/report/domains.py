@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from disting.catalogs import Catalog
-from disting.domain import Domain
+from disting.evidence.domain import Domain
 from disting.evidence.positive import Share
 from disting.report.words import totals
 from disting.verdict import Relation, View

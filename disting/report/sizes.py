@@ -14,15 +14,15 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from disting.engine import Decisions
-from disting.inclusion import Inclusion, Sense
+from disting.files import write_whole
+from disting.questions.inclusion import Inclusion, Sense
 from disting.report.environment import render
 from disting.report.fields import CORNERS, LETTERS, corner, field
 from disting.report.scene import PAGE_PALETTE, Anchor, Ink, Layer, Rect, Scene, Text
 from disting.report.svg import body, number
 from disting.report.words import probability, sign
+from disting.store import Decisions
 from disting.verdict import Verdict
-from disting.written import write_whole
 
 CELL = 24.0
 LEFT, TOP = 44.0, 8.0

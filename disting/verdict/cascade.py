@@ -12,16 +12,16 @@ points are Zariski dense), while for indistinguishable ones the admissible value
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from disting.certainty import Certainty
-from disting.conditions.admissible import resting_on
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, STRUCTURE, Necessary, Structural, Sufficient
-from disting.domain import Domain
 from disting.errors import ContradictionError
-from disting.inclusion import Inclusion, Inclusions, inclusions
-from disting.invariants.sample import Representation
+from disting.evidence.certainty import Certainty
+from disting.evidence.domain import Domain
+from disting.questions.inclusion import Inclusion, Inclusions, inclusions
+from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.query import FIBRE, PARAMETERS, Query
 from disting.verdict.result import Relation, Verdict
 

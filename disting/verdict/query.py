@@ -11,8 +11,8 @@ from enum import StrEnum
 from disting.conditions.rule import Rule
 from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, STRUCTURE
-from disting.domain import Domain
 from disting.errors import InputError
+from disting.evidence.domain import Domain
 
 ALL_CONDITIONS = tuple(c.rule.name for c in CONDITIONS)
 FIBRE = "fibre"  # the representation of the exact decision

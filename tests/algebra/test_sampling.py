@@ -22,7 +22,7 @@ from disting.algebra.sampling import (
     residues,
     safety,
 )
-from disting.certainty import LEAST_SAFETY
+from disting.evidence.certainty import LEAST_SAFETY
 
 sizes = st.builds(Size, st.integers(1, 10**6), st.integers(1, 10**6))
 

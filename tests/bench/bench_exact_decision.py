@@ -23,8 +23,8 @@ import pytest
 from sympy import Symbol, expand, prod, symbols
 
 from disting import Chain, Engine, Family, Query, Relation, Settings, View
-from disting.conditions.exact import exact_finding
 from disting.model.symmetry import canonical
+from disting.questions.same.exact import exact_finding
 from disting.verdict import FIBRE, Step
 from tests.bench.measure import in_fresh_process, seconds, table
 from tests.oracles.sympy_twin import Summary, summary

@@ -9,6 +9,8 @@ import pytest
 
 from disting import Outcome
 from disting.algebra.sampling import Size, residues
+from disting.algebra.settings import Settings
+from disting.behaviour.profile import from_samples
 from disting.conditions.necessary import (
     condition_1,
     condition_2,
@@ -17,8 +19,6 @@ from disting.conditions.necessary import (
     condition_5,
 )
 from disting.conditions.sufficient import condition_7
-from disting.invariants.profile import from_samples
-from disting.settings import Settings
 from tests.conditions.handmade import LARGE, SMALL, sample
 
 LABELS = ("b0", "b1")

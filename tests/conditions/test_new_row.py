@@ -15,7 +15,7 @@ import disting
 
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
 RULES = """
-from disting.certainty import Certainty, graded
+from disting.evidence.certainty import Certainty, graded
 from disting.evidence.decision import Theorem
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import Role

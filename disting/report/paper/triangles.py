@@ -8,7 +8,6 @@ from itertools import combinations
 
 from disting.catalogs import Catalog
 from disting.catalogs.dampers import DamperTable, spelled
-from disting.engine import Decisions
 from disting.report.fields import (
     CORNERS,
     LETTERS,
@@ -20,6 +19,7 @@ from disting.report.fields import (
 )
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
 from disting.report.words import sign
+from disting.store import Decisions
 from disting.verdict import Relation, View
 
 MARGIN = 16.0

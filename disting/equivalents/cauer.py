@@ -1,0 +1,116 @@
+"""Undamped chains seen from one end: masses and springs are rational functions of those of other
+chains.
+
+In x = s^2 the receptance N/D of a row of masses at its end obeys D/N = m x + 1/(1/k + N'/D'),
+N'/D' that of the rest (Cauer's continued fraction): m is the ratio of leading coefficients, k the
+limit of P/N, P = D - m x N, and the next receptance is (N - P/k)/P. A free end leaves nothing
+after the last mass, a wall nothing after the last spring. No root is taken, so the map is rational
+from every chain whose receptance, or that of one of its parts, belongs to one place (force and
+sensor together).
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import coefficients, symbols
+from disting.behaviour.transfer import plain_receptance
+from disting.model.chain import Chain
+from disting.model.structure import Ports, Structure
+
+Number = Any  # an element of a field
+Ladder = tuple[list[Number], list[Number]]  # masses and springs from the port outwards
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """A chain that continued fractions lead to; `values` works out its parameters."""
+
+    chain: Chain
+    values: Callable[[], dict[str, RationalFunction]]
+
+
+def expansions(given: Chain) -> Iterator[Expansion]:
+    """The chains seen from the end of the whole receptance, of the free part, of the grounded
+    part, or of both parts.
+    """
+    if given.damped or given.ground_dampers or given.lag or given.dead_time:
+        return
+    n, g = given.n_masses, given.gap
+    if given.collocated:
+        plain = replace(given, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=1)
+        yield Expansion(
+            plain, lambda: _named(plain, *_seen(given, given.structure.ports, wall=False))
+        )
+    if not g:
+        return
+    for free, grounded in product(
+        (given.act_plus == given.meas_plus, False), (given.act_minus == given.meas_minus, False)
+    ):
+        if free or grounded:
+            yield _by_parts(given, n, g, free, grounded)
+
+
+def ladder(num: list[Number], den: list[Number], *, wall: bool) -> Ladder:
+    """Masses and springs from coefficients in x, lowest first, without vanishing leading ones.
+
+    >>> ladder([0.5], [3.0, 1.0], wall=True)
+    ([2.0], [6.0])
+    """
+    masses: list[Number] = []
+    springs: list[Number] = []
+    while num:
+        masses.append(den[-1] / num[-1])
+        rest = [d - masses[-1] * n for d, n in zip(den[1:-1], num[:-1], strict=True)]
+        rest = [den[0], *rest]
+        if len(num) == 1 and not wall:
+            break
+        springs.append(rest[-1] / num[-1])
+        num, den = [n - p / springs[-1] for n, p in zip(num[:-1], rest[:-1], strict=True)], rest
+    return masses, springs
+
+
+def _by_parts(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
+    """The chain with one or both parts seen from the gap, the other one as it is."""
+    chain = replace(given, act_plus=g + 1, meas_plus=g + 1) if free else given
+    chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
+
+    def values() -> dict[str, RationalFunction]:
+        """Masses and springs in terms of those of the given chain."""
+        known = {name: RationalFunction(p, p**0) for name, p in _ring(given).items() if name != "s"}
+        masses, springs = (
+            [known[f"m{i}"] for i in range(1, n + 1)],
+            [known[k] for k in known if k[0] == "k"],
+        )
+        if free:
+            masses[g:], springs[g:] = _seen(
+                given, Ports(0, given.act_plus, 0, given.meas_plus), wall=False
+            )
+        if grounded:
+            inner = _seen(given, Ports(given.act_minus, 0, given.meas_minus, 0), wall=True)
+            masses[:g], springs[:g] = inner[0][::-1], inner[1][::-1]
+        return _named(chain, masses, springs)
+
+    return Expansion(chain, values)
+
+
+def _seen(given: Chain, ports: Ports, *, wall: bool) -> Ladder:
+    """The ladder with the receptance of the given chain between these ports."""
+    structure: Structure = replace(given.structure, ports=ports)
+    ring = _ring(given)
+    one = ring["s"] ** 0
+    found = plain_receptance(structure, ring, ring["s"], one)
+    num, den = ([RationalFunction(c, one) for c in coefficients(p, "s")[::2]] for p in found)
+    return ladder(num, den, wall=wall)
+
+
+def _ring(given: Chain) -> dict[str, Any]:
+    return symbols(["s", *given.parameters])
+
+
+def _named(
+    chain: Chain, masses: list[RationalFunction], springs: list[RationalFunction]
+) -> dict[str, RationalFunction]:
+    return dict(zip(chain.parameters, [*masses, *springs], strict=True))

@@ -1,0 +1,169 @@
+"""What a user gives: models as chains or text such as 3:1+b2, values as numbers or text, taken
+exactly as fractions.
+
+Behind masses and number +b2 stands for a damper from mass 2 to the ground, +lag for a first-order
+lag, +delay for a dead time. A lag and a dead time belong to the actuator and the bench: other
+structures inherit them from the given model.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from itertools import chain as chained
+from itertools import combinations
+from numbers import Number
+
+from flint import fmpq
+
+from disting.errors import InputError, shown
+from disting.model.chain import Chain
+from disting.model.exact_number import MOST_DIGITS, is_too_long
+from disting.model.family import MOST_MASSES, Family
+
+EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
+Value = Number | str
+
+
+def chain_of(model: Chain | str, family: Family) -> Chain:
+    """A chain as it is; text such as 3:11 is model 11 of the 3-mass family, with damping and
+    sensor of the given family.
+
+    Raises InputError.
+
+    >>> chain_of("3:1+b1+b3+lag", Family(3)).parameters
+    ('m1', 'm2', 'm3', 'k12', 'k23', 'b1', 'b3', 'T1')
+    """
+    if isinstance(model, Chain):
+        return model
+    match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
+    if not match:
+        raise InputError(
+            "a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not"
+            f" {shown(model)}"
+        )
+    return _extended(_sized(family, match[1])[int(match[2])], match[3])
+
+
+def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
+    """The chains to look at: one, or all of a family; text such as 3:11 or 3 means damping and
+    sensor of the given chain.
+
+    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with
+    any set of them. Families and structures given as text have the lag and the dead time of the
+    given chain too: without them none could do the same. A Chain is taken as it is.
+
+    Raises InputError.
+
+    >>> [chain.dead_time for chain in chains_of("2", Chain(2, dead_time=True))]
+    [True, True, True]
+    """
+    if isinstance(to, Chain):
+        return (to,)
+    return tuple(
+        replace(c, lag=c.lag or given.lag, dead_time=c.dead_time or given.dead_time)
+        for c in _named(to, given)
+    )
+
+
+def _named(to: Family | str, given: Chain) -> tuple[Chain, ...]:
+    """The chains as their text names them."""
+    if isinstance(to, Family):
+        return to.models
+    family = Family(given.n_masses, given.damped, given.sensor)
+    match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
+    if match is None:
+        return (chain_of(to, family),)
+    plain = [_extended(chain, match[3]) for chain in _sized(family, match[1]).models]
+    return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
+
+
+def _sized(family: Family, masses: str) -> Family:
+    """The family with as many masses as the text says."""
+    if int(masses) > MOST_MASSES:
+        raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {masses}")
+    return replace(family, n_masses=int(masses))
+
+
+def _extended(chain: Chain, extras: str) -> Chain:
+    """The chain with +b1, +lag, +delay."""
+    words = extras.split("+")[1:]
+    dampers = tuple(int(word[1:]) for word in words if word[0] == "b")
+    return replace(chain, ground_dampers=dampers, lag="lag" in words, dead_time="delay" in words)
+
+
+def _rubbed(chain: Chain) -> Iterator[Chain]:
+    """The chain with every set of dampers to the ground."""
+    masses = range(1, chain.n_masses + 1)
+    for chosen in chained.from_iterable(
+        combinations(masses, size) for size in range(chain.n_masses + 1)
+    ):
+        yield replace(chain, ground_dampers=chosen)
+
+
+def point_of(chain: Chain, values: Mapping[str, Value]) -> dict[str, fmpq]:
+    """All parameters of a chain as exact positive fractions; a float counts as its decimal text.
+
+    Raises InputError for missing and unknown names and for values that are not positive numbers.
+
+    >>> point_of(Chain(1), {"m1": 0.1})
+    {'m1': 1/10}
+    """
+    names = ", ".join(chain.parameters)
+    unknown = [str(name) for name in values if name not in chain.parameters]
+    if unknown:
+        raise InputError(
+            f"{', '.join(unknown)}: no parameter of the chain with {chain}; its parameters are"
+            f" {names}"
+        )
+    missing = [name for name in chain.parameters if name not in values]
+    if missing:
+        raise InputError(
+            f"the value of {', '.join(missing)} is missing; the parameters of the chain with"
+            f" {chain} are {names}"
+        )
+    return {name: _fraction(name, values[name]) for name in chain.parameters}
+
+
+def assignments(texts: list[str]) -> dict[str, str]:
+    """Values from texts such as m1=1,k12=3/4. Raises InputError.
+
+    >>> assignments(["m1=1, m2=0.5", "k12=1e3"])
+    {'m1': '1', 'm2': '0.5', 'k12': '1e3'}
+    """
+    found: dict[str, str] = {}
+    for part in (part.strip() for text in texts for part in text.split(",")):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not (name and equals and value):
+            raise InputError(
+                "values are written name=number, separated by commas, such as m1=1,k12=3/4, not"
+                f" {shown(part)}"
+            )
+        if name in found:
+            raise InputError(f"{name} is given twice")
+        found[name] = value
+    return found
+
+
+def _fraction(name: str, value: Value) -> fmpq:
+    text = str(value).strip()
+    if is_too_long(text):
+        limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as its power of ten"
+        raise InputError(f"{name} = {shown(text)}: a value has {limits}; choose other units")
+    exact = _number(text)
+    if exact is None:
+        raise InputError(f"{name} = {shown(value)}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
+    if exact <= 0:
+        reason = (
+            "masses, springs, dampers and times are positive; a chain without an element is another"
+            " model"
+        )
+        raise InputError(f"{name} = {value}: {reason}")
+    return fmpq(exact.numerator, exact.denominator)
+
+
+def _number(text: str) -> Fraction | None:
+    try:
+        return Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        return None

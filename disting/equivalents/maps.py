@@ -1,0 +1,140 @@
+"""Equivalent models as formulas: each parameter of one structure as a rational function of the
+parameters of another.
+
+Symmetries and duality for all chains that they connect; for undamped chains Cauer's continued
+fraction where a chain, or a part of it, is seen from its end; and both together. Each map is
+checked as an identity of both transfer functions.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from flint import fmpq
+
+from disting.algebra.notation import expression, latex, latex_symbol, text
+from disting.algebra.rational_function import RationalFunction, variables
+from disting.comparison import name_of
+from disting.equivalents.cauer import expansions
+from disting.equivalents.given import Value, point_of
+from disting.equivalents.identity import holds_at_random, is_identity, safety
+from disting.equivalents.images import Image, images
+from disting.errors import ContradictionError
+from disting.evidence.certainty import Certainty
+from disting.model.chain import Chain
+
+EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
+CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters
+CAUER = "Cauer's continued fraction"
+
+
+@dataclass(frozen=True, slots=True)
+class Map:
+    """Parameters of `other` as functions of those of `given`, with the same transfer function.
+
+    `steps`: the theorems used. `certainty`: PROVEN, the identity is written out, or BOUNDED, it
+    holds at a random point, and wrong formulas do so with probability 2^-safety at most. The
+    formulas hold wherever no denominator and no formula is zero, and give positive parameters for
+    positive ones there.
+    """
+
+    given: Chain
+    other: Chain
+    formulas: dict[str, RationalFunction]
+    steps: tuple[str, ...]
+    certainty: Certainty
+    safety: int
+
+    def at(self, values: Mapping[str, Value]) -> dict[str, Any]:
+        """Parameters of `other`, exact fractions, at values of the given ones. Raises
+        InputError as `point_of` does.
+        """
+        point: dict[str, fmpq] = point_of(self.given, values)
+        return {name: formula.value(point) for name, formula in self.formulas.items()}
+
+    @property
+    def python(self) -> str:
+        """Python source: symbols for SymPy, positive as those of `sympy`, and a dictionary of
+        the formulas.
+        """
+        names = ", ".join(self.given.parameters)
+        lines = "".join(
+            f'    "{name}": {text(formula)},\n' for name, formula in self.formulas.items()
+        )
+        return (
+            f'from sympy import symbols\n\n{names} = symbols("{names}", positive=True)\nequivalent'
+            f" = {{\n{lines}}}"
+        )
+
+    @property
+    def text(self) -> str:
+        """One line a parameter, in Python's notation; a prime marks the parameters of `other`."""
+        width = max(map(len, self.formulas)) + 1
+        return "\n".join(
+            f"{name + chr(39):{width}} = {text(formula)}" for name, formula in self.formulas.items()
+        )
+
+    @property
+    def latex(self) -> str:
+        """An align environment (amsmath); a prime marks the parameters of `other`."""
+        lines = (
+            f"  {latex_symbol(name)}' &= {latex(formula)}"
+            for name, formula in self.formulas.items()
+        )
+        return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
+
+    def sympy(self) -> dict[str, Any]:
+        """SymPy expressions by parameter name of `other`, in positive symbols."""
+        return {name: expression(formula) for name, formula in self.formulas.items()}
+
+
+def explicit_map(given: Chain, other: Chain) -> Map | None:
+    """The formulas, the simplest ones known; None if no rational map is known here (there may be
+    one).
+
+    From a structure to itself: another map than the identity, if there is one.
+
+    >>> found = explicit_map(Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
+    >>> print(found.text)
+    m1'  = m1*(m1 + m2)/m2
+    m2'  = m1 + m2
+    k01' = k12*(m1 + m2)**2/m2**2
+    d01' = d12*(m1 + m2)**2/m2**2
+    """
+    found = next(_candidates(given, other), None)
+    if found is None:
+        return None
+    formulas, steps = {name: found.values[name] for name in other.parameters}, found.steps
+    if given.n_masses <= EXPANDED_UP_TO:
+        holds, grade = is_identity(given, other, formulas), (Certainty.PROVEN, 0)
+    else:
+        holds = holds_at_random(given, other, formulas, f"{given}:{other}")
+        grade = (Certainty.BOUNDED, safety(given, formulas))
+    if not holds:
+        raise ContradictionError(
+            f"the formulas from {name_of(given, short=False)} to {name_of(other, short=False)} are"
+            " wrong"
+        )
+    return Map(given, other, formulas, steps, *grade)
+
+
+def _candidates(given: Chain, other: Chain) -> Iterator[Image]:
+    """Yield the models of `other` that are known as formulas, simplest first, without the
+    identity.
+    """
+    names = variables(["s", *given.parameters])
+    start = {name: names[name] for name in given.parameters}
+    for image in _images(given, start, other):
+        if image.chain == other and (given != other or image.values != start):
+            yield image
+
+
+def _images(given: Chain, start: Mapping[str, RationalFunction], other: Chain) -> Iterator[Image]:
+    yield from images(given, start)
+    for expansion in expansions(given) if given.n_masses <= CAUER_UP_TO else ():
+        if any(
+            image.chain == other
+            for image in images(expansion.chain, dict.fromkeys(expansion.chain.parameters, 1.0))
+        ):
+            for image in images(expansion.chain, expansion.values()):
+                yield Image(image.chain, image.values, (CAUER, *image.steps))

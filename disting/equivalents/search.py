@@ -1,0 +1,223 @@
+"""All parameter vectors of other structures that give exactly the same transfer function as a
+given model.
+
+Theorems first (`images`, exact for all values), then inverse network synthesis
+(`disting.fibres.synthesis.fibre`), which lists what else there is and proves whether the list is
+complete; for special values that it cannot treat, the theorems remain, and with proportional
+damping the synthesis without dampers.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from flint import acb, arb, fmpq
+
+from disting.comparison import name_of
+from disting.equivalents.completeness import not_covered, sentence, special
+from disting.equivalents.given import Value, chain_of, chains_of, point_of
+from disting.equivalents.images import DUALITY, Image, images
+from disting.equivalents.listing import Equivalent, Equivalents, Listing, Origin, Signs
+from disting.equivalents.proportional import common_ratio, proportional_solutions
+from disting.equivalents.residual import difference
+from disting.errors import ContradictionError, InputError
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
+from disting.fibres.synthesis.target import target
+from disting.model.chain import Chain
+from disting.model.family import Family
+
+Point = Mapping[str, fmpq]
+
+
+def equivalents(
+    model: Chain | str,
+    values: Mapping[str, Value],
+    to: Chain | Family | str,
+    *,
+    damped: bool = False,
+) -> Equivalents:
+    """All models of the structure `to`, or of all structures of a family, with the transfer
+    function of the given model.
+
+    `model` and `to` are chains (or a family), or text: 3:11 is model 11 of the 3-mass family, 3
+    the family; `damped` says how `model` is meant if it is text, and `to` follows it, a lag and a
+    dead time included; 3:11+b1+lag has a damper from mass 1 to the ground and a lag, 3+b* are all
+    structures with any such dampers. `values` by parameter name, numbers or text such as 3/4,
+    positive, any consistent units; they are taken exactly, floats by their decimal text. Raises
+    InputError for wrong names and values.
+
+    >>> given = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": "0.3"}
+    >>> found = equivalents("3:1", given, "3:11", damped=True)
+    >>> [(e.signs.value, e.exact["m1"], e.text["k12"]) for e in found]
+    [('positive', Fraction(24, 5), '144')]
+    >>> found.listings[0].sentence
+    'all there are'
+    """
+    given = chain_of(model, Family(1, damped))
+    point = point_of(given, values)
+    others = chains_of(to, given)
+    if others[0].sensor is not given.sensor:
+        raise InputError(
+            f"the sensors differ: {given.sensor.value} and {others[0].sensor.value}; choose one for"
+            " both"
+        )
+    exact = images(given, point)
+    listings = tuple(
+        _listing(given, point, other, [i for i in exact if i.chain == other]) for other in others
+    )
+    fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
+    special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
+    return Equivalents(_name(given), given, fractions, listings, special_damping)
+
+
+def _listing(given: Chain, point: Point, other: Chain, exact: list[Image]) -> Listing:
+    found = _fibre(given, point, other)
+    known = [_from_theorem(given, point, image) for image in exact]
+    others = [
+        _from_solution(given, point, other, s, Origin.SYNTHESIS) for s in _others(found, exact)
+    ]
+    if found.status is Status.DEGENERATE:
+        lifted = _unlike(proportional_solutions(given, point, other), exact)
+        others += [_from_solution(given, point, other, s, Origin.PROPORTIONAL) for s in lifted]
+    members = tuple(sorted([*known, *others], key=_order))
+    cause = special(given, point) if found.status is Status.DEGENERATE else ""
+    return Listing(
+        _name(other),
+        other,
+        found.status,
+        members,
+        _is_complete(found),
+        sentence(found, len(members), cause),
+    )
+
+
+def _is_complete(found: Fibre) -> bool:
+    return found.status in (Status.COMPLETE, Status.EMPTY) and not found.tests.boundary
+
+
+def _fibre(given: Chain, point: Point, other: Chain) -> Fibre:
+    """The synthesis, where it says something; a dead time is no rational function and belongs
+    to both models or to none.
+    """
+    if given.dead_time != other.dead_time:
+        return Fibre(Status.EMPTY, reason="only one of them has a dead time")
+    plain = replace(other, dead_time=False)
+    plain_values = {name: point[name] for name in given.parameters if name != "Td"}
+    found = fibre(plain, target(given.structure, plain_values), confirm=False)
+    why = not_covered(given, other)
+    if found.status is Status.DEGENERATE and why:
+        return Fibre(Status.NOT_COVERED, reason=why)
+    late = {"Td": acb(point["Td"])} if other.dead_time else {}
+    return replace(
+        found, solutions=tuple(replace(s, values={**s.values, **late}) for s in found.solutions)
+    )
+
+
+def _others(found: Fibre, exact: list[Image]) -> list[Solution]:
+    """The solutions that no theorem gives. Raises ContradictionError if a list said to be
+    complete lacks one that is.
+    """
+    rest = _unlike(found.solutions, exact)
+    lacking = len(found.solutions) - len(rest) < len(exact)
+    if lacking and _is_complete(found):
+        raise ContradictionError(
+            "a list of equivalents that is said to be complete lacks one that a theorem gives"
+        )
+    return rest
+
+
+def _unlike(solutions: Iterable[Solution], exact: list[Image]) -> list[Solution]:
+    """One solution less for each exact one that it may be; members of families are kept."""
+    rest = list(solutions)
+    for image in exact:
+        same = [
+            s
+            for s in rest
+            if not s.gauges and all(s.values[n].overlaps(acb(v)) for n, v in image.values.items())
+        ]
+        rest = [s for s in rest if not same or s is not same[0]]
+    return rest
+
+
+def _from_theorem(given: Chain, point: Point, image: Image) -> Equivalent:
+    origin = (
+        Origin.GIVEN
+        if not image.steps
+        else Origin.DUALITY
+        if DUALITY in image.steps
+        else Origin.RENAMING
+    )
+    exact = {name: Fraction(int(v.p), int(v.q)) for name, v in image.values.items()}
+    text = {name: f"{float(v):.15g}" for name, v in exact.items()}
+    rounded = any(Fraction(text[name]) != value for name, value in exact.items())
+    residual = difference(given, point, image.chain, _read(text)) if rounded else 0.0
+    return Equivalent(
+        image.chain, _floats(text), text, exact, Signs.POSITIVE, origin, residual, 0.0
+    )
+
+
+def _from_solution(
+    given: Chain, point: Point, other: Chain, found: Solution, origin: Origin
+) -> Equivalent:
+    real = found.real is not Answer.NO
+    text = {name: _rounded(v, real) for name, v in found.values.items()}
+    residual = difference(given, point, other, _read(text))
+    proven = found.real is not Answer.UNKNOWN and not (real and found.positive is Answer.UNKNOWN)
+    bound = difference(given, point, other, found.values)
+    return Equivalent(
+        other,
+        _floats(text),
+        text,
+        {},
+        _signs(found, real),
+        origin,
+        residual,
+        bound,
+        found.gauges,
+        proven,
+    )
+
+
+def _signs(found: Solution, real: bool) -> Signs:
+    if not real:
+        return Signs.COMPLEX
+    return Signs.POSITIVE if all(v.real.mid() > 0 for v in found.values.values()) else Signs.REAL
+
+
+def _rounded(value: Any, real: bool) -> str:
+    if real:
+        return f"{float(value.real.mid()):.15g}"
+    return f"{float(value.real.mid()):.15g}{float(value.imag.mid()):+.15g}j"
+
+
+def _floats(text: Mapping[str, str]) -> dict[str, float | complex]:
+    return {name: complex(t) if t.endswith("j") else float(t) for name, t in text.items()}
+
+
+def _read(text: Mapping[str, str]) -> dict[str, Any]:
+    """The values in the texts, as balls around exactly these decimals."""
+    return {name: _ball(t) for name, t in text.items()}
+
+
+def _ball(text: str) -> Any:
+    value = complex(text) if text.endswith("j") else float(text)
+    if isinstance(value, float):
+        return _decimal(text)
+    return acb(*(_decimal(f"{part:.15g}") for part in (value.real, value.imag)))
+
+
+def _decimal(text: str) -> Any:
+    exact = Fraction(text)
+    return arb(fmpq(exact.numerator, exact.denominator))
+
+
+def _order(member: Equivalent) -> tuple[int, bool, list[tuple[float, float]]]:
+    """Positive ones first, exact ones before others, then by value."""
+    numbers = [(complex(v).real, complex(v).imag) for v in member.values.values()]
+    return list(Signs).index(member.signs), not member.exact, numbers
+
+
+def _name(chain: Chain) -> str:
+    return name_of(chain, short=False)

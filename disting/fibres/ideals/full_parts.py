@@ -1,0 +1,86 @@
+"""Two chains with one gap whose parts at both sides are the same or can have any receptance: they
+are the same.
+
+H = R + F, R the receptance of the grounded, F of the free part, of independent parameters; a lag
+or a sensor's power of s is a factor that both chains share. A part is full if its rank equals the
+number of its coefficients that are not constant (those of the monic denominator and of the
+numerator, see `system`). Then the closure of its image is the space of all functions with these
+constants. If each part of one chain equals that of the other, or both are full with equal
+constants, the closures of {R} and {F} are equal on both sides, and so are those of {R + F}: the
+sum is a continuous map wherever no pole is infinite, and generic sums have equal degrees.
+
+The rank at one point modulo a prime is at most the generic rank, which is at most the number of
+coefficients that are not constant: where they are equal, fullness is proven, nothing is left to
+chance.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+from disting.algebra.symbols import symbols
+from disting.evidence.ideals import SAME, FullParts
+from disting.fibres.ideals.fibre_ideal import generic_rank
+from disting.fibres.ideals.system import Span, Terms, receptance_of_row, rows, separated
+from disting.model.structure import Element, Structure
+
+
+def same_by_full_parts(a: Structure, b: Structure, label: str = "full parts") -> FullParts | None:
+    """The proof that two structures have equal closures part by part; None if there is none.
+    `label` draws the points.
+
+    >>> from disting.model.chain import Chain
+    >>> chains = (Chain(3, 2, m, 3, m, 3, damped=True, ground_dampers=(2,)) for m in (1, 2))
+    >>> same_by_full_parts(*(c.structure for c in chains))
+    FullParts(free=(7, 0))
+    """
+    if not _comparable(a, b):
+        return None
+    found = [_shared(a, b, span, label) for span in a.blocks]
+    free = tuple(n for n in found if n is not None)
+    return FullParts(free) if len(free) == len(found) and any(free) else None
+
+
+def _comparable(a: Structure, b: Structure) -> bool:
+    """Whether both have a gap at the same place, one sensor quantity, and the same factors
+    beside.
+    """
+    kinds = [(s.blocks, s.sensor_order, s.lag, s.dead_time) for s in (a, b)]
+    return kinds[0] == kinds[1] and len(a.blocks) == 2
+
+
+def _shared(part: Structure, other: Structure, span: Span, label: str) -> int | None:
+    """SAME for equal parts, the number of coefficients of full ones of one form, None for
+    others.
+    """
+    if _described(part, span) == _described(other, span):
+        return SAME
+    here, there = (_full(s, span, label) for s in (part, other))
+    return len(here.free) if here is not None and here == there else None
+
+
+def _described(structure: Structure, span: Span) -> tuple[frozenset[Element], frozenset[int]]:
+    """Elements and ports of a row, whichever port is which."""
+    first, last = span
+    inside = (e for e in structure.elements if first <= e.at + (e.kind in "kd") <= last)
+    return frozenset(inside), frozenset(port for port in structure.ports if first <= port <= last)
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """Numbers of numerator and of all coefficients, which of them vary, and those that do not."""
+
+    sizes: tuple[int, int]
+    free: tuple[int, ...]
+    constants: tuple[Terms, ...]
+
+
+@cache
+def _full(structure: Structure, span: Span, label: str) -> Form | None:
+    """The form of a row's coefficients if it is full."""
+    names = dict(rows(structure))[span]
+    row = separated(names, *receptance_of_row(structure, span, symbols(["s", *names])))
+    varies = [any(any(exponents) for exponents, _ in terms) for terms in row.coordinates]
+    free = tuple(i for i, v in enumerate(varies) if v)
+    constants = tuple(terms for terms, v in zip(row.coordinates, varies, strict=True) if not v)
+    form = Form((len(row.numerator), len(row.coordinates)), free, constants)
+    return form if generic_rank(row, label) == len(free) else None

@@ -1,0 +1,67 @@
+"""Force and sensor at one mass: the residues of 1/H are shared out between the two sides.
+
+H = N/D with D monic gives 1/H = m_a s^2 + W_L + W_R. The zeros of N belong to the left side or to
+the right one, q (a-1) of them to the left. The right side is free, W_R(0) = W_R'(0) = 0 (undamped
+W_R(0) = 0), which settles the polynomial part.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from disting.fibres.synthesis.ball import Ball, Poly, poly, product, roots
+from disting.fibres.synthesis.branch_ends import Leaf, Part, combined
+from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
+from disting.fibres.synthesis.segment import Data, Segment, splits
+
+
+@dataclass(frozen=True, slots=True)
+class Residue:
+    """Zero z of the numerator and the residue of 1/H there."""
+
+    at: Ball
+    value: Ball
+
+
+def collocated(segment: Segment, data: Data) -> Iterator[Leaf]:
+    """Yield every segment with this driving-point receptance."""
+    zeros = roots(data.numerator, segment.numerator_degree)
+    for left, right in splits(zeros, segment.q * (segment.a - 1)):
+        yield from between(segment, data, left, right)
+
+
+def between(segment: Segment, data: Data, left: list[Ball], right: list[Ball]) -> Iterator[Leaf]:
+    """Yield every segment whose left side has the zeros `left`, its right side the zeros
+    `right`.
+    """
+    q, slope = segment.q, data.numerator.derivative()
+    whole = data.denominator // data.numerator  # degree 2 (undamped 1), leading coefficient m_a
+    lefts, rights = (
+        [Residue(z, data.denominator(z) / slope(z)) for z in side] for side in (left, right)
+    )
+    low: list[Ball] = [
+        sum((r.value / r.at ** (i + 1) for r in rights), 0 * whole[0]) for i in range(q)
+    ]
+    w_right = Stiffness(
+        grounded_at_zero(over(rights, low), q), product(right), segment.nodes - segment.a, False, q
+    )
+    p_left = over(lefts, [whole[i] - low[i] for i in range(q)])
+    if not segment.wall:
+        p_left = grounded_at_zero(p_left, q)
+    w_left = Stiffness(p_left, product(left), segment.a - 1, segment.wall, q)
+    mass = whole[q]
+
+    def join(a: Part, b: Part) -> Part:
+        """Left side, the mass between, right side."""
+        return Part(
+            (*a.masses[::-1], mass, *b.masses), (*a.springs[::-1], *b.springs), a.gauges + b.gauges
+        )
+
+    yield from combined(peel(w_left), lambda: peel(w_right), join)
+
+
+def over(residues: list[Residue], polynomial: list[Ball]) -> Poly:
+    """Numerator of (polynomial + sum of residue/(s - z)) over the product of all (s - z)."""
+    total = poly(polynomial) * product([r.at for r in residues])
+    for i, residue in enumerate(residues):
+        total = total + residue.value * product([r.at for j, r in enumerate(residues) if j != i])
+    return total

@@ -1,0 +1,259 @@
+"""Settings and cache around the pure functions: chain -> profile, pair -> verdict, list ->
+decisions.
+
+Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which
+code. So nothing is ever invalidated; what changes has another key. Every finished profile is
+stored at once, so a run that is killed resumes there.
+"""
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from disting.algebra.settings import Settings
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.profile_json import profile_from_json, profile_to_json
+from disting.behaviour.sample import Representation
+from disting.conditions.subject import Subject
+from disting.model.chain import Chain
+from disting.model.question import Chains, Question
+from disting.model.structure import Structure
+from disting.model.symmetry import canonical
+from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
+from disting.store.code import digest
+from disting.store.store import Store
+from disting.verdict import Query, Verdict, audit, decide
+from disting.verdict.deciding import decisions
+from disting.verdict.decisions import Decisions
+
+T = TypeVar("T")
+Progress = Callable[[str, int, int], None]
+"""Told what is done, how much of it is finished, and how much there is."""
+# structures a task: large enough to be worth a message, small enough that a kill loses little
+BATCH = 8
+
+
+def silent(what: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+@dataclass
+class Engine:
+    """Compares models with a store behind it; what is computed once in a process is kept in
+    `memo` and `answers`.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    store: Store = field(default_factory=lambda: Store.open(""))
+    memo: dict[str, Profile] = field(default_factory=dict)
+    answers: dict[str, Any] = field(default_factory=dict)
+
+    def subject(self, name: str, chain: Chain) -> Subject:
+        """A side of a comparison whose profiles come from this engine."""
+        return Subject(name, chain, self.settings, self.profile, self.answer)
+
+    def profile(
+        self, structure: Structure, representation: Representation, count: int, settings: Settings
+    ) -> Profile:
+        """The profile, from memory, from the store, or computed and stored."""
+        key = profile_key(structure, representation, count, settings)
+        if key not in self.memo:
+            found = self._stored([key])
+            if key not in found:
+                found[key] = profile(structure, representation, count, settings)
+                self.store.put_many({key: profile_to_json(found[key])})
+            self.memo[key] = found[key]
+        return self.memo[key]
+
+    def answer(self, question: Question[T], chains: Chains, settings: Settings) -> T:
+        """The answer, from memory, from the store, or computed and stored."""
+        key = question_key(question, chains, settings)
+        if key not in self.answers:
+            self.answer_all(question, [chains])
+        found: T = self.answers[key]
+        return found
+
+    def verdict(
+        self, left: Subject, right: Subject, query: Query, *, audited: bool = False
+    ) -> Verdict:
+        """The verdict on a pair, from the store or decided and stored; an audited one is always
+        computed.
+        """
+        if audited:
+            return audit(left, right, query)
+        content = [
+            left.name,
+            right.name,
+            repr(left.chain),
+            repr(right.chain),
+            repr(query),
+            self.settings.to_dict(),
+        ]
+        key = _key("verdict", *map(str, content))
+        for text in self.store.get_many([key]).values():
+            return Verdict.from_dict(json.loads(text))
+        decided = decide(left, right, query)
+        self.store.put_many({key: json.dumps(decided.to_dict())})
+        return decided
+
+    def decisions(
+        self,
+        subjects: Sequence[Subject],
+        query: Query,
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> Decisions:
+        """All pairs of models, of one size or several; the executor's workers compute what is
+        asked for.
+        """
+
+        def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
+            """Have the profiles of these models computed, many at a time."""
+            self.prefetch(
+                {s.canonical.chain.structure for s in wanted}, r, count, executor, progress
+            )
+
+        def ask(question: Question[Any], pairs: Sequence[Chains]) -> None:
+            """Have the question answered for these pairs, many at a time."""
+            self.answer_all(question, pairs, executor=executor, progress=progress)
+
+        return decisions(subjects, query, prefetch, ask)
+
+    def profiles_of(
+        self,
+        chains: Iterable[Chain],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> list[Profile]:
+        """Transfer-function profiles of chains, in order."""
+        subjects = [self.subject("", chain) for chain in chains]
+        self.prefetch(
+            {s.canonical.chain.structure for s in subjects},
+            Representation.TF,
+            0,
+            executor,
+            progress,
+        )
+        return [s.profile(Representation.TF, 0) for s in subjects]
+
+    def identifiabilities(
+        self,
+        chains: Sequence[Chain],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> list[Identifiability]:
+        """Identifiability of chains, in order; each canonical form is looked at once."""
+        formed = [(chain, canonical(chain)) for chain in chains]
+        self.answer_all(
+            IDENTIFIABILITY,
+            [(form.chain,) for _, form in formed],
+            executor=executor,
+            progress=progress,
+        )
+        return [
+            as_given(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain)
+            for chain, form in formed
+        ]
+
+    def prefetch(
+        self,
+        structures: set[Structure],
+        r: Representation,
+        count: int,
+        executor: Executor | None,
+        progress: Progress,
+    ) -> None:
+        """Bring the profiles of the structures into memory: from the store, the rest computed,
+        each batch stored at once.
+        """
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(structures, key=repr)}
+        self.memo |= self._stored([key for key in keys if key not in self.memo])
+        missing = [key for key in keys if key not in self.memo]
+        done = len(keys) - len(missing)
+        absent = [keys[k] for k in missing]
+        batches = [
+            (absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)
+        ]
+        for _, batch in mapped(compute, batches, executor):
+            texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
+            self.store.put_many(texts)
+            self.memo |= {key: profile_from_json(text) for key, text in texts.items()}
+            done += len(batch)
+            progress(f"{r.value} profiles", done, len(keys))
+
+    def answer_all(
+        self,
+        question: Question[Any],
+        asked: Sequence[Chains],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> None:
+        """Bring answers into memory, as `prefetch` does with profiles."""
+        keys = {question_key(question, chains, self.settings): chains for chains in asked}
+        stored = self.store.get_many([key for key in keys if key not in self.answers])
+        self.answers |= {key: question.decode(text) for key, text in stored.items()}
+        missing = {key: chains for key, chains in keys.items() if key not in self.answers}
+        done = len(keys) - len(missing)
+        asked_for = {chains: key for key, chains in missing.items()}
+        tasks = [(question, chains, self.settings) for chains in asked_for]
+        for (_, chains, _), text in mapped(compute_answer, tasks, executor):
+            key = asked_for[chains]
+            self.store.put_many({key: text})
+            self.answers[key] = question.decode(text)
+            done += 1
+            progress(question.name, done, len(keys))
+
+    def _stored(self, keys: list[str]) -> dict[str, Profile]:
+        return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
+
+
+def profile_key(structure: Structure, r: Representation, count: int, settings: Settings) -> str:
+    """Content address of a profile."""
+    return _key("profile", repr(structure), r.value, str(count), repr(settings))
+
+
+def question_key(question: Question[Any], chains: Chains, settings: Settings) -> str:
+    """Content address of an answer."""
+    return _key(question.name, *map(repr, chains), repr(settings))
+
+
+def compute(
+    structures: Sequence[Structure], r: Representation, count: int, settings: Settings
+) -> list[tuple[Structure, str]]:
+    """A task for a worker: profiles as JSON text."""
+    return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
+
+
+def compute_answer(question: Question[Any], chains: Chains, settings: Settings) -> str:
+    """A task for a worker: one answer as text."""
+    return question.encode(question.answer(*chains, settings))
+
+
+def mapped(
+    function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
+) -> Iterator[tuple[tuple[Any, ...], T]]:
+    """Tasks with their results as they come, in any order, from the executor's workers or from
+    this process.
+    """
+    if executor is None:
+        yield from ((task, function(*task)) for task in tasks)
+        return
+    futures: dict[Future[T], tuple[Any, ...]] = {
+        executor.submit(function, *task): task for task in tasks
+    }
+    try:
+        yield from ((futures[future], future.result()) for future in as_completed(futures))
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _key(*content: str) -> str:
+    return hashlib.sha256("\0".join((digest(__name__), *content)).encode()).hexdigest()
