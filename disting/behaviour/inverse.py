@@ -12,9 +12,9 @@ from flint import nmod_poly
 
 from disting.algebra.quotient import Quotient, series_rows
 from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, enough
-from disting.algebra.settings import Settings
 from disting.behaviour.profile import Profile, from_samples, minor_size, search_labels
 from disting.behaviour.sample import Representation, Sample, drawn
+from disting.model.settings import Settings
 from disting.model.structure import Structure
 
 

@@ -12,9 +12,9 @@ from math import ceil, log2
 from disting.algebra.matroid import Matroid, SearchTooLargeError, matroid
 from disting.algebra.quotient import rational
 from disting.algebra.sampling import SEARCH_BITS, Size, enough, safety
-from disting.algebra.settings import Settings
 from disting.behaviour.powers import degrees, powers, zeros
 from disting.behaviour.sample import Representation, Sample, drawn, seen_at
+from disting.model.settings import Settings
 from disting.model.structure import Structure
 
 SEARCHES = 3  # points modulo 31 bits: with thousands of models one is special now and then

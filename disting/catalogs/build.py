@@ -16,15 +16,24 @@ from disting.catalogs.files import (
     name_of,
 )
 from disting.catalogs.provenance import write_provenance
-from disting.conditions.subject import Subject
-from disting.evidence.domain import Domain
 from disting.evidence.plain import to_dict
 from disting.files import write_whole
+from disting.model.domain import Domain
 from disting.model.family import Family
 from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import inclusions_to_dict
-from disting.store import Decisions, Engine, Progress, silent
-from disting.verdict import FIBRE, PARAMETERS, Query, Relation, View
+from disting.verdict import (
+    FIBRE,
+    PARAMETERS,
+    Decisions,
+    Engine,
+    Progress,
+    Query,
+    Relation,
+    View,
+    silent,
+)
+from disting.verdict.chains import ComparedChain
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
 # what holds over positive parameters follows from the shares of both sides
@@ -76,7 +85,7 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
     return [*paths, write_provenance(folder)]
 
 
-def _model(number: int, subject: Subject, identifiability: Identifiability) -> Record:
+def _model(number: int, subject: ComparedChain, identifiability: Identifiability) -> Record:
     profile = subject.profile(Representation.TF, 0)
     return {
         "model": number,

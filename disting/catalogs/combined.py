@@ -10,8 +10,7 @@ from concurrent.futures import Executor
 from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
-from disting.store import Decisions, Engine, Progress, silent
-from disting.verdict import Query
+from disting.verdict import Decisions, Engine, Progress, Query, silent
 
 
 def combined_family(

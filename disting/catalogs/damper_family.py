@@ -13,10 +13,9 @@ from disting.catalogs.files import shipped_folder
 from disting.errors import InputError
 from disting.model.family import Family
 from disting.questions.same.limited import PATIENTLY, SETTLED, SHARING
-from disting.store import Engine, Progress, silent
-from disting.store.grouping import classes
-from disting.verdict import Relation
+from disting.verdict import Engine, Progress, Relation, silent
 from disting.verdict.classes import Classes
+from disting.verdict.grouping import classes
 
 # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
 PATIENT_UP_TO = 4

@@ -11,8 +11,7 @@ from disting.catalogs.damper_files import name_of, read, text_of, was_patient
 from disting.catalogs.damper_settled import read_settled
 from disting.model.symmetry import canonical
 from disting.questions.same.verify import Witness
-from disting.store import Engine, Progress, silent
-from disting.verdict import Relation
+from disting.verdict import Engine, Progress, Relation, silent
 
 
 def verify_dampers(

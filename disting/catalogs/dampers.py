@@ -14,10 +14,9 @@ from enum import StrEnum
 from itertools import combinations
 
 from disting.errors import InputError
-from disting.evidence.domain import Domain
 from disting.model.chain import Chain
-from disting.store import Decisions, Engine, Progress, silent
-from disting.verdict import Query, Relation, Verdict, View
+from disting.model.domain import Domain
+from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
 
 Masses = tuple[int, ...]
 COLUMNS = ("left", "right", "relation", "decided_by", "domain")

@@ -8,14 +8,14 @@ follows.
 from dataclasses import replace
 from typing import Any
 
+from disting.algebra.certainty import Certainty
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
 from disting.conditions.rule import Role
 from disting.conditions.table import RULES
-from disting.evidence.certainty import Certainty
-from disting.evidence.domain import Domain
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.evidence.positive import PositiveFinding
+from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
 from disting.verdict import FIBRE, PARAMETERS, Relation, Step, Verdict, View, open_note

@@ -9,15 +9,14 @@ from collections.abc import Callable, Iterator
 from itertools import combinations
 from pathlib import Path
 
-from disting.evidence.certainty import LEAST_SAFETY
+from disting.algebra.certainty import LEAST_SAFETY
 from disting.fibres.ideals.by_rows import row_pairs
 from disting.fibres.ideals.row_answers import ROWS, line_of, read_answers
 from disting.fibres.ideals.rows import DampedRow
 from disting.fibres.ideals.zeros import Branched, branches, refute, safety_of_branches
 from disting.model.family import Family
 from disting.questions.same.exact import rational_part
-from disting.store import Engine
-from disting.verdict import Query, Relation, View
+from disting.verdict import Engine, Query, Relation, View
 
 LABEL = "rows:disting"
 

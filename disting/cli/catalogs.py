@@ -3,7 +3,7 @@
 import argparse
 
 from disting.cli.workers import engine_for
-from disting.store import Engine
+from disting.verdict import Engine
 
 
 def build(options: argparse.Namespace) -> int:

@@ -8,11 +8,11 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
+from disting.algebra.certainty import USELESS
 from disting.conditions.table import RULES
 from disting.errors import InputError, shown
-from disting.evidence.certainty import USELESS
-from disting.evidence.domain import Domain
 from disting.files import write_whole
+from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 from disting.verdict import Query, Relation, View
 

@@ -15,11 +15,10 @@ from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.conditions.table import RULES
 from disting.errors import InputError
-from disting.evidence.domain import Domain
+from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
-from disting.store import classes_safety
-from disting.verdict import Relation
+from disting.verdict import Relation, classes_safety
 
 SIGNS = {
     Relation.DISTINGUISHABLE: ".",

@@ -7,8 +7,7 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from disting.comparison import name_of
-from disting.equivalents import (
+from disting.equivalence import (
     NONE,
     Equivalent,
     Equivalents,
@@ -22,11 +21,12 @@ from disting.equivalents import (
     chains_of,
     explicit_map,
 )
-from disting.equivalents import equivalents as find
+from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
+from disting.verdict.comparison import name_of
 
 ABREAST = 3  # parameter sets beside each other
 FEW = 12  # names of structures that are told one by one

@@ -12,7 +12,7 @@ from disting.cli.workers import engine_for
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.questions.identifiability import Identifiability, Level
-from disting.store import Engine, Progress
+from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
 

@@ -25,8 +25,8 @@ from disting.cli.paths import written_file, written_folder
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.errors import LONGEST_ECHO, shown
-from disting.evidence.domain import Domain
 from disting.model.chain import Sensor
+from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 
 MODEL = (

@@ -13,7 +13,7 @@ from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import relations_in_words
 from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.store import Engine, Progress
+from disting.verdict import Engine, Progress
 
 MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 

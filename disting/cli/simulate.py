@@ -108,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
     """The chain and its parameters; of the demonstration drive if none is named."""
-    from disting.equivalents.given import assignments, chain_of, point_of
+    from disting.equivalence.given import assignments, chain_of, point_of
     from disting.simulation import DEMO_MODEL
 
     if options.model is None:

@@ -11,8 +11,9 @@ from time import monotonic
 
 from disting.cli.plain import complain
 from disting.errors import InputError, shown
-from disting.store import Engine, Progress, Store
+from disting.store import Store
 from disting.store.scheduling import executor
+from disting.verdict import Engine, Progress
 
 SILENT = 4.5  # seconds at most, where standard error is no terminal
 VARIABLE = "DISTING_PROGRESS"  # of the environment: other seconds, or off

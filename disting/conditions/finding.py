@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from disting.algebra.certainty import Certainty, shortfall
 from disting.conditions.rule import Rule
-from disting.evidence.certainty import Certainty, shortfall
 from disting.evidence.kinds import Evidence
 
 

@@ -4,9 +4,9 @@ decisions.
 
 import json
 
+from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.evidence.certainty import Certainty
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 

@@ -7,12 +7,12 @@ also sorts a whole family into buckets. That a condition holds proves nothing.
 
 from collections.abc import Hashable
 
+from disting.algebra.certainty import Certainty, Grade, graded
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
-from disting.evidence.certainty import Certainty, Grade, graded
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.kinds import Evidence
 

@@ -11,8 +11,8 @@ from enum import StrEnum
 from math import sqrt
 from typing import Any, ClassVar, get_args
 
+from disting.algebra.certainty import Certainty, shortfall
 from disting.evidence import plain
-from disting.evidence.certainty import Certainty, shortfall
 from disting.evidence.decision import Theorem
 
 Values = tuple[tuple[str, str], ...]  # parameter name, fraction

@@ -41,7 +41,7 @@ from disting.fit.starts import (
 from disting.model.chain import Chain
 from disting.store import Store
 from disting.store.code import digest
-from disting.store.engine import mapped
+from disting.verdict.engine import mapped
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
 # every so many candidates that exchange divide their starts into one part more, up to so many parts

@@ -31,7 +31,8 @@ from disting.fit.repeatability import margin, repeatability
 from disting.fit.scatter import Scatter
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
-from disting.store import Engine, Store
+from disting.store import Store
+from disting.verdict import Engine
 
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
 

@@ -14,9 +14,9 @@ from dataclasses import replace
 from math import inf
 
 from disting.algebra.quotient import matrix
-from disting.algebra.settings import Settings
 from disting.fit.practical import Practical
 from disting.model.chain import Chain
+from disting.model.settings import Settings
 from disting.questions.identifiability.basis import basis
 from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.tangent import Tangent, proof_tangents

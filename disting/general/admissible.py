@@ -12,14 +12,13 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.algebra.sampling import residues
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
-from disting.evidence.certainty import Certainty
 from disting.evidence.decision import Theorem
-from disting.evidence.domain import Domain
 from disting.evidence.general import NoEquivalent, Point, Witnesses
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
@@ -28,6 +27,7 @@ from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
 from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
+from disting.model.domain import Domain
 
 POINTS = 40  # of either model
 GUARDS = 4  # of either model, where no equivalents are to be found

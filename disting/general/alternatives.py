@@ -14,11 +14,11 @@ from fractions import Fraction
 from disting.algebra.groebner.own_process import End, run_limited
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.finding import Outcome
-from disting.evidence.domain import Domain
 from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, Fibre, solved
 from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
+from disting.model.domain import Domain
 
 SECONDS = 30.0
 # milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time

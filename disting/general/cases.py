@@ -50,9 +50,9 @@ from itertools import combinations
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
-from disting.evidence.domain import Domain
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
+from disting.model.domain import Domain
 
 CASES = 300  # that are opened before the search is given up
 RESULTANTS = 24  # sum of total degrees: resultants stay a matter of milliseconds

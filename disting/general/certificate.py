@@ -11,10 +11,10 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_poly
 
-from disting.evidence.domain import Domain
 from disting.general.equivalent import Equivalent
 from disting.general.model import Model, Terms
 from disting.general.target import Target
+from disting.model.domain import Domain
 
 Interval = tuple[Fraction, Fraction]
 

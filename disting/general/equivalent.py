@@ -15,8 +15,8 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
 from disting.algebra.groebner.rational import Shape
-from disting.evidence.domain import Domain
 from disting.general.target import fraction
+from disting.model.domain import Domain
 
 FIRST_BITS = 128
 

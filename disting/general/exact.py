@@ -4,9 +4,9 @@ polynomial ideal.
 
 from dataclasses import replace
 
+from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.evidence.certainty import Certainty
 from disting.fibres.ideals import CoefficientMap, Decision, Limits, decide
 from disting.general.model import Model
 from disting.model.question import Membership

@@ -14,11 +14,10 @@ from typing import Any
 
 from flint import fmpz_mpoly, fmpz_poly
 
-from disting.algebra.groebner.rational import Basis, Bounds, basis, shape
+from disting.algebra.groebner.rational import Basis, Bounds, Polynomial, basis, shape
 from disting.algebra.sampling import residues
-from disting.evidence.domain import Domain
 from disting.general.equivalent import Equivalent, equivalents
-from disting.general.target import Polynomial
+from disting.model.domain import Domain
 
 DRAWS = 8  # of the free parameters of a family
 MEMBERS = 3  # draws with members after which the search ends, if one of them is positive

@@ -3,7 +3,6 @@
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
-from disting.evidence.domain import Domain
 from disting.evidence.general import Explicit, Formula, NoEquivalent
 from disting.general.between import End, Path
 from disting.general.expansion import Expansion
@@ -13,6 +12,7 @@ from disting.general.sections import Section
 from disting.general.spelled import polynomial_text, text_of
 from disting.general.trees import names as symbols_of
 from disting.general.which_models import Way, way
+from disting.model.domain import Domain
 
 
 def explicit(ways: list[Way], domain: Domain) -> Explicit:

@@ -21,14 +21,14 @@ from flint import fmpz_mpoly, nmod_mat
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
-from disting.algebra.settings import Settings
-from disting.evidence.domain import Domain
 from disting.general.cases import Case, Search, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.samples import evaluated
 from disting.general.spelled import text_of
+from disting.model.domain import Domain
+from disting.model.settings import Settings
 
 ORDERS = 24  # in which unknowns are solved for
 SETTINGS = Settings()

@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 
+from disting.algebra.certainty import Certainty, graded
 from disting.algebra.sampling import enough, safety
-from disting.algebra.settings import Settings
 from disting.behaviour.sample import Representation, Sample
-from disting.evidence.certainty import Certainty, graded
 from disting.general.model import Model
 from disting.general.samples import minor_size, samples
+from disting.model.settings import Settings
 
 SETTINGS = Settings()
 

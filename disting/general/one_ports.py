@@ -34,11 +34,11 @@ from dataclasses import replace
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
-from disting.evidence.domain import Domain
 from disting.general.cases import Case, cases_of
 from disting.general.model import Model, Terms
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.sections import cover, sections
+from disting.model.domain import Domain
 
 Polynomial = list[fmpz_mpoly]
 """Coefficients of s^0, s^1, .. in the parameters."""

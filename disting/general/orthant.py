@@ -19,8 +19,8 @@ from typing import Any
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
-from disting.evidence.domain import Domain
 from disting.general.model import Model, Terms
+from disting.model.domain import Domain
 
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign

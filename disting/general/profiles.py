@@ -14,11 +14,11 @@ from fractions import Fraction
 from functools import lru_cache
 
 from disting.algebra.sampling import SEARCH_BITS, enough
-from disting.algebra.settings import Settings
 from disting.behaviour.profile import Profile, from_samples, search_labels
 from disting.behaviour.sample import Representation
 from disting.general.model import Model, Terms
 from disting.general.samples import drawn, minor_size, samples
+from disting.model.settings import Settings
 
 Known = Fraction | None
 """The value of an invariant that is proven constant, or None."""

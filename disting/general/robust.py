@@ -27,11 +27,11 @@ from math import lcm
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
-from disting.evidence.domain import Domain
 from disting.general.cases import Case, Search
 from disting.general.orthant import value_at
 from disting.general.sections import Section
 from disting.general.signs_on_boxes import Box, Grid, is_empty, root
+from disting.model.domain import Domain
 
 UNKNOWNS = 2  # of a case at a point, at most
 VALUES = tuple(

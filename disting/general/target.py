@@ -14,16 +14,12 @@ from math import lcm
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
 
+from disting.algebra.groebner.rational import Polynomial
 from disting.errors import InputError, listed, shown
 from disting.general.expansion import Expansion
 from disting.general.expression import tree
 from disting.general.model import Model, Terms
 from disting.general.trees import names
-
-Polynomial = dict[tuple[int, ...], int]
-"""A polynomial in t and the parameters of the searched model: exponents (that of t first) and
-integer coefficients.
-"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice, permutations
 
-from disting.evidence.domain import Domain
 from disting.general.between import Path, odd_path, path, without_equations
 from disting.general.cases import Case, searched
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
+from disting.model.domain import Domain
 
 ORDERS = 24  # in which unknowns are solved for
 

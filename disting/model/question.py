@@ -1,17 +1,19 @@
-"""What is asked of chains beyond conditions 1 to 9: computed by a pure function, kept as text
+"""What is asked of models beyond conditions 1 to 9: computed by a pure function, kept as text
 by whoever keeps it.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
-from disting.algebra.settings import Settings
-from disting.model.chain import Chain
+from disting.model.settings import Settings
 
 T = TypeVar("T")
-Chains = tuple[Chain, ...]
+Models = tuple[Any, ...]
+"""One chain or general model, or an ordered pair of them: frozen, and its `repr` tells all of
+it.
+"""
 
 
 class Membership(StrEnum):
@@ -24,9 +26,9 @@ class Membership(StrEnum):
 
 @dataclass(frozen=True)
 class Question(Generic[T]):
-    """A question by its `name`, about one chain or an ordered pair.
+    """A question by its `name`, about one model or an ordered pair.
 
-    `answer` computes (of the chains and the settings), `encode` and `decode` turn an answer into
+    `answer` computes (of the models and the settings), `encode` and `decode` turn an answer into
     text and back.
     """
 
@@ -39,10 +41,10 @@ class Question(Generic[T]):
 class Answerer(Protocol):
     """Whoever answers questions: by computing, or from a store."""
 
-    def __call__(self, question: Question[T], chains: Chains, settings: Settings) -> T:
-        """The answer for these chains in this order."""
+    def __call__(self, question: Question[T], models: Models, settings: Settings) -> T:
+        """The answer for these models in this order."""
 
 
-def computed(question: Question[T], chains: Chains, settings: Settings) -> T:
+def computed(question: Question[T], models: Models, settings: Settings) -> T:
     """The answer, computed now."""
-    return question.answer(*chains, settings)
+    return question.answer(*models, settings)

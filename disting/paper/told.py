@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from disting.conditions.table import RULES
-from disting.store import Decisions
+from disting.verdict import Decisions
 
 Pair = tuple[int, int]
 

@@ -27,7 +27,7 @@ def digest(module: str) -> str:
     """SHA-256 of the source of a module and of all that it imports here, of the shipped answers
     about rows, and of the versions of Python and the libraries.
 
-    >>> digest("disting.fit.estimate") == digest("disting.store.engine")
+    >>> digest("disting.fit.estimate") == digest("disting.verdict.engine")
     False
     """
     sources = _sources()
@@ -41,8 +41,8 @@ def modules_of(module: str) -> tuple[str, ...]:
     """A module and all modules of this package that it imports, directly or not, in order of their
     names.
 
-    >>> modules_of("disting.evidence.certainty")
-    ('disting.evidence.certainty',)
+    >>> modules_of("disting.algebra.certainty")
+    ('disting.algebra.certainty',)
     """
     sources, found, new = _sources(), set[str](), {module}
     while new:

@@ -12,7 +12,7 @@ pair is looked up.
 The relation of a pair is that of `compare`, wherever that is found here; what is open here
 `compare` may still decide with more time. So is the rule, but for two cases: a pair whose models
 are linked by a chain of rules of different kinds, and one that is separated by ranks of 1/G (see
-`invariants.inverse`), is said to be decided by the exact decision.
+`behaviour.inverse`), is said to be decided by the exact decision.
 """
 
 from collections import Counter
@@ -29,7 +29,7 @@ from disting.conditions.structural import SUBMODEL, SUPERMODEL
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 Numbers = NDArray[np.int32]
 Masses = frozenset[int]

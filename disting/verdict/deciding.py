@@ -7,7 +7,6 @@ of two columns of numbers; only pairs that share all buckets are looked at one b
 
 from collections.abc import Callable, Hashable, Sequence
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,41 +14,23 @@ from numpy.typing import NDArray
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.rule import Rule
-from disting.conditions.subject import EXACTLY, Subject
 from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
-from disting.evidence.domain import Domain
-from disting.model.question import Chains, Question
-from disting.questions.identifiability import IDENTIFIABILITY
-from disting.questions.inclusion import (
-    CLOSURE,
-    IDEALS,
-    IMAGE,
-    Inclusion,
-    Sense,
-    asked_closure,
-    asked_image,
-    by_rank,
-    implied_image,
-    joined,
-    needs_ideals,
-    quick_closure,
-)
-from disting.questions.same.real_and_positive import (
-    LACKING,
-    POSITIVELY,
-    needs_counts,
-    resting_on,
-    witness_ways,
-)
-from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step
+from disting.model.domain import Domain
+from disting.questions.inclusion import Inclusion, Sense
+from disting.questions.same.real_and_positive import resting_on
+from disting.verdict.cascade import Step
+from disting.verdict.compared import Ask, Compared
 from disting.verdict.decisions import NUMBERS, REPRESENTATIONS, Decisions, markov_count
+from disting.verdict.query import FIBRE, PARAMETERS, Query
+from disting.verdict.result import Relation
 
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
-Ask = Callable[[Question[Any], Sequence[Chains]], None]
-Prefetch = Callable[[Sequence[Subject], Representation, int], None]
+Prefetch = Callable[[Sequence[Compared], Representation, int], None]
 
 
-def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask: Ask) -> Decisions:
+def decisions(
+    subjects: Sequence[Compared], query: Query, prefetch: Prefetch, ask: Ask
+) -> Decisions:
     """Decide all pairs of models, of any sizes; the two callbacks compute what will be asked
     for.
     """
@@ -63,8 +44,9 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask
             _structural(result, open_pairs)
             continue
         if representation == FIBRE:
-            ask(EXACTLY, [a.in_order(b) for a, b in _pairs(result, open_pairs) if a.rank == b.rank])
-            _each(result, open_pairs, FIBRE, Subject.exact)
+            if open_pairs.any():
+                subjects[0].prepare_exact(_pairs(result, open_pairs), ask)
+            _each(result, open_pairs, FIBRE, lambda a, b: a.exact(b))
             continue
         r = Representation(representation)
         active = np.flatnonzero(open_pairs.any(axis=0) | open_pairs.any(axis=1))
@@ -79,7 +61,7 @@ def decisions(subjects: Sequence[Subject], query: Query, prefetch: Prefetch, ask
     return result
 
 
-def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Subject, Subject]]:
+def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Compared, Compared]]:
     return [
         (result.subjects[int(i)], result.subjects[int(j)])
         for i, j in zip(*np.nonzero(where), strict=True)
@@ -87,48 +69,36 @@ def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Subject, S
 
 
 def _inclusions(result: Decisions, ask: Ask) -> None:
-    """Settle by profiles what they settle, and ask about the rest at once; each pair of
-    canonical forms is looked at once.
-    """
+    """What is one-sided, of all pairs of unequal rank at once."""
     subjects = result.subjects
     pairs = [
         (i, j)
         for i, j in combinations(range(len(subjects)), 2)
         if subjects[i].rank != subjects[j].rank
     ]
-    keys = {(i, j): (subjects[i].canonical.chain, subjects[j].canonical.chain) for i, j in pairs}
-    first = {key: (subjects[i], subjects[j]) for (i, j), key in reversed(keys.items())}
-    quick = {key: quick_closure(*pair) for key, pair in first.items()}
-    ask(CLOSURE, [by_rank(*first[key]) for key, found in quick.items() if found is None])
-    closures = {
-        key: asked_closure(*first[key]) if found is None else found for key, found in quick.items()
-    }
-    implied = {key: implied_image(*first[key], closures[key]) for key in first}
-    ask(IMAGE, [by_rank(*first[key]) for key, found in implied.items() if found is None])
-    images = {
-        key: asked_image(*first[key]) if found is None else found for key, found in implied.items()
-    }
-    ask(IDEALS, [by_rank(*first[key]) for key in first if needs_ideals(images[key], closures[key])])
-    found = {key: joined(*first[key], images[key], closures[key]) for key in first}
-    result.inclusions.update({pair: found[key] for pair, key in keys.items()})
+    if pairs:
+        chosen = [(subjects[i], subjects[j]) for i, j in pairs]
+        found = subjects[0].all_inclusions(chosen, ask)
+        result.inclusions.update(zip(pairs, found, strict=True))
 
 
 def _positive(result: Decisions, ask: Ask) -> None:
-    """Which positive models have positive equivalents, wherever generic ones have equivalents;
-    all at once.
+    """Which positive models have positive equivalents, wherever generic ones have equivalents; all
+    at once.
     """
     n, subjects = len(result.subjects), result.subjects
     ways = [(i, j) for i in range(n) for j in range(n) if i != j and _is_asked(result, i, j)]
-    ask(POSITIVELY, [(subjects[i].canonical.chain, subjects[j].canonical.chain) for i, j in ways])
+    if ways:
+        subjects[0].prepare_positive([(subjects[i], subjects[j]) for i, j in ways], ask)
     for i, j in ways:
         result.shares[i, j] = subjects[i].positive(subjects[j])
 
 
 def _is_asked(result: Decisions, i: int, j: int) -> bool:
-    """Whether generic models i may have equivalents j: whether they are such models, or limits
-    of them, of one size.
+    """Whether generic models i may have equivalents j: whether they are such models, or limits of
+    them, and it can be asked.
     """
-    if result.subjects[i].chain.n_masses != result.subjects[j].chain.n_masses:
+    if not result.subjects[i].tells_shares(result.subjects[j]):
         return False
     inside = Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT
     return result.inclusion(min(i, j), max(i, j), Sense.CLOSURE) in (Inclusion.EQUAL, inside)
@@ -140,33 +110,18 @@ def _admissible(result: Decisions, ask: Ask) -> None:
     same = np.zeros((n, n), bool)
     for i, j in combinations(range(n), 2):
         same[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
-    if domain is Domain.REAL:
-        pairs = [
-            pair
-            for pair in _pairs(result, same)
-            if needs_counts(*(s.canonical.chain for s in pair))
-        ]
-        ask(IDENTIFIABILITY, [(s.canonical.chain,) for pair in pairs for s in pair])
-        _lacking(_pairs(result, same), ask)
+    if same.any():
+        result.subjects[0].prepare_admissible(_pairs(result, same), domain, ask)
     for i, j in zip(*np.nonzero(same), strict=True):
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
-        found = result.subjects[i].admissible(result.subjects[j], domain)
+        left, right = result.subjects[i], result.subjects[j]
+        found = left.admissible(right, domain, equal.evidence)
         step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety), equal.evidence))
         known = step.relation is not Relation.UNDECIDED
         if known:
             result.steps[int(i), int(j)] = step
         result.decided_by[i, j] = NUMBERS[step.finding.rule.name] if known else 0
         result.representation[i, j] = REPRESENTATIONS.index(PARAMETERS if known else "")
-
-
-def _lacking(pairs: Sequence[tuple[Subject, Subject]], ask: Ask) -> None:
-    """Real models without real equivalents, the second way where the first finds none."""
-    ways = [(pair[0], witness_ways(*(s.canonical.chain for s in pair))) for pair in pairs]
-    for k in range(2):
-        asked = [(s, way[k]) for s, way in ways if len(way) > k]
-        ask(LACKING, [chains for _, chains in asked])
-        none = {chains for s, chains in asked if not s.answerer(LACKING, chains, s.settings)}
-        ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
 
 
 def _necessary(

@@ -10,16 +10,20 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE
-from disting.conditions.subject import Subject
 from disting.conditions.table import NECESSARY, RULES, STRUCTURE
-from disting.evidence.certainty import Certainty, Grade
 from disting.evidence.positive import PositiveFinding
+from disting.model.chain import Chain
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
-from disting.verdict import FIBRE, PARAMETERS, Query, Relation, Step, Verdict, decide, verdict_of
+from disting.verdict.cascade import Step, decide, verdict_of
+from disting.verdict.chains import ComparedChain
+from disting.verdict.compared import Compared
+from disting.verdict.query import FIBRE, PARAMETERS, Query
+from disting.verdict.result import Relation, Verdict
 
 NAMES = ("", *RULES)  # what the numbers in `decided_by` stand for
 NUMBERS = {name: number for number, name in enumerate(NAMES)}
@@ -40,7 +44,7 @@ class Decisions:
     were asked again over real or positive ones.
     """
 
-    subjects: tuple[Subject, ...]
+    subjects: tuple[Compared, ...]
     query: Query
     decided_by: Numbers
     representation: Numbers
@@ -49,6 +53,16 @@ class Decisions:
     inclusions: dict[tuple[int, int], Inclusions] = field(default_factory=dict)
     shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
     equal: dict[tuple[int, int], Finding] = field(default_factory=dict)
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """The chains that were compared, none where they are general models."""
+        return tuple(s.chain for s in self.subjects if isinstance(s, ComparedChain))
+
+    @property
+    def sizes(self) -> list[int]:
+        """Numbers of masses of the chains."""
+        return [chain.n_masses for chain in self.chains]
 
     def profile(self, representation: str, i: int) -> Profile:
         """The profile by which pairs of model i were decided in a representation."""
@@ -150,11 +164,11 @@ class Decisions:
         return {NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
 
 
-def markov_count(r: Representation, query: Query, subjects: Sequence[Subject]) -> int:
+def markov_count(r: Representation, query: Query, subjects: Sequence[Compared]) -> int:
     """Markov parameters after G_0: as asked, or twice the number of states of the largest
     model, enough for every pair.
     """
     if r is Representation.TF or not subjects:
         return 0
-    largest = max(subjects, key=lambda s: s.chain.structure.n_states)
+    largest = max(subjects, key=lambda s: s.n_states)
     return query.count(largest, largest)

@@ -9,16 +9,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.fractionfree import OutOfTimeError
 from disting.behaviour.symbolic import rank_is_at_most
 from disting.conditions.necessary import DEPENDENCES, RANK
-from disting.evidence.certainty import Certainty
 from disting.evidence.conditions import Ranks
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.store import Decisions, Progress, silent
-from disting.verdict import Verdict
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Progress, silent
+from disting.verdict.result import Verdict
 
 SECONDS = 10.0  # for one proof
 # these invariants of this structure have this rank at most
@@ -58,11 +59,9 @@ def prove_all(
 
 
 def _claims(decided: Decisions) -> Iterator[tuple[tuple[int, int], Claim]]:
-    for i, j in combinations(range(len(decided.subjects)), 2):
+    for i, j in combinations(range(len(decided.chains)), 2):
         if decided.rule(i, j) in (RANK.name, DEPENDENCES.name):
-            claim = _claim(
-                decided.verdict(i, j), decided.subjects[i].chain, decided.subjects[j].chain
-            )
+            claim = _claim(decided.verdict(i, j), decided.chains[i], decided.chains[j])
             if claim:
                 yield (i, j), claim
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.conditions.rule import Rule
-from disting.conditions.subject import Subject
 from disting.conditions.table import CONDITIONS, STRUCTURE
 from disting.errors import InputError
-from disting.evidence.domain import Domain
+from disting.model.domain import Domain
+from disting.verdict.compared import Compared
 
 ALL_CONDITIONS = tuple(c.rule.name for c in CONDITIONS)
 FIBRE = "fibre"  # the representation of the exact decision
@@ -90,8 +90,8 @@ class Query:
         """
         return self.inclusion and FIBRE in self.view.representations
 
-    def count(self, left: Subject, right: Subject) -> int:
+    def count(self, left: Compared, right: Compared) -> int:
         """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are
         exhaustive.
         """
-        return self.markov or left.chain.structure.n_states + right.chain.structure.n_states
+        return self.markov or left.n_states + right.n_states

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from disting.algebra.certainty import Certainty
 from disting.conditions.rule import EXACT, Role
 from disting.conditions.table import RULES
-from disting.evidence.certainty import Certainty
-from disting.evidence.domain import Domain
 from disting.evidence.kinds import Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
+from disting.model.domain import Domain
 from disting.questions.inclusion import (
     Inclusion,
     Inclusions,

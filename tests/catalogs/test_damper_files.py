@@ -8,7 +8,6 @@ from random import Random
 import pytest
 
 from disting import CatalogError, Engine, InputError, Query, Relation, View, catalog, compare
-from disting.algebra.settings import Settings
 from disting.catalogs.damper_family import damper_family
 from disting.catalogs.damper_files import (
     SHIPPED_SIZES,
@@ -23,6 +22,7 @@ from disting.catalogs.damper_verify import verify_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions import Outcome
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.limited import quick_finding, quick_profile
 from disting.questions.same.verify import Witness

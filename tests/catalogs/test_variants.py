@@ -9,7 +9,6 @@ from itertools import combinations
 import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
-from disting.algebra.settings import Settings
 from disting.catalogs.variants import (
     originals_against_lagged,
     sensor_effects,
@@ -20,6 +19,7 @@ from disting.catalogs.variants import (
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
+from disting.model.settings import Settings
 from disting.questions.same.exact import exact_finding, mirrored
 from disting.questions.same.verify import Witness
 

@@ -22,13 +22,11 @@ from disting import (
     View,
     compare,
 )
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import weakest
 from disting.catalogs import Catalog
 from disting.catalogs.build import build
 from disting.catalogs.export import decisions_csv
 from disting.catalogs.verify import false_evidence
-from disting.evidence.certainty import weakest
-from disting.evidence.domain import Domain
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
@@ -36,6 +34,8 @@ from disting.evidence.real import BothWays, OddFibres, RealFactors
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target
+from disting.model.domain import Domain
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.inclusion import Inclusion

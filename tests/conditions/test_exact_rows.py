@@ -7,15 +7,15 @@ import stat
 import pytest
 
 from disting import Engine, Query, Relation
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
-from disting.evidence.certainty import Certainty
 from disting.evidence.ideals import ByRow
 from disting.evidence.kinds import evidence_from
 from disting.fibres.ideals import Limits
 from disting.fibres.ideals.by_rows import row_pairs
 from disting.model.chain import Chain
+from disting.model.settings import Settings
 from disting.questions.same import exact
 from disting.questions.same.exact import by_row, exact_finding
 from disting.questions.same.verify import Witness

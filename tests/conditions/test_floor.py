@@ -8,10 +8,10 @@ from math import log2
 import pytest
 
 from disting import Certainty, Chain, Relation, Settings, compare
+from disting.algebra.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
-from disting.evidence.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.evidence.conditions import Ranks
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.model.symmetry import canonical

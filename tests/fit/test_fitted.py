@@ -8,7 +8,6 @@ from math import isnan
 import numpy as np
 import pytest
 
-from disting.algebra.settings import Settings
 from disting.fit import confidence, fit_percent, select
 from disting.fit.cost import Cost
 from disting.fit.descent import fine
@@ -19,6 +18,7 @@ from disting.fit.members import QUANTILE
 from disting.fit.practical import covariance
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.settings import Settings
 from tests.fit.drives import response
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting.equivalents import chain_of
+from disting.equivalence import chain_of
 from disting.fit.admissible import Rule, undetermined
 from disting.fit.alternatives import limits_of
 from disting.fit.candidates import as_listed, reference

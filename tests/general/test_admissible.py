@@ -6,27 +6,19 @@ from dataclasses import replace
 
 import pytest
 
-from disting import Certainty, Query, Relation, View
+from disting import Certainty, Query, Relation, View, compare
 from disting.algebra.rational_function import RationalFunction
 from disting.conditions.finding import Outcome
 from disting.errors import ContradictionError
 from disting.evidence.conditions import Renaming
-from disting.evidence.domain import Domain
 from disting.evidence.general import NoEquivalent
-from disting.general import (
-    Model,
-    Witnesses,
-    alternatives,
-    compare,
-    confirms,
-    is_explicit,
-    is_without,
-)
+from disting.general import Model, Witnesses, alternatives, confirms, is_explicit, is_without
 from disting.general.admissible import of_ways, points
 from disting.general.cases import Case, Search
 from disting.general.orthant import Orthant
 from disting.general.sections import sections
 from disting.general.which_models import way
+from disting.model.domain import Domain
 
 IRREVERSIBLE = Model.from_state_space(
     [["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible"

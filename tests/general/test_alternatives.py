@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 from disting import Family, InputError
 from disting.algebra.groebner.rational import TooLarge, basis
 from disting.conditions.finding import Outcome
-from disting.evidence.domain import Domain
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target as chain_target
@@ -23,6 +22,7 @@ from disting.general import Extent, Model, alternatives
 from disting.general.alternatives import AT_ONCE
 from disting.general.certificate import certified
 from disting.general.target import fibre_equations, rational_values, target
+from disting.model.domain import Domain
 
 IRREVERSIBLE = Model.from_state_space(
     [["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible"

@@ -6,15 +6,15 @@ from math import prod
 
 import pytest
 
-from disting import Relation
+from disting import Relation, compare
 from disting.algebra.sampling import prime
-from disting.algebra.settings import Settings
 from disting.behaviour.sample import Representation
 from disting.fibres.ideals import decide
-from disting.general import Model, compare, local_identifiability
+from disting.general import Model, local_identifiability
 from disting.general.exact import coefficient_map
 from disting.general.profiles import profile
 from disting.general.samples import drawn, samples
+from disting.model.settings import Settings
 
 OTHER = Model.from_transfer_function(["c"], ["1", "0"], name="integrator")
 ATTACKS = 4

@@ -7,14 +7,14 @@ from itertools import combinations
 import pytest
 import sympy as sp
 
-from disting import Certainty, Family, Query, Relation, View
+from disting import Certainty, Family, Query, Relation, View, compare, findings
 from disting import compare as compare_chains
-from disting.algebra.settings import Settings
 from disting.behaviour.sample import Representation
 from disting.evidence.conditions import Renaming
-from disting.general import Model, compare, findings, local_identifiability
+from disting.general import Model, local_identifiability
 from disting.general.profiles import profile, proven_constants
 from disting.general.renaming import is_renaming
+from disting.model.settings import Settings
 
 COMPLEX = Query(View.EXACT)  # the paper's domain
 SAME, DIFFERENT = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE

@@ -10,14 +10,13 @@ import networkx as nx
 import pytest
 import sympy as sp
 
-from disting import Certainty, Family, Query, Relation, View
+from disting import Certainty, Family, Query, Relation, View, compare
 from disting import compare as compare_chains
 from disting.algebra.rational_function import RationalFunction
 from disting.conditions.finding import Outcome
 from disting.errors import InputError
-from disting.evidence.domain import Domain
 from disting.evidence.general import Explicit
-from disting.general import Model, alternatives, compare, confirms, is_explicit
+from disting.general import Model, alternatives, confirms, is_explicit
 from disting.general.admissible import points
 from disting.general.between import path
 from disting.general.cases import Case, Search
@@ -26,6 +25,7 @@ from disting.general.orthant import Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections
 from disting.general.which_models import Way, way
+from disting.model.domain import Domain
 
 EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
 

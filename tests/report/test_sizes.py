@@ -10,8 +10,7 @@ from disting.catalogs.combined import combined
 from disting.questions.inclusion import Inclusion, Sense
 from disting.report.scene import Text
 from disting.report.sizes import between, figure, outside, sizes_page, write_sizes
-from disting.store import Decisions
-from disting.verdict import Query
+from disting.verdict import Decisions, Query
 
 
 @pytest.fixture(scope="module")

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-from tests.engine.store_tools import cache_warnings
-from tests.engine.store_worker import items
 
 from disting.store.store import Store
+from tests.store.store_tools import cache_warnings
+from tests.store.store_worker import items
 
 
 @pytest.fixture

@@ -12,9 +12,8 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.engine.store_worker import items
-
 from disting.store.store import CacheWarning, Store
+from tests.store.store_worker import items
 
 WORKER = Path(__file__).with_name("store_worker.py")
 ROOT = Path(__file__).parents[2]

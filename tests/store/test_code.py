@@ -50,7 +50,7 @@ def closure(name):
 
 
 @pytest.mark.parametrize(
-    "name", ["disting.store.engine", "disting.fit.estimate", "disting.algebra.matroid"]
+    "name", ["disting.verdict.engine", "disting.fit.estimate", "disting.algebra.matroid"]
 )
 def test_the_modules_are_those_of_the_syntax_trees(name):
     assert set(modules_of(name)) == closure(name)
@@ -60,8 +60,8 @@ def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions(
     assert {"disting.model.chain", "disting.fit.plant", "disting.fibres.synthesis.decide"} <= set(
         modules_of("disting.fit.estimate")
     )
-    assert {"disting.model.chain", "disting.conditions.table", "disting.evidence.domain"} <= set(
-        modules_of("disting.store.engine")
+    assert {"disting.model.chain", "disting.conditions.table", "disting.model.domain"} <= set(
+        modules_of("disting.verdict.engine")
     )
     assert not any(
         name.startswith(("disting.report", "disting.cli"))

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.engine.store_tools import TEN, aside, cache_warnings, keeps_nothing, overwrite, works
-from tests.engine.store_worker import items, key
 
 from disting.store.database_file import APPLICATION_ID, SCHEMA_VERSION
 from disting.store.store import Store
+from tests.store.store_tools import TEN, aside, cache_warnings, keeps_nothing, overwrite, works
+from tests.store.store_worker import items, key
 
 
 def test_values_come_back_and_survive_reopening(path: Path) -> None:

@@ -7,7 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.engine.store_tools import (
+
+from disting.store.database_file import SCHEMA, SCHEMA_VERSION
+from disting.store.store import CacheWarning, Store
+from tests.store.store_tools import (
     TEN,
     alter,
     aside,
@@ -19,10 +22,7 @@ from tests.engine.store_tools import (
     start,
     works,
 )
-from tests.engine.store_worker import items, key, value
-
-from disting.store.database_file import SCHEMA, SCHEMA_VERSION
-from disting.store.store import CacheWarning, Store
+from tests.store.store_worker import items, key, value
 
 
 def random_bytes(path: Path) -> None:

@@ -7,10 +7,10 @@ import time
 from pathlib import Path
 
 import pytest
-from tests.engine.store_tools import aside, cache_warnings, first_line, start, stop, works
-from tests.engine.store_worker import items
 
 from disting.store.store import Store
+from tests.store.store_tools import aside, cache_warnings, first_line, start, stop, works
+from tests.store.store_worker import items
 
 
 @pytest.mark.parametrize("times", [4, pytest.param(30, marks=pytest.mark.slow)])

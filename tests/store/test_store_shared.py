@@ -11,7 +11,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.engine.store_tools import (
+
+from disting.store.store import Store
+from tests.store.store_tools import (
     LONG,
     TEN,
     alter,
@@ -24,9 +26,7 @@ from tests.engine.store_tools import (
     stop,
     works,
 )
-from tests.engine.store_worker import items, key, value
-
-from disting.store.store import Store
+from tests.store.store_worker import items, key, value
 
 
 @pytest.mark.parametrize(

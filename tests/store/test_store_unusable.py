@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from tests.engine.store_tools import TEN, aside, cache_warnings, finish, keeps_nothing, start, works
-from tests.engine.store_worker import items
 
 from disting.store.store import Store
+from tests.store.store_tools import TEN, aside, cache_warnings, finish, keeps_nothing, start, works
+from tests.store.store_worker import items
 
 
 def below_a_file(tmp_path: Path) -> Path:

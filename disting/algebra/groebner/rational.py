@@ -16,10 +16,11 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from disting.algebra.sampling import residues
-from disting.general.target import Polynomial
 
 FORMS = 5  # linear forms that are tried
 Vector = dict[tuple[int, ...], fmpq]
+Polynomial = dict[tuple[int, ...], int]
+"""Exponents of the unknowns and integer coefficient of each term."""
 
 
 class TooLarge(Exception):

@@ -6,15 +6,15 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from disting.algebra.certainty import Certainty, Grade
 from disting.algebra.sampling import enough
-from disting.algebra.settings import Settings
 from disting.behaviour.profile import minor_size
 from disting.behaviour.sample import Representation
 from disting.errors import ContradictionError
-from disting.evidence.certainty import Certainty, Grade
 from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.question import Question
+from disting.model.settings import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability

@@ -5,7 +5,7 @@ fit, what can be determined.
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from disting.evidence.certainty import Certainty, Grade
+from disting.algebra.certainty import Certainty, Grade
 from disting.fibres.synthesis.result import Answer
 from disting.questions.identifiability.as_json import decoded
 from disting.questions.identifiability.parts import (

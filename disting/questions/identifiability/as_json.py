@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from disting.evidence.certainty import Certainty, Grade
+from disting.algebra.certainty import Certainty, Grade
 from disting.fibres.synthesis.result import Answer
 from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.parts import (

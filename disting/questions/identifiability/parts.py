@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.evidence.certainty import Certainty
+from disting.algebra.certainty import Certainty
 from disting.fibres.synthesis.result import Answer
 from disting.questions.identifiability.formula import Formula
 

@@ -23,9 +23,9 @@ from typing import Any
 
 from flint import acb, fmpq
 
+from disting.algebra.certainty import Certainty, Grade
 from disting.algebra.sampling import about
 from disting.errors import ContradictionError
-from disting.evidence.certainty import Certainty, Grade
 from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.duality import are_dual, dual

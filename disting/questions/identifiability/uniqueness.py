@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import acb, fmpq
 
-from disting.evidence.certainty import Certainty
+from disting.algebra.certainty import Certainty
 from disting.fibres.synthesis.result import Answer, Status
 from disting.questions.identifiability.functions import Candidate
 from disting.questions.identifiability.parts import Combination, Origin

@@ -22,11 +22,10 @@ from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.sampling import about
-from disting.algebra.settings import Settings
 from disting.behaviour.powers import degrees
 from disting.behaviour.sample import Representation
-from disting.conditions.subject import Subject
 from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
@@ -35,10 +34,10 @@ from disting.evidence.across_sizes import (
     PoleSharing,
     TooLarge,
 )
-from disting.evidence.certainty import Certainty
 from disting.evidence.conditions import Counts
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 from disting.questions.inclusion.limit_fibre import contained
@@ -47,12 +46,13 @@ from disting.questions.inclusion.meeting import room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.questions.inclusion.profiles import ordered
 from disting.questions.inclusion.rows import Row, rows_of
+from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part, theorem
 
 REMEMBERED = 1024  # chains whose twins are kept
 
 
-def by_sizes(left: Subject, right: Subject) -> InclusionFinding | None:
+def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """Inclusion of chains of different sizes, of one sensor and dead time; None where
     `by_computing` is to be asked.
     """
@@ -140,7 +140,7 @@ def part_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple
             yield tuple(part for part in found if part is not None)
 
 
-def refuted(small: Subject, large: Subject, left_is_larger: bool) -> InclusionFinding | None:
+def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
     """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
     nothing.
     """

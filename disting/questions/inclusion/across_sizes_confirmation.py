@@ -4,7 +4,6 @@ evidence alone.
 
 from dataclasses import astuple
 
-from disting.conditions.subject import Subject
 from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
@@ -24,10 +23,13 @@ from disting.questions.inclusion.meeting import Room, room
 from disting.questions.inclusion.pole_sharing import excludes
 from disting.questions.inclusion.profiles import ordered
 from disting.questions.inclusion.rows import Row, rows_of
+from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
 
 
-def confirms_across_sizes(evidence: AcrossSizes | Counts, left: Subject, right: Subject) -> bool:
+def confirms_across_sizes(
+    evidence: AcrossSizes | Counts, left: ChainSide, right: ChainSide
+) -> bool:
     """Whether the evidence is true of the two chains; ranks are taken from their profiles,
     counts made at fresh points.
     """

@@ -38,9 +38,9 @@ sum is a limit of its models. So `of_closure` looks at each part, a row of masse
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from disting.algebra.certainty import LEAST_SAFETY, joint_safety
 from disting.algebra.sampling import about, prime, residues
 from disting.behaviour.powers import powers
-from disting.evidence.certainty import LEAST_SAFETY, joint_safety
 from disting.evidence.limits import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
 from disting.fibres.ideals import CoefficientMap, normalised
 from disting.fibres.ideals.fibre_ideal import evaluated, generic_rank

@@ -5,7 +5,6 @@ from math import comb
 
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation
-from disting.conditions.subject import Subject
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.evidence.conditions import Counts, FreeChoice, Labels
 from disting.evidence.decision import FibreAt
@@ -25,13 +24,14 @@ from disting.model.structure import Structure
 from disting.questions.inclusion.across_sizes_confirmation import confirms_across_sizes
 from disting.questions.inclusion.closures import confirms_parts
 from disting.questions.inclusion.profiles import degrees_refute, ordered
+from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
 from disting.questions.same.verify import POINTS, Witness
 
 PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 
 
-def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool:
+def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> bool:
     """Whether the evidence is true of the two chains, at fresh points, and speaks of the model of
     the smaller rank.
 

@@ -18,11 +18,9 @@ there CLOSURE is asked alone. For chains of one size:
 
 from dataclasses import replace
 
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
-from disting.conditions.subject import Subject
 from disting.evidence.across_sizes import LimitFibre, PoleSharing
-from disting.evidence.certainty import Certainty
 from disting.evidence.decision import FibreAt
 from disting.evidence.ideals import ByParts, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
@@ -37,6 +35,7 @@ from disting.fibres.ideals import (
 from disting.fibres.ideals import decide as decide_ideal
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question
+from disting.model.settings import Settings
 from disting.questions.inclusion.across_sizes import by_computing, by_sizes
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.finding import (
@@ -50,6 +49,7 @@ from disting.questions.inclusion.finding import (
 )
 from disting.questions.inclusion.image import of_image
 from disting.questions.inclusion.profiles import by_profiles
+from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
 
 # of one ideal; less than for a verdict
@@ -60,7 +60,7 @@ PART_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ide
 NOT_ASKED = "of chains of different sizes only limits are asked for"
 
 
-def inclusions(left: Subject, right: Subject) -> Inclusions:
+def inclusions(left: ChainSide, right: ChainSide) -> Inclusions:
     """Both statements on two chains of unequal rank: what is cheap first, then what the
     answerer has to compute.
     """
@@ -75,13 +75,13 @@ def inclusions(left: Subject, right: Subject) -> Inclusions:
     return joined(left, right, image, closure)
 
 
-def by_rank(left: Subject, right: Subject) -> tuple[Chain, Chain]:
+def by_rank(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
     """The canonical forms of both, the smaller rank first."""
     first, second = (left, right) if left.rank < right.rank else (right, left)
     return first.canonical.chain, second.canonical.chain
 
 
-def quick_closure(left: Subject, right: Subject) -> InclusionFinding | None:
+def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """What profiles, or for chains of different sizes counts and limits, tell of CLOSURE; None
     if nothing.
     """
@@ -98,7 +98,7 @@ def quick_closure(left: Subject, right: Subject) -> InclusionFinding | None:
 
 
 def implied_image(
-    left: Subject, right: Subject, closure: InclusionFinding
+    left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
     """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
     if closure.inclusion is Inclusion.NEITHER:
@@ -123,7 +123,7 @@ def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
 
 
 def joined(
-    left: Subject, right: Subject, image: InclusionFinding, closure: InclusionFinding
+    left: ChainSide, right: ChainSide, image: InclusionFinding, closure: InclusionFinding
 ) -> Inclusions:
     """Both statements: by ideals where nothing is known; equivalents are limits."""
     if needs_ideals(image, closure):
@@ -193,17 +193,19 @@ def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
     return Inclusions(unknown, unknown)
 
 
-def asked_closure(left: Subject, right: Subject) -> InclusionFinding:
+def asked_closure(left: ChainSide, right: ChainSide) -> InclusionFinding:
     """CLOSURE as the answerer computes it."""
     return _asked(CLOSURE, left, right)
 
 
-def asked_image(left: Subject, right: Subject) -> InclusionFinding:
+def asked_image(left: ChainSide, right: ChainSide) -> InclusionFinding:
     """IMAGE as the answerer computes it."""
     return _asked(IMAGE, left, right)
 
 
-def _asked(question: Question[InclusionFinding], left: Subject, right: Subject) -> InclusionFinding:
+def _asked(
+    question: Question[InclusionFinding], left: ChainSide, right: ChainSide
+) -> InclusionFinding:
     answer = left.answerer(question, by_rank(left, right), left.settings)
     return answer if left.rank < right.rank else turned(answer)
 

@@ -10,7 +10,7 @@ import json
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.evidence.certainty import Certainty, shortfall
+from disting.algebra.certainty import Certainty, shortfall
 from disting.evidence.kinds import (
     InclusionEvidence,
     excludes_equivalents,

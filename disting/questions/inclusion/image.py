@@ -19,9 +19,8 @@ use equal ranks.
 from dataclasses import replace
 from math import ceil, log2
 
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.powers import powers
-from disting.evidence.certainty import LEAST_SAFETY, Certainty
 from disting.evidence.decision import FibreAt
 from disting.evidence.ideals import Refuted
 from disting.fibres.ideals import Limits, decide, normalised, refuted_by_parts
@@ -35,6 +34,7 @@ from disting.fibres.synthesis.decide import (
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.settings import Settings
 from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 from disting.questions.inclusion.profiles import by_relative_degrees
 from disting.questions.same.exact import rational_part

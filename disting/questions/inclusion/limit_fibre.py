@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 from itertools import combinations, islice, product
 from math import ceil, log2
 
+from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.powers import powers
-from disting.evidence.certainty import LEAST_SAFETY
 from disting.evidence.ideals import Solved
 from disting.fibres.ideals import Decision, Limits, coefficient_map, confirms, decide
 from disting.model.chain import Chain, Sensor

@@ -12,9 +12,9 @@ change nothing of that, a lag adds 1.
 
 from typing import TypeVar
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.matroid import Matroid, rank_in
 from disting.behaviour.profile import Profile
-from disting.evidence.certainty import Certainty
 from disting.evidence.conditions import Counts, Labels
 from disting.evidence.limits import FullImage, LargerProjection, RelativeDegrees
 from disting.model.chain import Chain

@@ -1,6 +1,6 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
-from disting.evidence.certainty import Certainty
+from disting.algebra.certainty import Certainty
 from disting.evidence.decision import Theorem
 from disting.evidence.positive import (
     BoxMap,

@@ -20,9 +20,8 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, graded
 from disting.errors import InputError, shown
-from disting.evidence.certainty import LEAST_SAFETY, Certainty, Grade, graded
 from disting.evidence.positive import BoxMap, Empirical, Excluded, Points, PositiveFinding, Share
 from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.duality import are_dual, dual
@@ -31,6 +30,7 @@ from disting.fibres.synthesis.result import Answer, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical, forms
 from disting.questions.positive.parts import Obstacle, Point
 from disting.questions.positive.points import Range, equivalent, random_point, read, spelled

@@ -25,10 +25,9 @@ a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 from collections.abc import Iterator
 from dataclasses import replace
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.sampling import about
-from disting.algebra.settings import Settings
 from disting.errors import InputError
-from disting.evidence.certainty import Certainty
 from disting.evidence.decision import Theorem
 from disting.evidence.positive import (
     Empirical,
@@ -47,6 +46,7 @@ from disting.fibres.synthesis.result import Answer
 from disting.fibres.synthesis.segment import Segment
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive.parts import (
     Obstacle,
@@ -98,7 +98,7 @@ def refuse(given: Chain, other: Chain) -> None:
 
 
 def without_dead_time(chain: Chain) -> Chain:
-    """The rational part. Dead times of equal behaviours are equal (see `conditions.exact`), so
+    """The rational part. Dead times of equal behaviours are equal (see `questions.same.exact`), so
     the rational parts decide.
     """
     return replace(chain, dead_time=False)

@@ -47,8 +47,8 @@ from math import ceil, log2
 
 from flint import fmpq
 
+from disting.algebra.certainty import LEAST_SAFETY
 from disting.algebra.sampling import residues
-from disting.evidence.certainty import LEAST_SAFETY
 from disting.model.chain import Chain
 from disting.questions.positive.parts import Point
 from disting.questions.positive.points import Range

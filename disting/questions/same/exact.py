@@ -40,11 +40,10 @@ ranks.
 
 from dataclasses import replace
 
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.evidence.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import Refuted, Shared, Solved
 from disting.fibres import ideals
@@ -58,6 +57,7 @@ from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.foster import are_foster, are_same_by_parts
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.settings import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 

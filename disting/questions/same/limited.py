@@ -10,18 +10,18 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import Certainty
 from disting.behaviour.inverse import inverse_profile
 from disting.behaviour.profile import Profile
 from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
-from disting.evidence.certainty import Certainty
 from disting.evidence.decision import Theorem
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
 from disting.model.question import Question
+from disting.model.settings import Settings
 from disting.questions.same.exact import by_full_parts, by_ideals, by_shares, by_synthesis, theorem
 
 SECONDS = 60.0

@@ -11,23 +11,23 @@ both sides reach.
 
 Real. Symmetry and duality are rational maps, which take real parameters to real ones. Undamped
 chains: real factors of all degrees that are needed exist both ways, or in an open set of models of
-either chain they do not (see `positivity.real`). In the second case the verdict is "some" if in
-any way all or some positive models have positive, so real, equivalents. Odd fibres: let n be the
-number of parameter vectors of a chain with one generic behaviour of V, each a simple solution (n
-is the number of points of a generic fibre of a dominant map, all of them simple in characteristic
-zero). If the behaviour is real, the conjugate of a solution is a solution, so an odd n leaves at
-least one that is its own conjugate. A unique solution (n = 1) is real for that reason.
+either chain they do not (see `questions.positive.real`). In the second case the verdict is "some"
+if in any way all or some positive models have positive, so real, equivalents. Odd fibres: let n be
+the number of parameter vectors of a chain with one generic behaviour of V, each a simple solution
+(n is the number of points of a generic fibre of a dominant map, all of them simple in
+characteristic zero). If the behaviour is real, the conjugate of a solution is a solution, so an
+odd n leaves at least one that is its own conjugate. A unique solution (n = 1) is real for that
+reason.
 """
 
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from disting.algebra.settings import Settings
+from disting.algebra.certainty import Certainty, Grade, weakest
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError, InputError
-from disting.evidence.certainty import Certainty, Grade, weakest
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import Theorem
 from disting.evidence.kinds import Evidence
@@ -35,6 +35,7 @@ from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.model.chain import Chain
 from disting.model.question import Question
+from disting.model.settings import Settings
 from disting.questions.identifiability import Identifiability
 from disting.questions.positive import always_real, positive_finding, real_witness
 from disting.questions.same.exact import theorem

@@ -5,7 +5,6 @@ profiles, matroids or searches.
 from dataclasses import dataclass, field, replace
 from math import comb
 
-from disting.algebra.settings import Settings
 from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation, Sample
@@ -40,6 +39,7 @@ from disting.fibres.synthesis.result import Status
 from disting.fibres.synthesis.target import fraction, target
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.settings import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
@@ -89,7 +89,7 @@ class Witness:
             case RealWitnesses():
                 return _real_witnesses(evidence, canonical(left).chain, canonical(right).chain)
             case Witnesses() | Explicit() | NoEquivalent() | Constants():
-                return False  # these speak of general models, see `parametric.confirms`
+                return False  # these speak of general models, see `general.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)
 
     def _by_condition(

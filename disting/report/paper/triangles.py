@@ -19,8 +19,7 @@ from disting.report.fields import (
 )
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
 from disting.report.words import sign
-from disting.store import Decisions
-from disting.verdict import Relation, View
+from disting.verdict import Decisions, Relation, View
 
 MARGIN = 16.0
 HEAD = 26.0  # a panel's title

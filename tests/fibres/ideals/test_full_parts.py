@@ -9,10 +9,10 @@ import pytest
 import sympy
 
 from disting import Certainty, Chain, Family, Outcome, Query, Relation, View, compare
-from disting.algebra.settings import Settings
 from disting.catalogs.dampers import DamperSets
 from disting.evidence.ideals import FullParts
 from disting.fibres.ideals import Limits, same_by_full_parts
+from disting.model.settings import Settings
 from disting.questions.same.exact import by_full_parts, by_ideals
 from disting.questions.same.verify import Witness
 

@@ -11,7 +11,6 @@ import sympy
 
 from disting import Family
 from disting.algebra.sampling import prime, residues
-from disting.algebra.settings import Settings
 from disting.catalogs.damper_files import damper_catalog
 from disting.conditions import Outcome
 from disting.fibres.ideals import chains_told_apart
@@ -19,6 +18,7 @@ from disting.fibres.ideals.factored import factored, shared_fibre, values
 from disting.fibres.ideals.shares import _transposes, is_symmetric, shares_by_type
 from disting.fibres.ideals.system import rows
 from disting.model.chain import Chain
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.exact import exact_finding
 from disting.questions.same.verify import Witness

@@ -9,7 +9,6 @@ import pytest
 from flint import acb, fmpq, fmpq_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.identifiability.oracle import solutions
 
 from disting import Query, View, compare
 from disting.fibres.ideals import coefficient_map
@@ -23,7 +22,8 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.question import Membership
 from disting.questions.identifiability.tangent import proof_tangents
-from disting.store import Engine
+from disting.verdict import Engine
+from tests.questions.identifiability.oracle import solutions
 
 
 def rubbed(n: int, damped: bool) -> list[Chain]:

@@ -3,11 +3,16 @@ it checks.
 """
 
 import pytest
-from tests.identifiability.oracle import PRIME, derivative_along, solutions, symbolic_kernel
 
 from disting import Family
 from disting.questions.identifiability import Level, identifiability
 from tests.oracles.sympy_twin import summary
+from tests.questions.identifiability.oracle import (
+    PRIME,
+    derivative_along,
+    solutions,
+    symbolic_kernel,
+)
 
 SMALL = [
     (n, damped, number)

@@ -6,7 +6,7 @@ from itertools import combinations, permutations
 import pytest
 
 from disting import Engine, Family, Query, Relation, View, compare
-from disting.evidence.certainty import Certainty
+from disting.algebra.certainty import Certainty
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Vanishing
 from disting.evidence.limits import (

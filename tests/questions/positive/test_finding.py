@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
-from disting.algebra.settings import Settings
 from disting.evidence.decision import Theorem
 from disting.evidence.positive import (
     Empirical,
@@ -23,6 +22,7 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis import Answer, Status, fibre, target
 from disting.fibres.synthesis.decide import rational_point
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding
 from disting.questions.positive.parts import obstacle, only_parts_sum_to_zero

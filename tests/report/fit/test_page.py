@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from disting.comparison import name_of
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
 from disting.fit.export import read_model, selection_to_dict
@@ -28,6 +27,7 @@ from disting.report.fit.fit_page import reasoning
 from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
+from disting.verdict.comparison import name_of
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE

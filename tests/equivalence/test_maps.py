@@ -3,11 +3,11 @@
 import pytest
 import sympy
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.notation import text
 from disting.algebra.rational_function import variables
-from disting.equivalents import equivalents, explicit_map
-from disting.equivalents.identity import holds_at_random, is_identity
-from disting.evidence.certainty import Certainty
+from disting.equivalence import equivalents, explicit_map
+from disting.equivalence.identity import holds_at_random, is_identity
 from disting.model.chain import Chain
 from disting.model.family import Family
 

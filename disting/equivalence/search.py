@@ -14,19 +14,19 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from disting.comparison import name_of
-from disting.equivalents.completeness import not_covered, sentence, special
-from disting.equivalents.given import Value, chain_of, chains_of, point_of
-from disting.equivalents.images import DUALITY, Image, images
-from disting.equivalents.listing import Equivalent, Equivalents, Listing, Origin, Signs
-from disting.equivalents.proportional import common_ratio, proportional_solutions
-from disting.equivalents.residual import difference
+from disting.equivalence.completeness import not_covered, sentence, special
+from disting.equivalence.given import Value, chain_of, chains_of, point_of
+from disting.equivalence.images import DUALITY, Image, images
+from disting.equivalence.listing import Equivalent, Equivalents, Listing, Origin, Signs
+from disting.equivalence.proportional import common_ratio, proportional_solutions
+from disting.equivalence.residual import difference
 from disting.errors import ContradictionError, InputError
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.verdict.comparison import name_of
 
 Point = Mapping[str, fmpq]
 

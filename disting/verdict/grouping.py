@@ -26,20 +26,21 @@ from itertools import combinations
 
 import numpy as np
 
+from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.conditions.subject import Subject
 from disting.conditions.sufficient import condition_6
 from disting.conditions.table import NECESSARY, Necessary
 from disting.errors import ContradictionError, InputError
-from disting.evidence.certainty import Certainty
 from disting.model.chain import Chain
 from disting.model.question import Question
 from disting.questions.same.limited import INVERSELY, QUICKLY
-from disting.store.engine import Engine, Progress, silent
+from disting.verdict.chains import ComparedChain
 from disting.verdict.classes import Classes, without_dampers
+from disting.verdict.compared import Profiled
+from disting.verdict.engine import Engine, Progress, silent
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
 Key = Callable[[int], Hashable]
@@ -99,7 +100,7 @@ class _Work:
     """
 
     engine: Engine
-    subjects: list[Subject]
+    subjects: list[ComparedChain]
     place: list[int]
     columns: list[list[int]]
     parent: list[int]
@@ -135,7 +136,7 @@ class _Work:
     ) -> dict[int, Profile]:
         """Profiles of the wanted subjects."""
         chosen = list(wanted)
-        structures = {self.subjects[i].chain.structure for i in chosen}
+        structures: set[Profiled] = {self.subjects[i].chain.structure for i in chosen}
         self.engine.prefetch(structures, r, count, executor, progress)
         return {i: self.subjects[i].profile(r, count) for i in chosen}
 

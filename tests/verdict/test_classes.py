@@ -24,16 +24,16 @@ from disting import (
     catalog,
     compare,
 )
-from disting.algebra.settings import Settings
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.dampers import DamperSets, dampers
 from disting.conditions import Outcome
 from disting.conditions.rule import EXACT
 from disting.errors import ContradictionError
+from disting.model.settings import Settings
 from disting.questions.same.limited import QUICKLY, quick_finding, quick_profile
-from disting.store.engine import question_key
-from disting.store.grouping import classes
 from disting.store.scheduling import executor
+from disting.verdict.engine import question_key
+from disting.verdict.grouping import classes
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 ENGINE = Engine()

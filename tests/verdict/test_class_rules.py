@@ -7,14 +7,14 @@ from itertools import combinations
 import pytest
 
 from disting import Certainty, Chain, Engine, Finding, Relation
+from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.damper_family import damper_family
 from disting.conditions import Outcome
 from disting.conditions.rule import EXACT
 from disting.conditions.structural import condition_8, condition_9
-from disting.evidence.certainty import LEAST_SAFETY
 from disting.questions.same.limited import QUICKLY
-from disting.store.engine import question_key
-from disting.store.grouping import classes
+from disting.verdict.engine import question_key
+from disting.verdict.grouping import classes
 
 ENGINE = Engine()
 

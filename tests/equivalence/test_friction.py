@@ -6,13 +6,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from tests.equivalence.mechanics import agree
 
-from disting.equivalents import Origin, Signs, assignments, chain_of, chains_of, equivalents
+from disting.equivalence import Origin, Signs, assignments, chain_of, chains_of, equivalents
 from disting.errors import InputError
 from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.family import Family
+from tests.equivalence.mechanics import agree
 
 VALUES = assignments(
     ["m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3,b1=0.5,b2=0.2,b3=0.7,T1=1/50,Td=0.01"]

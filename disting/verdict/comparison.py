@@ -1,13 +1,14 @@
 """`compare` and `findings`: any two chains, named as the paper names them, or general models."""
 
-from disting import general
-from disting.conditions import Subject
 from disting.errors import InputError
 from disting.general import Model
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.store import Engine
-from disting.verdict import Query, Step, Verdict, steps
+from disting.verdict.cascade import Step, steps
+from disting.verdict.compared import Compared
+from disting.verdict.engine import Engine
+from disting.verdict.query import Query
+from disting.verdict.result import Verdict
 
 # masses; larger families are long to list, so their chains are named by their indices
 NUMBERED_UP_TO = 8
@@ -24,8 +25,7 @@ def compare(
     """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store
     once it is there).
 
-    General models (`Model`) are compared likewise, with each other or with chains; their verdicts
-    are not stored.
+    General models (`Model`) are compared likewise, with each other or with chains.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
@@ -36,13 +36,8 @@ def compare(
     >>> compare(a[2], a[5]).relation.value, compare(a[1], a[4]).relation.value
     ('indistinguishable', 'distinguishable')
     """
-    engine = engine or Engine()
-    if isinstance(left, Model) or isinstance(right, Model):
-        return general.compare(
-            _model(left), _model(right), query=query, audit=audit, settings=engine.settings
-        )
-    subjects = _subjects(left, right, engine)
-    return engine.verdict(*subjects, query or Query(), audited=audit)
+    sides = _sides(left, right, engine := engine or Engine())
+    return engine.verdict(*sides, query or Query(), audited=audit)
 
 
 def findings(
@@ -58,28 +53,29 @@ def findings(
     >>> [(s.representation, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
-    engine = engine or Engine()
+    return tuple(steps(*_sides(left, right, engine or Engine()), query or Query()))
+
+
+def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[Compared, Compared]:
+    """Two chains as chains, whatever else as two general models; by two names."""
     if isinstance(left, Model) or isinstance(right, Model):
-        return general.findings(_model(left), _model(right), query=query, settings=engine.settings)
-    return tuple(steps(*_subjects(left, right, engine), query or Query()))
-
-
-def _model(given: Chain | Model) -> Model:
-    return (
-        given
-        if isinstance(given, Model)
-        else Model.from_chain(given, name=name_of(given, short=False))
-    )
-
-
-def _subjects(left: Chain, right: Chain, engine: Engine) -> tuple[Subject, Subject]:
-    names = [
-        name_of(left, short=left.n_masses == right.n_masses),
-        name_of(right, short=left.n_masses == right.n_masses),
-    ]
+        models = [_model(left), _model(right)]
+        names = [m.name for m in models]
+        if names[0] == names[1]:
+            names = [f"{names[0]} 1", f"{names[1]} 2"]
+        return engine.general_subject(names[0], models[0]), engine.general_subject(
+            names[1], models[1]
+        )
+    names = [name_of(chain, short=left.n_masses == right.n_masses) for chain in (left, right)]
     if names[0] == names[1] and left != right:
         names = [f"the model with {chain}" for chain in (left, right)]
     return engine.subject(names[0], left), engine.subject(names[1], right)
+
+
+def _model(given: Chain | Model) -> Model:
+    if isinstance(given, Model):
+        return given
+    return Model.from_chain(given, name=name_of(given, short=False))
 
 
 def name_of(chain: Chain, *, short: bool) -> str:

@@ -19,7 +19,7 @@ from flint import fmpq
 from disting.algebra.rational_function import RationalFunction, variables
 from disting.algebra.symbols import symbols
 from disting.behaviour.transfer import plain_receptance
-from disting.equivalents.residual import exactly_equal
+from disting.equivalence.residual import exactly_equal
 from disting.model.chain import Chain
 
 BITS = 256  # of a random coordinate

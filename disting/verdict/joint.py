@@ -13,8 +13,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.sample import Representation
-from disting.evidence.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions
 

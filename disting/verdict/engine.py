@@ -13,21 +13,25 @@ from concurrent.futures import Executor, Future, as_completed
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from disting.algebra.settings import Settings
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
-from disting.conditions.subject import Subject
+from disting.general import ComparedModel, Model
+from disting.general.profiles import profile as general_profile
 from disting.model.chain import Chain
-from disting.model.question import Chains, Question
-from disting.model.structure import Structure
+from disting.model.question import Models, Question
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
 from disting.store.store import Store
-from disting.verdict import Query, Verdict, audit, decide
+from disting.verdict.cascade import audit, decide
+from disting.verdict.chains import ComparedChain
+from disting.verdict.compared import Compared, Profiled
 from disting.verdict.deciding import decisions
 from disting.verdict.decisions import Decisions
+from disting.verdict.query import Query
+from disting.verdict.result import Verdict
 
 T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
@@ -51,47 +55,44 @@ class Engine:
     memo: dict[str, Profile] = field(default_factory=dict)
     answers: dict[str, Any] = field(default_factory=dict)
 
-    def subject(self, name: str, chain: Chain) -> Subject:
+    def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
-        return Subject(name, chain, self.settings, self.profile, self.answer)
+        return ComparedChain(name, chain, self.settings, self.profile, self.answer)
+
+    def general_subject(self, name: str, model: Model) -> ComparedModel:
+        """The same for a general model."""
+        return ComparedModel(name, model, self.settings, self.profile, self.answer)
 
     def profile(
-        self, structure: Structure, representation: Representation, count: int, settings: Settings
+        self, what: Profiled, representation: Representation, count: int, settings: Settings
     ) -> Profile:
         """The profile, from memory, from the store, or computed and stored."""
-        key = profile_key(structure, representation, count, settings)
+        key = profile_key(what, representation, count, settings)
         if key not in self.memo:
             found = self._stored([key])
             if key not in found:
-                found[key] = profile(structure, representation, count, settings)
+                found[key] = profile_of(what, representation, count, settings)
                 self.store.put_many({key: profile_to_json(found[key])})
             self.memo[key] = found[key]
         return self.memo[key]
 
-    def answer(self, question: Question[T], chains: Chains, settings: Settings) -> T:
+    def answer(self, question: Question[T], models: Models, settings: Settings) -> T:
         """The answer, from memory, from the store, or computed and stored."""
-        key = question_key(question, chains, settings)
+        key = question_key(question, models, settings)
         if key not in self.answers:
-            self.answer_all(question, [chains])
+            self.answer_all(question, [models])
         found: T = self.answers[key]
         return found
 
     def verdict(
-        self, left: Subject, right: Subject, query: Query, *, audited: bool = False
+        self, left: Compared, right: Compared, query: Query, *, audited: bool = False
     ) -> Verdict:
         """The verdict on a pair, from the store or decided and stored; an audited one is always
         computed.
         """
         if audited:
             return audit(left, right, query)
-        content = [
-            left.name,
-            right.name,
-            repr(left.chain),
-            repr(right.chain),
-            repr(query),
-            self.settings.to_dict(),
-        ]
+        content = [*left.content, *right.content, repr(query), self.settings.to_dict()]
         key = _key("verdict", *map(str, content))
         for text in self.store.get_many([key]).values():
             return Verdict.from_dict(json.loads(text))
@@ -101,7 +102,7 @@ class Engine:
 
     def decisions(
         self,
-        subjects: Sequence[Subject],
+        subjects: Sequence[Compared],
         query: Query,
         *,
         executor: Executor | None = None,
@@ -111,13 +112,11 @@ class Engine:
         asked for.
         """
 
-        def prefetch(wanted: Sequence[Subject], r: Representation, count: int) -> None:
+        def prefetch(wanted: Sequence[Compared], r: Representation, count: int) -> None:
             """Have the profiles of these models computed, many at a time."""
-            self.prefetch(
-                {s.canonical.chain.structure for s in wanted}, r, count, executor, progress
-            )
+            self.prefetch({s.profiled for s in wanted}, r, count, executor, progress)
 
-        def ask(question: Question[Any], pairs: Sequence[Chains]) -> None:
+        def ask(question: Question[Any], pairs: Sequence[Models]) -> None:
             """Have the question answered for these pairs, many at a time."""
             self.answer_all(question, pairs, executor=executor, progress=progress)
 
@@ -132,13 +131,8 @@ class Engine:
     ) -> list[Profile]:
         """Transfer-function profiles of chains, in order."""
         subjects = [self.subject("", chain) for chain in chains]
-        self.prefetch(
-            {s.canonical.chain.structure for s in subjects},
-            Representation.TF,
-            0,
-            executor,
-            progress,
-        )
+        profiled: set[Profiled] = {s.profiled for s in subjects}
+        self.prefetch(profiled, Representation.TF, 0, executor, progress)
         return [s.profile(Representation.TF, 0) for s in subjects]
 
     def identifiabilities(
@@ -163,16 +157,16 @@ class Engine:
 
     def prefetch(
         self,
-        structures: set[Structure],
+        what: set[Profiled],
         r: Representation,
         count: int,
         executor: Executor | None,
         progress: Progress,
     ) -> None:
-        """Bring the profiles of the structures into memory: from the store, the rest computed,
+        """Bring the profiles of these models into memory: from the store, the rest computed,
         each batch stored at once.
         """
-        keys = {profile_key(s, r, count, self.settings): s for s in sorted(structures, key=repr)}
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=repr)}
         self.memo |= self._stored([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
@@ -190,21 +184,21 @@ class Engine:
     def answer_all(
         self,
         question: Question[Any],
-        asked: Sequence[Chains],
+        asked: Sequence[Models],
         *,
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> None:
         """Bring answers into memory, as `prefetch` does with profiles."""
-        keys = {question_key(question, chains, self.settings): chains for chains in asked}
+        keys = {question_key(question, models, self.settings): models for models in asked}
         stored = self.store.get_many([key for key in keys if key not in self.answers])
         self.answers |= {key: question.decode(text) for key, text in stored.items()}
-        missing = {key: chains for key, chains in keys.items() if key not in self.answers}
+        missing = {key: models for key, models in keys.items() if key not in self.answers}
         done = len(keys) - len(missing)
-        asked_for = {chains: key for key, chains in missing.items()}
-        tasks = [(question, chains, self.settings) for chains in asked_for]
-        for (_, chains, _), text in mapped(compute_answer, tasks, executor):
-            key = asked_for[chains]
+        asked_for = {models: key for key, models in missing.items()}
+        tasks = [(question, models, self.settings) for models in asked_for]
+        for (_, models, _), text in mapped(compute_answer, tasks, executor):
+            key = asked_for[models]
             self.store.put_many({key: text})
             self.answers[key] = question.decode(text)
             done += 1
@@ -214,26 +208,33 @@ class Engine:
         return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
 
 
-def profile_key(structure: Structure, r: Representation, count: int, settings: Settings) -> str:
+def profile_key(what: Profiled, r: Representation, count: int, settings: Settings) -> str:
     """Content address of a profile."""
-    return _key("profile", repr(structure), r.value, str(count), repr(settings))
+    return _key("profile", repr(what), r.value, str(count), repr(settings))
 
 
-def question_key(question: Question[Any], chains: Chains, settings: Settings) -> str:
+def question_key(question: Question[Any], models: Models, settings: Settings) -> str:
     """Content address of an answer."""
-    return _key(question.name, *map(repr, chains), repr(settings))
+    return _key(question.name, *map(repr, models), repr(settings))
+
+
+def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:
+    """The profile of a chain's structure or of a general model."""
+    if isinstance(what, Model):
+        return general_profile(what, r, count, settings)
+    return profile(what, r, count, settings)
 
 
 def compute(
-    structures: Sequence[Structure], r: Representation, count: int, settings: Settings
-) -> list[tuple[Structure, str]]:
+    batch: Sequence[Profiled], r: Representation, count: int, settings: Settings
+) -> list[tuple[Profiled, str]]:
     """A task for a worker: profiles as JSON text."""
-    return [(s, profile_to_json(profile(s, r, count, settings))) for s in structures]
+    return [(what, profile_to_json(profile_of(what, r, count, settings))) for what in batch]
 
 
-def compute_answer(question: Question[Any], chains: Chains, settings: Settings) -> str:
+def compute_answer(question: Question[Any], models: Models, settings: Settings) -> str:
     """A task for a worker: one answer as text."""
-    return question.encode(question.answer(*chains, settings))
+    return question.encode(question.answer(*models, settings))
 
 
 def mapped(

@@ -9,7 +9,7 @@ import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, View
 from disting.catalogs.export import decisions_json
-from disting.store import classes_safety, family_safety
+from disting.verdict import classes_safety, family_safety
 from disting.verdict.classes import Classes
 
 
