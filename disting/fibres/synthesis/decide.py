@@ -19,6 +19,8 @@ from flint import fmpq
 
 from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
+from disting.evidence.decision import FibreAt
+from disting.fibres.decision import Decision
 from disting.fibres.synthesis.construction import is_constructed, is_untested
 from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.fibre import fibre, segments
@@ -85,6 +87,26 @@ class Exact:
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its membership")
+
+    @property
+    def evidence(self) -> FibreAt:
+        """What can be checked again."""
+        return FibreAt(
+            left_given=self.direction is Direction.LEFT_IN_RIGHT,
+            point=tuple((name, str(value)) for name, value in self.point.items()),
+            grounds=self.grounds.value,
+            solutions=self.solutions,
+            real=self.real,
+            positive=self.positive,
+        )
+
+    def decision(self, safety: int) -> Decision[FibreAt]:
+        """What is proven of generic models but for an error bound of so many bits; UNKNOWN where
+        solutions are known within balls only.
+        """
+        if self.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION):
+            return Decision(self.membership, safety, self.evidence)
+        return Decision(Membership.UNKNOWN, reason=self.reason)
 
 
 def decide(left: Chain, right: Chain, seed: str = "disting") -> Exact:

@@ -18,7 +18,7 @@ from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.powers import powers
-from disting.evidence.ideals import Solved
+from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals import Decision, Limits, coefficient_map, confirms, decide
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
@@ -131,7 +131,7 @@ def _fit(rows: Sequence[Row]) -> bool:
     return not any(row.walled for row in rows[1:]) and not any(row.ground_dampers for row in rows)
 
 
-def _decided(target: Structure, result: Structure, seed: str) -> Decision:
+def _decided(target: Structure, result: Structure, seed: str) -> Decision[Solved | Refuted]:
     equal = least_rank(target) == least_rank(result)
     return decide(
         *map(coefficient_map, (target, result)), equal_rank=equal, seed=seed, limits=LIMITS

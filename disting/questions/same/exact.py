@@ -47,12 +47,13 @@ from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import Refuted, Shared, Solved
 from disting.fibres import ideals
+from disting.fibres.decision import Decision
 from disting.fibres.ideals import Limits, chains_told_apart, coefficient_map, normalised
 from disting.fibres.ideals.by_rows import differ_by_row
 from disting.fibres.ideals.full_parts import same_by_full_parts
 from disting.fibres.ideals.rows import DampedRow
 from disting.fibres.ideals.zeros import safety_of_branches
-from disting.fibres.synthesis.decide import Direction, Exact, Grounds, decide, safety_of_point
+from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.foster import are_foster, are_same_by_parts
 from disting.model.chain import Chain
@@ -101,11 +102,9 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     if a.damped != b.damped:
         return None
     found = decide(a, b, settings.seed)
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
-        return None
-    safety = safety_of_point(b if found.direction is Direction.LEFT_IN_RIGHT else a)
-    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
+    searched = b if found.direction is Direction.LEFT_IN_RIGHT else a
+    told = found.decision(safety_of_point(searched))
+    return None if told.membership is Membership.UNKNOWN else decided(told)
 
 
 def by_full_parts(a: Chain, b: Chain) -> Finding | None:
@@ -162,15 +161,22 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
             )
         found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
         if found.evidence and found.safety >= limits.safety:
-            outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
             evidence = replace(found.evidence, is_normalised=coordinates is normalised)
-            return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, evidence)
+            return decided(replace(found, evidence=evidence))
         reasons.append(found.reason)
     return Finding(
         EXACT,
         Outcome.ABANDONED,
         note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})",
     )
+
+
+def decided(found: Decision[FibreAt | Solved | Refuted]) -> Finding:
+    """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
+    if found.membership is Membership.UNKNOWN:
+        return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
+    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
+    return Finding(EXACT, outcome, Certainty.BOUNDED, safety=found.safety, evidence=found.evidence)
 
 
 def resting_on_ranks(finding: Finding, left: Profile, right: Profile) -> Finding:
@@ -210,14 +216,3 @@ def theorem(a: Chain, b: Chain) -> str:
     if are_same_by_parts(a, b):
         return "parts"
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
-
-
-def _evidence(found: Exact) -> FibreAt:
-    return FibreAt(
-        left_given=found.direction is Direction.LEFT_IN_RIGHT,
-        point=tuple((name, str(value)) for name, value in found.point.items()),
-        grounds=found.grounds.value,
-        solutions=found.solutions,
-        real=found.real,
-        positive=found.positive,
-    )
