@@ -9,19 +9,19 @@ from itertools import combinations
 import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
-from disting.catalogs.variants import (
-    originals_against_lagged,
-    sensor_effects,
-    sensor_sentence,
-    with_and_without_dead_time,
-    with_and_without_lag,
-)
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.model.settings import Settings
 from disting.questions.same.exact import exact_finding, mirrored
 from disting.questions.same.verify import Witness
+from tests.catalogs.variants import (
+    originals_against_lagged,
+    sensor_effects,
+    sensor_sentence,
+    with_and_without_dead_time,
+    with_and_without_lag,
+)
 
 APART = Relation.DISTINGUISHABLE
 ENGINE = Engine()
