@@ -54,11 +54,11 @@ def chains_told_apart(a: Structure, b: Structure, seed: str) -> tuple[Shared, in
 
 def _comparable(a: Structure, b: Structure) -> bool:
     """Damped rows at the same places, with ports in each, without lag and dead time."""
-    kinds = [(s.n_masses, s.sensor_order, s.blocks, _spans(s)) for s in (a, b)]
+    kinds = [(s.n_masses, s.sensor_order, s.row_ends, _spans(s)) for s in (a, b)]
     plain = not any(s.lag or s.dead_time for s in (a, b)) and all(
         any(e.kind == "d" for e in s.elements) for s in (a, b)
     )
-    return plain and kinds[0] == kinds[1] and len(a.blocks) == len(kinds[0][3])
+    return plain and kinds[0] == kinds[1] and len(a.row_ends) == len(kinds[0][3])
 
 
 def _spans(structure: Structure) -> tuple[Span, ...]:

@@ -35,7 +35,7 @@ def same_by_full_parts(a: Structure, b: Structure, label: str = "full parts") ->
     """
     if not _comparable(a, b):
         return None
-    found = [_shared(a, b, span, label) for span in a.blocks]
+    found = [_shared(a, b, span, label) for span in a.row_ends]
     free = tuple(n for n in found if n is not None)
     return FullParts(free) if len(free) == len(found) and any(free) else None
 
@@ -44,8 +44,8 @@ def _comparable(a: Structure, b: Structure) -> bool:
     """Whether both have a gap at the same place, one sensor quantity, and the same factors
     beside.
     """
-    kinds = [(s.blocks, s.sensor_order, s.lag, s.dead_time) for s in (a, b)]
-    return kinds[0] == kinds[1] and len(a.blocks) == 2
+    kinds = [(s.row_ends, s.sensor_order, s.lag, s.dead_time) for s in (a, b)]
+    return kinds[0] == kinds[1] and len(a.row_ends) == 2
 
 
 def _shared(part: Structure, other: Structure, span: Span, label: str) -> int | None:

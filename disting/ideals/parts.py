@@ -77,7 +77,7 @@ def power(structure: Structure) -> int:
 
 def gap(structure: Structure) -> int:
     """Number of masses of the grounded part; 0 for a chain without a gap."""
-    return structure.blocks[0][1] if len(structure.blocks) == 2 else 0
+    return structure.row_ends[0][1] if len(structure.row_ends) == 2 else 0
 
 
 @lru_cache(maxsize=REMEMBERED)

@@ -71,7 +71,7 @@ def canonical_row(wall: bool, masses: int, ports: tuple[int, int]) -> DampedRow:
 def rows_of(structure: Structure) -> tuple[DampedRow, ...]:
     """The rows of a plain damped chain that have ports, the grounded one first."""
     p, found = structure.ports, list[DampedRow]()
-    for first, last in structure.blocks:
+    for first, last in structure.row_ends:
         for pair in ((p.act_minus, p.meas_minus), (p.act_plus, p.meas_plus)):
             if all(first <= port <= last for port in pair):
                 wall = any(e.kind == "k" and e.at == first - 1 for e in structure.elements)

@@ -203,7 +203,7 @@ def rows(structure: Structure) -> Iterator[tuple[Span, tuple[str, ...]]]:
     """The rows of connected masses that have ports, (first, last), each with the names of its
     unknowns.
     """
-    for span in structure.blocks:
+    for span in structure.row_ends:
         if _ports(structure, span):
             yield span, tuple(_names_of_row(structure, span))
 

@@ -93,7 +93,7 @@ def _keeps_momentum(structure: Structure) -> bool:
     lag.
     """
     first, last = next(
-        span for span in structure.blocks if span[0] <= structure.ports.act_plus <= span[1]
+        span for span in structure.row_ends if span[0] <= structure.ports.act_plus <= span[1]
     )
     tied = any(
         (e.kind == "b" and first <= e.at <= last) or (e.kind == "k" and e.at == first - 1)
