@@ -20,7 +20,7 @@ drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a part; with
 dampers to the ground also some neighbouring ports) or finds only numbers, what is known of the
-rows of both chains decides (`ideals.by_rows`), then the fibre's ideal, modulo random primes and
+rows of both chains decides (`ideals.by_one_row`), then the fibre's ideal, modulo random primes and
 with bounds of its own (see `disting.ideals`). No other program is asked: the answer depends on the
 question alone.
 
@@ -47,12 +47,12 @@ from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import Refuted, Shared, Solved
 from disting.ideals import Limits, chains_told_apart, coefficient_map, normalised
-from disting.ideals.by_rows import differ_by_row
-from disting.ideals.full_parts import same_by_full_parts
-from disting.ideals.rows import DampedRow
+from disting.ideals.by_one_row import differ_by_row
+from disting.ideals.full_rows import same_by_full_rows
 from disting.ideals.zeros import safety_of_branches
 from disting.invariants.profile import Profile
 from disting.model.chain import Chain
+from disting.model.row import Row
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.question import Membership
@@ -84,7 +84,7 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         )
     found = by_synthesis(a, b, settings)
     if found is None:
-        found = by_full_parts(a, b)
+        found = by_full_rows(a, b)
     if found is None:
         found = by_row(a, b)
     # they make the ideals of whole fibres too large
@@ -108,11 +108,11 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
 
 
-def by_full_parts(a: Chain, b: Chain) -> Finding | None:
+def by_full_rows(a: Chain, b: Chain) -> Finding | None:
     """What parts that can have any receptance prove; a dead time that both have is a factor of
     its own.
     """
-    evidence = same_by_full_parts(a.structure, b.structure)
+    evidence = same_by_full_rows(a.structure, b.structure)
     return (
         None
         if evidence is None
@@ -138,7 +138,7 @@ def by_row(a: Chain, b: Chain) -> Finding | None:
     if evidence is None:
         return None
     given, searched = (
-        DampedRow(evidence.wall, evidence.masses, ports)
+        Row(evidence.masses, evidence.wall, *ports, damped=True)
         for ports in (evidence.given, evidence.searched)
     )
     safety = safety_of_branches(given, searched)

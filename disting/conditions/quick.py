@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 from disting.certainty import Certainty
 from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import by_full_parts, by_ideals, by_shares, by_synthesis, theorem
+from disting.conditions.exact import by_full_rows, by_ideals, by_shares, by_synthesis, theorem
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import Theorem
@@ -40,7 +40,7 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     named = theorem(a, b)
     if named:
         return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    full = by_full_parts(a, b)
+    full = by_full_rows(a, b)
     if full is not None:
         return full
     try:

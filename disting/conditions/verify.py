@@ -30,7 +30,7 @@ from disting.ideals import (
     confirms_row,
     decide,
     normalised,
-    same_by_full_parts,
+    same_by_full_rows,
 )
 from disting.identifiability import identifiability
 from disting.invariants.expanded import is_renaming
@@ -224,7 +224,7 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
 def _full_parts(evidence: FullParts, left: Chain, right: Chain) -> bool:
     """Both ranks once more, at fresh points."""
     a, b = (canonical(chain).chain.structure for chain in (left, right))
-    return same_by_full_parts(a, b, "verify") == evidence
+    return same_by_full_rows(a, b, "verify") == evidence
 
 
 def _shares(evidence: Shared, left: Chain, right: Chain) -> bool:

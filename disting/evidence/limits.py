@@ -25,7 +25,7 @@ SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
 
 
 class PartLimits(NamedTuple):
-    """What is shown of one `part` in one `split` (see `disting.ideals.parts`; "whole" for a chain
+    """What is shown of one `part` in one `split` (see `disting.ideals.splits`; "whole" for a chain
     without a gap).
 
     `detail`: the coefficient's name, both ranks, or the label from which primes and points of an

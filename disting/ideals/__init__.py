@@ -5,19 +5,19 @@ For any two models that are given as coefficient maps, not only chains; chains w
 apart first (`by_parts`). Independent of `disting.synthesis`.
 """
 
-from disting.ideals.by_parts import PartsDecision as PartsDecision
-from disting.ideals.by_parts import confirms_by_parts as confirms_by_parts
-from disting.ideals.by_parts import decide_by_parts as decide_by_parts
-from disting.ideals.by_parts import included_by_parts as included_by_parts
-from disting.ideals.by_parts import refuted_by_parts as refuted_by_parts
-from disting.ideals.by_rows import confirms_row as confirms_row
-from disting.ideals.by_rows import differ_by_row as differ_by_row
+from disting.ideals.by_one_row import confirms_row as confirms_row
+from disting.ideals.by_one_row import differ_by_row as differ_by_row
 from disting.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.ideals.decide import Decision as Decision
 from disting.ideals.decide import Limits as Limits
 from disting.ideals.decide import decide as decide
 from disting.ideals.fibre_ideal import generic_rank as generic_rank
-from disting.ideals.full_parts import same_by_full_parts as same_by_full_parts
+from disting.ideals.full_rows import same_by_full_rows as same_by_full_rows
+from disting.ideals.row_by_row import RowsDecision as RowsDecision
+from disting.ideals.row_by_row import confirms_by_rows as confirms_by_rows
+from disting.ideals.row_by_row import decide_by_rows as decide_by_rows
+from disting.ideals.row_by_row import included_by_rows as included_by_rows
+from disting.ideals.row_by_row import refuted_by_rows as refuted_by_rows
 from disting.ideals.system import CoefficientMap as CoefficientMap
 from disting.ideals.system import coefficient_map as coefficient_map
 from disting.ideals.system import normalised as normalised

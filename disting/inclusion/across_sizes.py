@@ -41,11 +41,11 @@ from disting.inclusion.limits import follows, reached
 from disting.inclusion.meeting import room
 from disting.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.inclusion.profiles import ordered
-from disting.inclusion.rows import Row, rows_of
 from disting.invariants.powers import degrees
 from disting.invariants.sample import Representation
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.row import Row, canonical_rows
 from disting.model.symmetry import canonical
 from disting.settings import Settings
 
@@ -132,7 +132,7 @@ def part_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple
     """
     if small.lag != large.lag:
         return
-    wanted, given = rows_of(small), rows_of(large)
+    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
     for chosen in permutations(given, len(wanted)):
         pairs = list(zip(chosen, wanted, strict=True))
         found = [_part(a, given[a], b, wanted[b], counting) for a, b in pairs]

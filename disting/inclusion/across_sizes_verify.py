@@ -23,8 +23,8 @@ from disting.inclusion.limits import follows
 from disting.inclusion.meeting import Room, room
 from disting.inclusion.pole_sharing import excludes
 from disting.inclusion.profiles import ordered
-from disting.inclusion.rows import Row, rows_of
 from disting.model.chain import Chain
+from disting.model.row import Row, canonical_rows
 
 
 def confirms_across_sizes(evidence: AcrossSizes | Counts, left: Subject, right: Subject) -> bool:
@@ -72,7 +72,7 @@ def _follow(parts: tuple[PartLimit, ...], small: Chain, large: Chain) -> bool:
     """Whether the parts are all rows of the smaller chain, made from different rows of the
     larger one.
     """
-    wanted, given = rows_of(small), rows_of(large)
+    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
     names = sorted(p.wanted for p in parts), {p.given for p in parts}
     complete = (
         names[0] == sorted(wanted) and len(names[1]) == len(parts) and names[1] <= given.keys()

@@ -7,7 +7,7 @@ there CLOSURE is asked alone. For chains of one size:
 
 1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
 2. CLOSURE by parts: `closures` proves or refutes it; small ideals of both parts
-   (`disting.ideals.by_parts`) prove it.
+   (`disting.ideals.row_by_row`) prove it.
 3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
    the parts refute it without any chance; one fibre by the synthesis refutes or proves it
    (`image`), and with it CLOSURE is proven; a small ideal refutes it.
@@ -26,7 +26,7 @@ from disting.evidence.decision import FibreAt
 from disting.evidence.ideals import ByParts, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Outside, PartsInside, RelativeDegrees
-from disting.ideals import Limits, coefficient_map, decide_by_parts, included_by_parts, normalised
+from disting.ideals import Limits, coefficient_map, decide_by_rows, included_by_rows, normalised
 from disting.ideals import decide as decide_ideal
 from disting.inclusion.across_sizes import by_computing, by_sizes
 from disting.inclusion.closures import of_closure
@@ -151,7 +151,7 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
         return InclusionFinding(
             inclusion, Certainty.BOUNDED if safety else Certainty.PROVEN, safety, evidence
         )
-    closed = included_by_parts(
+    closed = included_by_rows(
         rational_part(small), rational_part(large), settings.seed, CLOSURE_LIMITS
     )
     if closed.evidence is None:
@@ -166,7 +166,7 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
 def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
     """The model of the smaller rank searched in the other by ideals: by parts, then as a whole."""
     structures = (rational_part(small), rational_part(large))
-    found = decide_by_parts(*structures, settings.seed, PART_LIMITS)
+    found = decide_by_rows(*structures, settings.seed, PART_LIMITS)
     if found.evidence is not None:
         return _read(found.membership, found.safety, found.evidence)
     reason = ""

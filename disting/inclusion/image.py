@@ -23,7 +23,7 @@ from disting.certainty import LEAST_SAFETY, Certainty
 from disting.conditions.exact import rational_part
 from disting.evidence.decision import FibreAt
 from disting.evidence.ideals import Refuted
-from disting.ideals import Limits, decide, normalised, refuted_by_parts
+from disting.ideals import Limits, decide, normalised, refuted_by_rows
 from disting.inclusion.finding import Inclusion, InclusionFinding
 from disting.inclusion.profiles import by_relative_degrees
 from disting.invariants.powers import powers
@@ -40,7 +40,7 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
     falling = by_relative_degrees(small, large)
     if falling is not None:
         return falling
-    exact = refuted_by_parts(rational_part(small), rational_part(large), settings.seed)
+    exact = refuted_by_rows(rational_part(small), rational_part(large), settings.seed)
     if exact is not None:
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
     found = _by_synthesis(small, large, settings)

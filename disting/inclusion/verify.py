@@ -18,7 +18,7 @@ from disting.evidence.limits import (
     PartsInside,
     RelativeDegrees,
 )
-from disting.ideals import Limits, coefficient_map, confirms_by_parts, decide, normalised
+from disting.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
 from disting.inclusion.closures import confirms_parts
 from disting.inclusion.profiles import degrees_refute, ordered
@@ -68,7 +68,7 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             return evidence.left_given == left_is_smaller and confirms_parts(evidence, given, other)
         case ByParts():
             parts = (rational_part(a), rational_part(b))
-            return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)
+            return evidence.left_given == left_is_smaller and confirms_by_rows(evidence, *parts)
         case FibreAt():
             return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
         case Solved():

@@ -148,6 +148,16 @@ def grounded_and_free(structure: Structure) -> tuple[Row | None, Row]:
     return (grounded[0] if grounded else None), free
 
 
+def canonical_rows(structure: Structure) -> dict[str, Row]:
+    """The rows by name, each in its canonical form; the free one first, which every chain has.
+
+    >>> from disting.model.chain import Chain
+    >>> [str(row) for row in canonical_rows(Chain(5, 2, 1, 4, 2, 5).structure).values()]
+    ['3 masses free, ports 1 and 2, undamped', '2 masses at a wall, ports 1 and 2, undamped']
+    """
+    return {row.name: row.canonical for row in reversed(rows_of(structure))}
+
+
 def _rows(structure: Structure) -> Iterator[Row]:
     p = structure.ports
     pairs = [(p.act_plus, p.meas_plus), (p.act_minus, p.meas_minus)]

@@ -16,7 +16,7 @@ from disting.conditions.verify import Witness
 from disting.evidence.ideals import ByRow
 from disting.evidence.kinds import evidence_from
 from disting.ideals import Limits
-from disting.ideals.by_rows import row_pairs
+from disting.ideals.by_one_row import row_pairs
 from disting.model.chain import Chain
 from disting.settings import Settings
 from disting.verdict import decide

@@ -12,7 +12,7 @@ from disting.errors import CatalogError
 from disting.ideals import Limits, decide, generic_rank
 from disting.ideals.fibre_ideal import evaluated
 from disting.ideals.modular import matrix, null_space, polynomial
-from disting.ideals.parts import parts
+from disting.ideals.splits import parts
 from disting.ideals.row_answers import ROWS, false_answers, known_answers, line_of, read_answers
 from disting.ideals.rows import DampedRow, canonical_row, row_map, rows_of
 from disting.ideals.system import terms

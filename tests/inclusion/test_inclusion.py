@@ -17,7 +17,7 @@ from disting.evidence.limits import (
     RelativeDegrees,
     Why,
 )
-from disting.ideals import coefficient_map, included_by_parts, refuted_by_parts
+from disting.ideals import coefficient_map, included_by_rows, refuted_by_rows
 from disting.inclusion import (
     Inclusion,
     InclusionFinding,
@@ -29,7 +29,7 @@ from disting.inclusion import (
     inclusions_to_dict,
 )
 from disting.inclusion.decide import CLOSURE_LIMITS
-from disting.inclusion.profiles import by_relative_degrees, part_falls
+from disting.inclusion.profiles import by_relative_degrees, row_falls
 from disting.model.chain import Chain, Sensor
 
 ENGINE = Engine()
@@ -204,7 +204,7 @@ def test_false_evidence_is_refused():
 
 def test_false_evidence_of_parts_is_refused():
     seven, six = (subjects(3, True)[k] for k in (6, 5))
-    solved = included_by_parts(
+    solved = included_by_rows(
         *(s.chain.structure for s in (seven, six)), "test", CLOSURE_LIMITS
     ).evidence
     assert (
@@ -230,7 +230,7 @@ def test_false_refutations_of_parts_are_refused():
         ENGINE.subject("", Chain(3, *ports, damped=True))
         for ports in ((0, 0, 1, 0, 3), (2, 2, 3, 2, 3))
     )
-    evidence = refuted_by_parts(*(s.chain.structure for s in (small, large)), "test")
+    evidence = refuted_by_rows(*(s.chain.structure for s in (small, large)), "test")
     (step,) = evidence.steps
     assert isinstance(step.shown, Vanishing) and confirms(evidence, small, large)
     for index in (0, 1, step.shown.index + 1, step.shown.index + 2):
@@ -253,12 +253,12 @@ def test_false_relative_degrees_are_refused():
 
 
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
-def test_part_falls_are_relative_degrees(n, damped):
+def test_row_falls_are_relative_degrees(n, damped):
     for chain in Family(n, damped):
         for more in ({}, {"lag": True}, {"ground_dampers": (1,)}):
             form = replace(chain, sensor=Sensor.POSITION, **more)
             numerator, denominator = coefficient_map(form.structure).degrees
-            assert denominator - numerator == min(part_falls(form))
+            assert denominator - numerator == min(row_falls(form))
 
 
 def test_a_lag_on_one_side_is_no_refutation():

@@ -13,7 +13,7 @@ from disting.algebra.sampling import prime, residues
 from disting.inclusion.across_sizes import included
 from disting.inclusion.pole_sharing import TRIALS, excludes, excluding_points
 from disting.inclusion.row_equations import equation_safety, model_at, row_equation
-from disting.inclusion.rows import Row
+from disting.model.row import Row
 from disting.model.symmetry import canonical
 
 

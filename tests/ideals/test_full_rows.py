@@ -10,17 +10,17 @@ import sympy
 
 from disting import Certainty, Chain, Family, Outcome, Query, Relation, View, compare
 from disting.catalogs.dampers import DamperSets
-from disting.conditions.exact import by_full_parts, by_ideals
+from disting.conditions.exact import by_full_rows, by_ideals
 from disting.conditions.verify import Witness
 from disting.evidence.ideals import FullParts
-from disting.ideals import Limits, same_by_full_parts
+from disting.ideals import Limits, same_by_full_rows
 from disting.settings import Settings
 
 LIMITS = Limits(seconds=60.0, entries=500_000, safety=100)
 
 
 def found(a: Chain, b: Chain) -> FullParts | None:
-    return same_by_full_parts(a.structure, b.structure)
+    return same_by_full_rows(a.structure, b.structure)
 
 
 def rank_and_coefficients(dampers: tuple[int, ...], at: int) -> tuple[int, int]:
@@ -70,7 +70,7 @@ def test_what_it_says():
 
 def test_compare_gives_it_as_proven_evidence_that_can_be_checked_again():
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(1, 2)) for at in (1, 2))
-    finding = by_full_parts(a, b)
+    finding = by_full_rows(a, b)
     assert finding.outcome is Outcome.HOLDS and finding.certainty is Certainty.PROVEN
     assert Witness().confirms(finding.evidence, "fibre", a, b)
     other = replace(b, ground_dampers=())

@@ -14,16 +14,16 @@ from disting.algebra.sampling import prime, residues
 from disting.evidence.ideals import Vanishing
 from disting.ideals import (
     Limits,
-    confirms_by_parts,
-    decide_by_parts,
+    confirms_by_rows,
+    decide_by_rows,
     generic_rank,
-    included_by_parts,
+    included_by_rows,
     normalised,
-    refuted_by_parts,
+    refuted_by_rows,
 )
-from disting.ideals.by_parts import vanishing
+from disting.ideals.row_by_row import vanishing
 from disting.ideals.monodromy import _is_inseparable, poles_are_inseparable
-from disting.ideals.parts import gap, parts, splits
+from disting.ideals.splits import gap, parts, splits
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.symmetry import canonical
@@ -143,14 +143,14 @@ def agrees_with_the_synthesis(n, damped):
     for small, large in product(chains, chains):
         if not (ranks[small] < ranks[large] and gap(large.structure)):
             continue
-        exact = refuted_by_parts(small.structure, large.structure, "test")
-        inside = included_by_parts(
+        exact = refuted_by_rows(small.structure, large.structure, "test")
+        inside = included_by_rows(
             small.structure, large.structure, "test", replace(LIMITS, entries=30_000)
         )
         synthesis = member(small, large)
         assert exact is None or synthesis.grounds in (Grounds.REFUTED, Grounds.NONE)
         if n < 4 or not damped:
-            found = decide_by_parts(small.structure, large.structure, "test", LIMITS)
+            found = decide_by_rows(small.structure, large.structure, "test", LIMITS)
             counts[found.membership] += 1
             if (
                 synthesis.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION)
@@ -160,7 +160,7 @@ def agrees_with_the_synthesis(n, damped):
                     found.membership is Membership.MEMBER
                 )
         for evidence in (exact, inside.evidence) if n == 3 else ():
-            assert evidence is None or confirms_by_parts(evidence, small.structure, large.structure)
+            assert evidence is None or confirms_by_rows(evidence, small.structure, large.structure)
     return counts
 
 
@@ -180,10 +180,10 @@ def test_parts_agree_with_the_synthesis_on_four_damped_masses():
 def test_20_lies_in_the_closure_of_8():
     """Four damped masses; the ideals of the whole fibre found it first."""
     small, large = (canonical(Family(4, True)[i]).chain.structure for i in (20, 8))
-    found = included_by_parts(small, large, "test", LIMITS)
+    found = included_by_rows(small, large, "test", LIMITS)
     assert found.membership is Membership.MEMBER and found.safety >= 100
-    assert confirms_by_parts(found.evidence, small, large)
-    assert not confirms_by_parts(replace(found.evidence, left_given=False), small, large)
+    assert confirms_by_rows(found.evidence, small, large)
+    assert not confirms_by_rows(replace(found.evidence, left_given=False), small, large)
 
 
 def test_members_refute_nothing():
@@ -196,8 +196,8 @@ def test_members_refute_nothing():
     # dual
     pairs.append((Chain(4, 1, 1, 2, 1, 2, damped=True), Chain(4, 2, 2, 3, 2, 3, damped=True)))
     for a, b in pairs:
-        assert refuted_by_parts(a.structure, b.structure, "test") is None
-        assert refuted_by_parts(b.structure, a.structure, "test") is None
+        assert refuted_by_rows(a.structure, b.structure, "test") is None
+        assert refuted_by_rows(b.structure, a.structure, "test") is None
 
 
 def test_what_is_not_covered_is_unknown():
@@ -209,11 +209,11 @@ def test_what_is_not_covered_is_unknown():
         Chain(3),
     )
     for other in others:
-        found = decide_by_parts(plain.structure, other.structure, "test", LIMITS)
+        found = decide_by_rows(plain.structure, other.structure, "test", LIMITS)
         assert found.membership is Membership.UNKNOWN and found.reason and found.evidence is None
-        assert refuted_by_parts(plain.structure, other.structure, "test") is None
+        assert refuted_by_rows(plain.structure, other.structure, "test") is None
     both = Chain(3, 1, 1, 2, 1, 2)
-    assert "one place" in decide_by_parts(both.structure, both.structure, "test", LIMITS).reason
+    assert "one place" in decide_by_rows(both.structure, both.structure, "test", LIMITS).reason
     with pytest.raises(TypeError):
         bool(found)
 
@@ -223,8 +223,8 @@ def test_a_forged_step_is_refused():
         Chain(4, 2, 1, 3, 1, 4, damped=True).structure,
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,
     )
-    found = refuted_by_parts(small, large, "test")
-    assert found is not None and found.is_proven and confirms_by_parts(found, small, large)
+    found = refuted_by_rows(small, large, "test")
+    assert found is not None and found.is_proven and confirms_by_rows(found, small, large)
     (step,) = found.steps
     assert step.shown == Vanishing(2)
     for forged in (
@@ -232,7 +232,7 @@ def test_a_forged_step_is_refused():
         replace(step, part="grounded"),
         replace(step, split="rigid"),
     ):
-        assert not confirms_by_parts(replace(found, steps=(forged,)), small, large)
+        assert not confirms_by_rows(replace(found, steps=(forged,)), small, large)
 
 
 def test_sentences_name_the_parts():
@@ -240,12 +240,12 @@ def test_sentences_name_the_parts():
         Chain(4, 2, 1, 3, 1, 4, damped=True).structure,
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,
     )
-    found = refuted_by_parts(small, large, "test")
+    found = refuted_by_rows(small, large, "test")
     assert "Markov parameter 2 of the free part of B" in found.sentence("A", "B")
     assert "of a generic B stay together in an equivalent A" in replace(
         found, left_given=False
     ).sentence("A", "B")
-    nothing = refuted_by_parts(
+    nothing = refuted_by_rows(
         Chain(5, 1, 1, 2, 1, 3, damped=True).structure,
         Chain(5, 2, 2, 3, 2, 3, damped=True).structure,
         "t",
