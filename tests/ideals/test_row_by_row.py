@@ -21,9 +21,9 @@ from disting.ideals import (
     normalised,
     refuted_by_rows,
 )
-from disting.ideals.row_by_row import vanishing
 from disting.ideals.monodromy import _is_inseparable, poles_are_inseparable
-from disting.ideals.splits import gap, parts, splits
+from disting.ideals.row_by_row import vanishing
+from disting.ideals.splits import gap, receptances, splits
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.symmetry import canonical
@@ -50,7 +50,7 @@ def canonicals(n, damped):
 def test_the_parts_of_every_split_add_up_to_the_receptance(n, damped):
     for chain, h in product(canonicals(n, damped), range(1, n)):
         structure = chain.structure
-        own = [m for _, m in parts(structure).named]
+        own = [m for _, m in receptances(structure).named]
         names = sorted({x for m in own for x in m.parameters})
         values = dict(zip(names, residues(str(chain), len(names), P), strict=True))
         num, den = value(own[-1], values)
@@ -59,7 +59,7 @@ def test_the_parts_of_every_split_add_up_to_the_receptance(n, damped):
             first = value(own[0], values)
             num, den = num * first[1] + first[0] * den, den * first[1]
         for split in splits(structure, h):
-            (a, b), (c, d) = (value(m, values) for _, m in split.parts.named)
+            (a, b), (c, d) = (value(m, values) for _, m in split.receptances.named)
             assert (a * d + c * b) * den == num * b * d
             assert (b.degree(), d.degree()) == (2 * h, 2 * (n - h))
 
@@ -88,9 +88,9 @@ def test_groups_agree_with_sympy(chain):
     transitive.
     """
     s = sympy.Symbol("s")
-    for _, part in parts(chain.structure).named:
-        point = [3 + 2 * i + i * i for i in range(len(part.parameters))]
-        coefficients = [int(p(*point)) for p in part.denominator][:: 1 if chain.damped else 2]
+    for _, row in receptances(chain.structure).named:
+        point = [3 + 2 * i + i * i for i in range(len(row.parameters))]
+        coefficients = [int(p(*point)) for p in row.denominator][:: 1 if chain.damped else 2]
         polynomial = sympy.Poly(coefficients[::-1], s)
         while polynomial.eval(0) == 0:
             polynomial = polynomial.quo(sympy.Poly(s))
@@ -101,7 +101,7 @@ def test_groups_agree_with_sympy(chain):
 
 def test_roots_in_pairs_are_not_inseparable():
     """An undamped chain in s: with z also -z is a pole, so the group is imprimitive."""
-    model = parts(Chain(4).structure).free
+    model = receptances(Chain(4).structure).free
     assert _is_inseparable(model, 2, "test") and not _is_inseparable(model, 1, "test")
 
 
@@ -132,8 +132,8 @@ def test_markov_parameters_agree_with_sympy():
         Chain(3, 2, 2, 3, 2, 3, damped=True).structure,
     )
     (split,) = splits(given, 2)
-    assert vanishing(split.parts.grounded, parts(searched).grounded) == 3
-    assert vanishing(split.parts.free, parts(searched).free) is None
+    assert vanishing(split.receptances.grounded, receptances(searched).grounded) == 3
+    assert vanishing(split.receptances.free, receptances(searched).free) is None
 
 
 def agrees_with_the_synthesis(n, damped):
