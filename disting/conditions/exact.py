@@ -59,7 +59,7 @@ from disting.question import Membership
 from disting.settings import Settings
 from disting.synthesis.decide import Direction, Exact, Grounds, decide, safety_of_point
 from disting.synthesis.duality import are_dual
-from disting.synthesis.foster import are_foster, are_same_by_parts
+from disting.synthesis.foster import are_foster, are_same_by_rows
 
 # wanted of a fibre: with the ranks that it rests on, the bound may lose one bit
 SAFETY = LEAST_SAFETY + 1
@@ -207,7 +207,7 @@ def theorem(a: Chain, b: Chain) -> str:
         return "symmetry"
     if are_foster(a, b):
         return "Foster"
-    if are_same_by_parts(a, b):
+    if are_same_by_rows(a, b):
         return "parts"
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
 

@@ -88,13 +88,24 @@ class Row:
         """How fast the receptance falls: as s to the power minus this, for s to infinity."""
         return 2 + self.distance * (1 if self.damped else 2)
 
-    def numerator_degree(self, q: int) -> int:
-        """Degree of the receptance's numerator in s (q = 2) or in x = s^2 (q = 1).
+    @property
+    def numerator_degree(self) -> int:
+        """Degree of the receptance's numerator, as a function of s or x (see `q`).
 
-        >>> [Row(4, True, 1, 2, damped).numerator_degree(1 + damped) for damped in (True, False)]
+        >>> [Row(4, True, 1, 2, damped).numerator_degree for damped in (True, False)]
         [5, 2]
         """
+        return self.numerator_degree_in(self.q)
+
+    def numerator_degree_in(self, q: int) -> int:
+        """The same in s (q = 2), or in x = s^2 (q = 1) for a row without any damper."""
         return (2 * self.n_masses - self.relative_degree) * q // 2
+
+    def poles_at_zero(self, q: int) -> int:
+        """Multiplicity of the pole at 0 of a free row in s (q = 2) or in x = s^2 (q = 1): a motion
+        of the whole, stopped by dampers to the ground.
+        """
+        return 1 if self.ground_dampers else q
 
     @property
     def structure(self) -> Structure:

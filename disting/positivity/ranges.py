@@ -27,7 +27,7 @@ from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
 from disting.model.symmetry import canonical, forms
 from disting.positivity.finding import is_plain, positive_finding, refuse
-from disting.positivity.parts import Obstacle, Point
+from disting.positivity.obstacles import Obstacle, Point
 from disting.positivity.points import Range, equivalent, random_point, read, spelled
 from disting.positivity.witness import DRAWS, bits, drawn_near, is_long
 from disting.settings import Settings

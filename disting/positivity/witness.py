@@ -50,7 +50,7 @@ from flint import fmpq
 from disting.algebra.sampling import residues
 from disting.certainty import LEAST_SAFETY
 from disting.model.chain import Chain
-from disting.positivity.parts import Point
+from disting.positivity.obstacles import Point
 from disting.positivity.points import Range
 
 DRAWS = 3  # of each kind of witness, at most

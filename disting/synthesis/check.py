@@ -9,7 +9,7 @@ from flint import acb, acb_poly
 from disting.invariants.transfer import Rational, plain_receptance, receptance
 from disting.model.chain import Chain
 from disting.synthesis.ball import TOLERANCE, Ball, Imprecise
-from disting.synthesis.leaves import NONZERO, Dead
+from disting.synthesis.row_values import NONZERO, Dead
 from disting.synthesis.target import Exact, Target
 
 

@@ -20,11 +20,12 @@ from flint import fmpq
 from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
+from disting.model.row import rows_of
 from disting.model.symmetry import canonical
 from disting.question import Membership
 from disting.synthesis.construction import is_constructed, is_untested
 from disting.synthesis.duality import are_dual
-from disting.synthesis.fibre import fibre, segments
+from disting.synthesis.fibre import fibre
 from disting.synthesis.methods import cost
 from disting.synthesis.result import Answer, Confirmation, Fibre, Status
 from disting.synthesis.target import target
@@ -174,7 +175,7 @@ def _refuse(given: Chain, other: Chain) -> None:
 
 def _cost(chain: Chain) -> int:
     """Rank of the dearest method that the chain needs; those without any last."""
-    return max(cost(s) for s in segments(canonical(chain).chain) if s is not None)
+    return max(map(cost, rows_of(canonical(chain).chain.structure)))
 
 
 def _better(first: Exact, second: Exact) -> Exact:

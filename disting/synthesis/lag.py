@@ -11,17 +11,17 @@ from flint import acb, ctx, fmpq, fmpq_poly
 
 from disting.model.chain import Chain
 from disting.synthesis.ball import Ball, poly, product, roots, shifted
+from disting.synthesis.receptance import Receptance
 from disting.synthesis.result import Answer, Fibre, Solution
-from disting.synthesis.segment import Data
 from disting.synthesis.target import Target
 
 
-def lag_poles(data: Data, low: int) -> Iterator[tuple[Data, dict[str, Ball]]]:
+def lag_poles(data: Receptance, low: int) -> Iterator[tuple[Receptance, dict[str, Ball]]]:
     """Yield H0 and T1 for every pole but that at 0, of multiplicity `low`."""
     poles = roots(shifted(data.denominator, -low), data.denominator.degree() - low)
     for i, p in enumerate(poles):
         rest = shifted(product(poles[:i] + poles[i + 1 :]), low)
-        yield Data(data.numerator * poly([-1 / p]), rest), {"T1": -1 / p}
+        yield Receptance(data.numerator * poly([-1 / p]), rest), {"T1": -1 / p}
 
 
 def without_lag(t: Target) -> tuple[Target, fmpq] | None:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from disting.synthesis.ball import Ball, Poly, cut, is_boundary, poly, roots, shifted, vanishes
-from disting.synthesis.leaves import BOUNDARY, NONZERO, Leaf, Part
+from disting.synthesis.row_values import BOUNDARY, NONZERO, Leaf, RowValues
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class Stiffness:
 
 
 def peel(w: Stiffness) -> Iterator[Leaf]:
-    """Yield every ladder with this stiffness, masses and springs from the port outwards."""
+    """Yield all masses and springs with this stiffness, from the port outwards."""
     if w.masses == 0:
         yield _last(w)
     elif is_boundary(w.numerator[_degree(w)]):
@@ -47,9 +47,13 @@ def _degree(w: Stiffness) -> int:
 def _last(w: Stiffness) -> Leaf:
     """The spring to the wall is W itself; at a free end nothing is left."""
     if not w.wall:
-        return Part()
+        return RowValues()
     spring = cut(w.numerator, w.q - 1)
-    return BOUNDARY if any(is_boundary(spring[i]) for i in range(w.q)) else Part(springs=(spring,))
+    return (
+        BOUNDARY
+        if any(is_boundary(spring[i]) for i in range(w.q))
+        else RowValues(springs=(spring,))
+    )
 
 
 def _damped(w: Stiffness) -> Iterator[Leaf]:
@@ -79,7 +83,7 @@ def _behind(w: Stiffness, spring: Poly) -> Iterator[Leaf]:
     for leaf in peel(inner):
         yield (
             replace(leaf, masses=(mass, *leaf.masses), springs=(spring, *leaf.springs))
-            if isinstance(leaf, Part)
+            if isinstance(leaf, RowValues)
             else leaf
         )
 

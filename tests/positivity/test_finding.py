@@ -22,7 +22,7 @@ from disting.evidence.positive import (
 )
 from disting.model.symmetry import canonical
 from disting.positivity import confirms, positive_finding
-from disting.positivity.parts import obstacle, only_parts_sum_to_zero
+from disting.positivity.obstacles import obstacle, only_rows_sum_to_zero
 from disting.positivity.points import equivalent, random_point, read
 from disting.settings import Settings
 from disting.synthesis import Answer, Status, fibre, target
@@ -239,9 +239,9 @@ def test_proof_of_swap_needs_simple_parts():
     """Equal poles on both sides of the gap: nothing is proven at such a point."""
     chain = Family(3, damped=True)[7]
     point = rational_point(chain, "swap")
-    assert only_parts_sum_to_zero(chain, point, 2)
+    assert only_rows_sum_to_zero(chain, point, 2)
     reduced = 1 / point["m2"] + 1 / point["m3"]
-    assert not only_parts_sum_to_zero(
+    assert not only_rows_sum_to_zero(
         chain, point | {f"{x}01": point[f"{x}23"] * reduced * point["m1"] for x in "kd"}, 2
     )
 

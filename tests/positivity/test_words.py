@@ -13,10 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Chain
-from disting.positivity.parts import receptances
+from disting.model.row import Row
+from disting.positivity.obstacles import receptances
 from disting.positivity.words import word, words
-from disting.synthesis.leaves import Part
-from disting.synthesis.segment import Data, Segment
+from disting.synthesis.receptance import Receptance
+from disting.synthesis.row_values import RowValues
 from disting.synthesis.target import Target
 from disting.synthesis.undamped import neighbours_at
 
@@ -61,11 +62,11 @@ def from_word(given):
 
 def has_positive_neighbours(n, a, t, kappa):
     with ctx.workprec(600):
-        data = Data(acb_poly(t.numerator), acb_poly(t.denominator))
+        data = Receptance(acb_poly(t.numerator), acb_poly(t.denominator))
         leaves = [
             x
-            for x in neighbours_at(Segment(n, a, a + 1, False, 1), data, kappa)
-            if isinstance(x, Part)
+            for x in neighbours_at(Row(n, False, a, a + 1), data, kappa)
+            if isinstance(x, RowValues)
         ]
         values = [[*leaf.masses, *(k[0] for k in leaf.springs)] for leaf in leaves]
         return any(all(v.real > 0 and abs(v.imag) < 1e-60 for v in each) for each in values)

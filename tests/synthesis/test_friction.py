@@ -16,10 +16,11 @@ from disting.ideals import coefficient_map
 from disting.identifiability.tangent import proof_tangents
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.row import rows_of
 from disting.question import Membership
 from disting.synthesis.construction import is_untested
 from disting.synthesis.decide import decide, rational_point
-from disting.synthesis.fibre import fibre, segments
+from disting.synthesis.fibre import fibre
 from disting.synthesis.methods import is_covered
 from disting.synthesis.result import Answer, Confirmation, Fibre, Status
 from disting.synthesis.target import Target, target
@@ -33,7 +34,7 @@ def rubbed(n: int, damped: bool) -> list[Chain]:
 
 
 def covered(chain: Chain) -> bool:
-    return all(is_covered(s) for s in segments(chain) if s is not None)
+    return all(map(is_covered, rows_of(chain.structure)))
 
 
 def own_fibre(chain: Chain, seed: str = "friction") -> tuple[dict[str, fmpq], Fibre]:
