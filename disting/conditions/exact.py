@@ -18,7 +18,7 @@ large that the bound is small enough for this n (`synthesis.decide.point_bits`);
 Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are
 drawn, of either model.
 
-Where the synthesis has no method (force and sensor two or more masses apart inside a part; with
+Where the synthesis has no method (force and sensor two or more masses apart inside a row; with
 dampers to the ground also some neighbouring ports) or finds only numbers, what is known of the
 rows of both chains decides (`ideals.by_one_row`), then the fibre's ideal, modulo random primes and
 with bounds of its own (see `disting.ideals`). No other program is asked: the answer depends on the
@@ -34,7 +34,7 @@ What equal ranks are needed for. One direction is looked at, say V1 against V2. 
 lie inside V2, the closures differ, whatever the ranks. Where it does, V1 = V2 holds only because
 both have one dimension: an irreducible closed set contains none but itself of its own dimension.
 Ranks seen at points are lower bounds, so two that are seen equal may differ. So a bounded HOLDS is
-as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full parts need no
+as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full rows need no
 ranks.
 """
 
@@ -109,7 +109,7 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
 
 
 def by_full_rows(a: Chain, b: Chain) -> Finding | None:
-    """What parts that can have any receptance prove; a dead time that both have is a factor of
+    """What rows that can have any receptance prove; a dead time that both have is a factor of
     its own.
     """
     evidence = same_by_full_rows(a.structure, b.structure)

@@ -2,7 +2,7 @@
 polynomial ideal.
 
 For any two models that are given as coefficient maps, not only chains; chains with a gap are taken
-apart first (`by_parts`). Independent of `disting.synthesis`.
+apart first (`row_by_row`). Independent of `disting.synthesis`.
 """
 
 from disting.ideals.by_one_row import confirms_row as confirms_row

@@ -17,28 +17,28 @@ chance.
 from dataclasses import dataclass
 from functools import cache
 
-from disting.evidence.ideals import SAME, FullParts
+from disting.evidence.ideals import SAME, FullRows
 from disting.ideals.fibre_ideal import generic_rank
 from disting.ideals.system import Terms, receptance_map
 from disting.model.row import Row, rows_of
 from disting.model.structure import Structure
 
 
-def same_by_full_rows(a: Structure, b: Structure, label: str = "full rows") -> FullParts | None:
+def same_by_full_rows(a: Structure, b: Structure, label: str = "full rows") -> FullRows | None:
     """The proof that two structures have equal closures row by row; None if there is none.
     `label` draws the points.
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(3, 2, m, 3, m, 3, damped=True, ground_dampers=(2,)) for m in (1, 2))
     >>> same_by_full_rows(*(c.structure for c in chains))
-    FullParts(free=(7, 0))
+    FullRows(free=(7, 0))
     """
     if not _comparable(a, b):
         return None
     pairs = zip(rows_of(a), rows_of(b), strict=True)
     found = [_shared(here, there, label) for here, there in pairs]
     free = tuple(n for n in found if n is not None)
-    return FullParts(free) if len(free) == len(found) and any(free) else None
+    return FullRows(free) if len(free) == len(found) and any(free) else None
 
 
 def _comparable(a: Structure, b: Structure) -> bool:

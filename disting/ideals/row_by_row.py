@@ -20,7 +20,7 @@ from math import comb
 
 from flint import fmpz_mpoly
 
-from disting.evidence.ideals import ByParts, PartStep, Shown, Solved, Vanishing
+from disting.evidence.ideals import ByRows, RowStep, Shown, Solved, Vanishing
 from disting.ideals.decide import Limits, decide
 from disting.ideals.fibre_ideal import generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
@@ -55,14 +55,14 @@ class RowsDecision:
 
     membership: Membership
     safety: int = 0
-    evidence: ByParts | None = None
+    evidence: ByRows | None = None
     reason: str = ""
 
     def __bool__(self) -> bool:
         raise TypeError("a decision is not true or false; look at its membership")
 
 
-def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByParts | None:
+def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByRows | None:
     """A proof, without any chance, that generic models of `given` have no equivalent in
     `other`; None if there is none.
     """
@@ -70,7 +70,7 @@ def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByParts | 
         return None
     steps = [vanishing_step(split, receptances(other)) for split in splits(given, gap(other))]
     found = tuple(step for step in steps if step is not None)
-    return ByParts(True, found) if len(found) == len(steps) else None
+    return ByRows(True, found) if len(found) == len(steps) else None
 
 
 def included_by_rows(given: Structure, other: Structure, seed: str, limits: Limits) -> RowsDecision:
@@ -81,7 +81,7 @@ def included_by_rows(given: Structure, other: Structure, seed: str, limits: Limi
     for split in splits(given, gap(other)) if _are_alike(given, other) else ():
         steps = _members(split, receptances(other), seed, wanted)
         if steps is not None:
-            return RowsDecision(Membership.MEMBER, limits.safety, ByParts(True, steps))
+            return RowsDecision(Membership.MEMBER, limits.safety, ByRows(True, steps))
     return RowsDecision(
         Membership.UNKNOWN, reason="no split was found in which both rows can be met"
     )
@@ -89,8 +89,8 @@ def included_by_rows(given: Structure, other: Structure, seed: str, limits: Limi
 
 def _members(
     split: Split, searched: Receptances, seed: str, limits: Limits
-) -> tuple[PartStep, ...] | None:
-    steps = list[PartStep]()
+) -> tuple[RowStep, ...] | None:
+    steps = list[RowStep]()
     for name, wanted, there in _by_size(split, searched):
         here, most = _ranks(wanted, there, f"rank:{seed}")
         short = there.degrees[0] - wanted.degrees[0]
@@ -103,7 +103,7 @@ def _members(
             or found.safety < limits.safety
         ):
             return None
-        steps.append(PartStep(split.name, name, replace(found.evidence, is_normalised=True)))
+        steps.append(RowStep(split.name, name, replace(found.evidence, is_normalised=True)))
     return tuple(steps)
 
 
@@ -115,20 +115,20 @@ def decide_by_rows(given: Structure, other: Structure, seed: str, limits: Limits
     if why:
         return RowsDecision(Membership.UNKNOWN, reason=why)
     searched, wanted = receptances(other), replace(limits, safety=limits.safety + SPARE_BITS)
-    refuted, least = list[PartStep](), limits.safety + SPARE_BITS
+    refuted, least = list[RowStep](), limits.safety + SPARE_BITS
     for split in splits(given, gap(other)):
         found = _split(split, searched, seed, wanted)
         if found.membership is not Membership.EXCLUDED or found.evidence is None:
             return found
         refuted += found.evidence.steps
         least = min(least, found.safety or least)
-    evidence = ByParts(True, tuple(refuted))
+    evidence = ByRows(True, tuple(refuted))
     return RowsDecision(
         Membership.EXCLUDED, 0 if evidence.is_proven else least - SPARE_BITS, evidence
     )
 
 
-def confirms_by_rows(evidence: ByParts, left: Structure, right: Structure) -> bool:
+def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> bool:
     """Whether the evidence holds: poles and splits are found again, each step is checked
     without the search that found it.
     """
@@ -192,8 +192,8 @@ def _split(split: Split, searched: Receptances, seed: str, limits: Limits) -> Ro
     """
     exact = vanishing_step(split, searched)
     if exact is not None:
-        return RowsDecision(Membership.EXCLUDED, 0, ByParts(True, (exact,)))
-    steps, least = list[PartStep](), limits.safety
+        return RowsDecision(Membership.EXCLUDED, 0, ByRows(True, (exact,)))
+    steps, least = list[RowStep](), limits.safety
     for name, wanted, there in _by_size(split, searched):
         here, most = _ranks(wanted, there, f"rank:{seed}")
         if here > most:
@@ -203,12 +203,12 @@ def _split(split: Split, searched: Receptances, seed: str, limits: Limits) -> Ro
         found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
         if found.evidence is None or found.safety < limits.safety:
             return RowsDecision(Membership.UNKNOWN, reason=f"the {name} row: {found.reason}")
-        step = PartStep(split.name, name, replace(found.evidence, is_normalised=True))
+        step = RowStep(split.name, name, replace(found.evidence, is_normalised=True))
         least = min(least, found.safety)
         if found.membership is Membership.EXCLUDED:
-            return RowsDecision(Membership.EXCLUDED, found.safety, ByParts(True, (step,)))
+            return RowsDecision(Membership.EXCLUDED, found.safety, ByRows(True, (step,)))
         steps.append(step)
-    return RowsDecision(Membership.MEMBER, least - SPARE_BITS, ByParts(True, tuple(steps)))
+    return RowsDecision(Membership.MEMBER, least - SPARE_BITS, ByRows(True, tuple(steps)))
 
 
 def _pairs(split: Split, searched: Receptances) -> list[Pair]:
@@ -226,17 +226,13 @@ def _by_size(
     return sorted(_pairs(split, searched), key=lambda pair: len(pair[2].parameters))
 
 
-def vanishing_step(split: Split, searched: Receptances) -> PartStep | None:
+def vanishing_step(split: Split, searched: Receptances) -> RowStep | None:
     """A row that a Markov parameter refutes in this split, without any chance; None if there
     is none.
     """
     found = ((name, vanishing(wanted, there)) for name, wanted, there in _pairs(split, searched))
     return next(
-        (
-            PartStep(split.name, name, Vanishing(index))
-            for name, index in found
-            if index is not None
-        ),
+        (RowStep(split.name, name, Vanishing(index)) for name, index in found if index is not None),
         None,
     )
 

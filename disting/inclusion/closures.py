@@ -40,7 +40,7 @@ from functools import lru_cache
 
 from disting.algebra.sampling import about, prime, residues
 from disting.certainty import LEAST_SAFETY, joint_safety
-from disting.evidence.limits import SUPPORTS, WHOLE, Outside, PartLimits, PartsInside, Why
+from disting.evidence.limits import SUPPORTS, WHOLE, Outside, RowLimits, RowsInside, Why
 from disting.ideals import CoefficientMap, normalised
 from disting.ideals.fibre_ideal import evaluated, generic_rank
 from disting.ideals.monodromy import poles_are_inseparable
@@ -76,7 +76,7 @@ class Wanted:
     row: Row
 
 
-def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsInside, int] | None:
+def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsInside, int] | None:
     """What the rows tell about limits, with the bits of its error bound (0: proven); None if
     nothing.
 
@@ -96,7 +96,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsIn
     }
     for told in found.values():
         if all(why is not None and why[0] in SUPPORTS for _, why in told):
-            return PartsInside(True, tuple(_step(p, why) for p, why in told if why is not None)), 0
+            return RowsInside(True, tuple(_step(p, why) for p, why in told if why is not None)), 0
     if not _covered(given, other, f"{seed}:{small}:poles"):
         return None
     against = [
@@ -111,7 +111,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | PartsIn
     )
 
 
-def confirms_parts(evidence: Outside | PartsInside, small: Chain, large: Chain) -> bool:
+def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) -> bool:
     """Whether the steps are those of all rows of one split, or of one row of every split, and
     each of them holds again.
     """
@@ -127,12 +127,12 @@ def confirms_parts(evidence: Outside | PartsInside, small: Chain, large: Chain) 
     if len(set(named)) < len(named) or not set(named) <= possible.keys():
         return False
     told, ways = {split for split, _ in named}, [split for split, _ in possible]
-    if isinstance(evidence, PartsInside):
+    if isinstance(evidence, RowsInside):
         complete = len(told) == 1 and len(named) == sum(split in told for split in ways)
     else:
         complete = told == set(ways) and _covered(given, other, "verify:poles")
     sides = all(
-        (step.why in SUPPORTS) == isinstance(evidence, PartsInside) for step in evidence.steps
+        (step.why in SUPPORTS) == isinstance(evidence, RowsInside) for step in evidence.steps
     )
     return (
         complete
@@ -177,8 +177,8 @@ def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, lis
     return found
 
 
-def _step(wanted: Wanted, shown: tuple[Why, str]) -> PartLimits:
-    return PartLimits(wanted.split, wanted.name, *shown)
+def _step(wanted: Wanted, shown: tuple[Why, str]) -> RowLimits:
+    return RowLimits(wanted.split, wanted.name, *shown)
 
 
 def _shown(wanted: Wanted, label: str) -> tuple[Why, str] | None:
@@ -245,7 +245,7 @@ _OF = {
 }
 
 
-def _holds(step: PartLimits, wanted: Wanted) -> bool:
+def _holds(step: RowLimits, wanted: Wanted) -> bool:
     """Whether a step holds at fresh points; an equation is found again."""
     if step.why is Why.COEFFICIENT:
         pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)

@@ -4,9 +4,9 @@ receptances.
 Degrees: with masses other than zero no special value raises the number of poles or lowers the
 relative degree. Projections: of equally many poles, the coefficients are regular functions of the
 parameters, and V1 in V2 gives rank1(S) <= rank2(S) for every set S of them. Relative degrees: the
-receptance of a part whose ports are l masses apart falls as s^-(2 + l) with dampers and as s^-(2 +
+receptance of a row whose ports are l masses apart falls as s^-(2 + l) with dampers and as s^-(2 +
 2 l) without, its leading coefficient a product of springs or dampers and inverse masses. Of two
-parts the slower one leads; only if both fall alike special values cancel. Dampers to the ground
+rows the slower one leads; only if both fall alike special values cancel. Dampers to the ground
 change nothing of that, a lag adds 1.
 """
 

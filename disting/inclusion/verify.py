@@ -9,18 +9,18 @@ from disting.conditions.verify import POINTS, Witness
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.evidence.conditions import Counts, FreeChoice, Labels
 from disting.evidence.decision import FibreAt
-from disting.evidence.ideals import ByParts, Refuted, Solved
+from disting.evidence.ideals import ByRows, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
     Outside,
-    PartsInside,
     RelativeDegrees,
+    RowsInside,
 )
 from disting.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.inclusion.across_sizes_verify import confirms_across_sizes
-from disting.inclusion.closures import confirms_parts
+from disting.inclusion.closures import confirms_rows
 from disting.inclusion.profiles import degrees_refute, ordered
 from disting.invariants.profile import samples
 from disting.invariants.sample import Representation
@@ -63,12 +63,12 @@ def confirms(evidence: InclusionEvidence, left: Subject, right: Subject) -> bool
             return evidence.left_is_larger != left_is_smaller and _fall_apart(
                 smaller, larger, here, there
             )
-        case Outside() | PartsInside():
+        case Outside() | RowsInside():
             given, other = (a, b) if left_is_smaller else (b, a)
-            return evidence.left_given == left_is_smaller and confirms_parts(evidence, given, other)
-        case ByParts():
-            parts = (rational_part(a), rational_part(b))
-            return evidence.left_given == left_is_smaller and confirms_by_rows(evidence, *parts)
+            return evidence.left_given == left_is_smaller and confirms_rows(evidence, given, other)
+        case ByRows():
+            pair = (rational_part(a), rational_part(b))
+            return evidence.left_given == left_is_smaller and confirms_by_rows(evidence, *pair)
         case FibreAt():
             return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
         case Solved():

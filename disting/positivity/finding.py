@@ -34,10 +34,10 @@ from disting.evidence.positive import (
     EmptyFibre,
     Excluded,
     Interlacing,
-    PartWords,
     Points,
     PositiveEvidence,
     PositiveFinding,
+    RowWords,
     Share,
 )
 from disting.model.chain import Chain
@@ -132,7 +132,7 @@ def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
     return first, second
 
 
-def row_words(given: Chain, other: Chain) -> tuple[PartWords, ...]:
+def row_words(given: Chain, other: Chain) -> tuple[RowWords, ...]:
     """What each row of undamped `other` lacks; () where the rows do not correspond or what
     they lack is not known.
     """
@@ -144,12 +144,12 @@ def row_words(given: Chain, other: Chain) -> tuple[PartWords, ...]:
     return found if known else ()
 
 
-def _lacking(given: Row, other: Row) -> PartWords:
+def _lacking(given: Row, other: Row) -> RowWords:
     ports = (given.a, given.b), (other.a, other.b)
     lacking = (
         () if _contained(given, other) else tuple(sorted(_words(given).lower - _words(other).upper))
     )
-    return PartWords(given.name, given.n_masses, *ports, lacking)
+    return RowWords(given.name, given.n_masses, *ports, lacking)
 
 
 def _contained(given: Row, other: Row) -> bool:
@@ -165,7 +165,7 @@ def _words(row: Row) -> Words:
 
 
 def _by_words(
-    given: Chain, other: Chain, compared: tuple[PartWords, ...], seed: str
+    given: Chain, other: Chain, compared: tuple[RowWords, ...], seed: str
 ) -> PositiveFinding:
     if not any(p.lacking for p in compared):
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Interlacing(compared))

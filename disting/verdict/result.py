@@ -37,7 +37,7 @@ GROUNDS = {
     "refuted": "the ideal of one fibre",
     "row": "a row of masses decided once for all",
     "shared": "all ways to share out the zeros of a row",
-    "full-parts": "parts that can have any receptance",
+    "full-parts": "rows that can have any receptance",
     "constants": "constants",
 }  # on which the exact decision rests, by the kind of its evidence
 

@@ -241,7 +241,7 @@ def test_sentences_name_the_parts():
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,
     )
     found = refuted_by_rows(small, large, "test")
-    assert "Markov parameter 2 of the free part of B" in found.sentence("A", "B")
+    assert "Markov parameter 2 of the free row of B" in found.sentence("A", "B")
     assert "of a generic B stay together in an equivalent A" in replace(
         found, left_given=False
     ).sentence("A", "B")

@@ -13,8 +13,8 @@ from disting.evidence.limits import (
     FullImage,
     LargerProjection,
     Outside,
-    PartsInside,
     RelativeDegrees,
+    RowsInside,
     Why,
 )
 from disting.ideals import coefficient_map, included_by_rows, refuted_by_rows
@@ -90,7 +90,7 @@ def test_finite_elements_and_limits_are_two_answers():
         Inclusion.LEFT_IN_RIGHT,
     )
     assert isinstance(both.image.evidence, RelativeDegrees) and isinstance(
-        both.closure.evidence, PartsInside
+        both.closure.evidence, RowsInside
     )
     assert "limit of models A2" in both.sentence(
         "A3", "A2"
@@ -134,7 +134,7 @@ def test_limits_that_are_not_known(n, damped, unknown):
         grades = {
             f.certainty
             for f in (both.image, both.closure)
-            if isinstance(f.evidence, Outside | PartsInside)
+            if isinstance(f.evidence, Outside | RowsInside)
         }
         assert grades <= {"proven", "bounded"} and all(
             f.safety >= 100 for f in (both.image, both.closure) if f.safety
@@ -184,12 +184,12 @@ def test_false_parts_are_refused():
         replace(outside, steps=(step._replace(why=Why.COEFFICIENT, detail="b4"),)),
         replace(outside, steps=(step._replace(why=Why.RANK, detail="7 > 6"),)),
         replace(outside, steps=(step._replace(split="same"),)),
-        PartsInside(True, (step._replace(why=Why.FULL),)),
-        PartsInside(True, (step,)),
+        RowsInside(True, (step._replace(why=Why.FULL),)),
+        RowsInside(True, (step,)),
     ):
         assert not confirms(false, seven, one)
     assert not confirms(replace(outside, steps=inside.steps), three, two)
-    assert not confirms(PartsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
+    assert not confirms(RowsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
 
 
 def test_false_evidence_is_refused():
