@@ -31,7 +31,7 @@ from disting.question import Membership
 from disting.synthesis.decide import Grounds, member
 
 LIMITS = Limits(seconds=20, entries=1_000_000, safety=100)
-P = prime("test of parts")
+P = prime("test of rows")
 
 
 def value(model, values):
@@ -47,7 +47,7 @@ def canonicals(n, damped):
 
 
 @pytest.mark.parametrize(("n", "damped"), [(2, True), (3, False), (3, True), (4, True)])
-def test_the_parts_of_every_split_add_up_to_the_receptance(n, damped):
+def test_the_rows_of_every_split_add_up_to_the_receptance(n, damped):
     for chain, h in product(canonicals(n, damped), range(1, n)):
         structure = chain.structure
         own = [m for _, m in receptances(structure).named]
@@ -167,13 +167,13 @@ def agrees_with_the_synthesis(n, damped):
 @pytest.mark.parametrize(
     ("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)]
 )
-def test_parts_agree_with_the_synthesis(n, damped):
+def test_rows_agree_with_the_synthesis(n, damped):
     counts = agrees_with_the_synthesis(n, damped)
     assert counts[Membership.EXCLUDED] > 0
 
 
 @pytest.mark.slow
-def test_parts_agree_with_the_synthesis_on_four_damped_masses():
+def test_rows_agree_with_the_synthesis_on_four_damped_masses():
     agrees_with_the_synthesis(4, True)
 
 
@@ -235,7 +235,7 @@ def test_a_forged_step_is_refused():
         assert not confirms_by_rows(replace(found, steps=(forged,)), small, large)
 
 
-def test_sentences_name_the_parts():
+def test_sentences_name_the_rows():
     small, large = (
         Chain(4, 2, 1, 3, 1, 4, damped=True).structure,
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,

@@ -170,7 +170,7 @@ def test_the_closures_of_three_damped_masses_are_proven():
     ]
 
 
-def test_false_parts_are_refused():
+def test_false_rows_are_refused():
     seven, one, two, three = (subjects(3, True)[k] for k in (6, 0, 1, 2))
     outside = inclusions(seven, one).closure.evidence
     (step,) = outside.steps
@@ -202,7 +202,7 @@ def test_false_evidence_is_refused():
     assert not confirms(Counts((4, 4), (2, 4)), one, two)
 
 
-def test_false_evidence_of_parts_is_refused():
+def test_false_evidence_of_rows_is_refused():
     seven, six = (subjects(3, True)[k] for k in (6, 5))
     solved = included_by_rows(
         *(s.chain.structure for s in (seven, six)), "test", CLOSURE_LIMITS
@@ -225,7 +225,7 @@ def test_false_evidence_of_parts_is_refused():
         assert not confirms(replace(solved, steps=steps), seven, six)
 
 
-def test_false_refutations_of_parts_are_refused():
+def test_false_refutations_of_rows_are_refused():
     small, large = (
         ENGINE.subject("", Chain(3, *ports, damped=True))
         for ports in ((0, 0, 1, 0, 3), (2, 2, 3, 2, 3))

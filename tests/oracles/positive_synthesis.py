@@ -5,7 +5,7 @@ A second route to `disting.positivity`: by the chains that the inverse synthesis
 order of poles and zeros.
 
 Damped chains have finitely many solutions, all of which are listed. Undamped ones with force and
-sensor apart have families. There poles and zeros of a positive chain are real, and each part is
+sensor apart have families. There poles and zeros of a positive chain are real, and each row is
 looked at by itself:
 
 Collocated: finitely many chains. Neighbours, b = a + 1: one chain for each spring kappa > 0
@@ -91,7 +91,7 @@ def _damped(other: Chain, whole: Target) -> Answer:
 def _exact(
     given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Row | None, free: Row
 ) -> Iterator[list[tuple[Row, Target]]]:
-    """Yield the parts' receptances where they are known as fractions: nothing is left to balls,
+    """Yield the rows' receptances where they are known as fractions: nothing is left to balls,
     so what fits exists.
     """
     if grounded is None:
@@ -101,9 +101,9 @@ def _exact(
         yield from exact_rows(given, point, whole.folded(1), grounded, free)
 
 
-def _both(parts: list[tuple[Row, Target]]) -> Answer:
+def _both(pairs: list[tuple[Row, Target]]) -> Answer:
     def answer() -> Answer:
-        return _all(_part(row, exact.balls) for row, exact in parts)
+        return _all(_part(row, exact.balls) for row, exact in pairs)
 
     return _at_some_precision(answer, Answer.UNKNOWN)
 
@@ -128,7 +128,7 @@ def _split(split: Split | Dead, grounded: Row, free: Row) -> Answer:
 
 
 def _part(row: Row, data: Receptance) -> Answer:
-    """Whether one part can be positive."""
+    """Whether one row can be positive."""
     zeros = roots(data.numerator, row.numerator_degree)
     if not _real(zeros) or not data.gain(row).real > 0:
         return (

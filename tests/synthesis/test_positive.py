@@ -26,7 +26,7 @@ def theorem_pairs(n):
 
 @pytest.mark.parametrize("n", [2, 3, 4, pytest.param(5, marks=pytest.mark.slow)])
 def test_equivalents_of_the_theorems_are_found_positive(n):
-    """Where each part's ports are at most neighbours all members are tried; farther apart only
+    """Where each row's ports are at most neighbours all members are tried; farther apart only
     one member of a family is.
     """
     for k, (a, b) in enumerate(theorem_pairs(n)):
@@ -36,7 +36,7 @@ def test_equivalents_of_the_theorems_are_found_positive(n):
 
 
 def distance(chain):
-    """Largest distance of the two ports inside one part."""
+    """Largest distance of the two ports inside one row."""
     return max(row.distance for row in rows_of(canonical(chain).chain.structure))
 
 
