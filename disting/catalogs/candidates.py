@@ -15,18 +15,16 @@ from functools import cache, cached_property
 from pathlib import Path
 from string import ascii_letters
 
+from disting.algebra.certainty import Certainty
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
-from disting.certainty import Certainty
-from disting.comparison import name_of
 from disting.conditions.table import RULES
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
+from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
-from disting.packaged import intact_text
-from disting.verdict import Query, Relation, View
-from disting.written import write_whole
+from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
+from disting.verdict.comparison import name_of
 
 SCHEMA = 1
 FILE = "candidates.jsonl"

@@ -22,9 +22,9 @@ from disting.catalogs.files import (
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
-from disting.identifiability import Identifiability
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.questions.identifiability import Identifiability
 from disting.verdict import Relation, Verdict, View
 
 if TYPE_CHECKING:

@@ -1,23 +1,22 @@
 """Questions about rows that pairs of chains leave open: decided once, for chains of any size, and
 shipped as `rows.jsonl`.
 
-The file is read wherever a pair is decided (see `disting.ideals.by_one_row`), so an answer serves
-every command at once.
+The file is read wherever a pair is decided (see `disting.fibres.ideals.by_one_row`), so an answer
+serves every command at once.
 """
 
 from collections.abc import Callable, Iterator
 from itertools import combinations
 from pathlib import Path
 
-from disting.certainty import LEAST_SAFETY
-from disting.conditions.exact import rational_part
-from disting.engine import Engine
-from disting.ideals.by_one_row import row_pairs
-from disting.ideals.row_answers import ROWS, line_of, read_answers
-from disting.ideals.zeros import Branched, branches, refute, safety_of_branches
+from disting.algebra.certainty import LEAST_SAFETY
+from disting.fibres.ideals.by_one_row import row_pairs
+from disting.fibres.ideals.row_answers import ROWS, line_of, read_answers
+from disting.fibres.ideals.zeros import Branched, branches, refute, safety_of_branches
 from disting.model.family import Family
 from disting.model.row import Row
-from disting.verdict import Query, Relation, View
+from disting.questions.same.exact import rational_part
+from disting.verdict import Engine, Query, Relation, View
 
 LABEL = "rows:disting"
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import coefficients, symbols
-from disting.invariants.transfer import plain_receptance
+from disting.behaviour.transfer import plain_receptance
 from disting.model.chain import Chain
 from disting.model.structure import Ports, Structure
 

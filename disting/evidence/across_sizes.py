@@ -176,8 +176,8 @@ class LimitFibre:
     chain's rows lead to.
 
     `steps` of each row by name, the others being at rest; `solutions` at the prime and point of
-    each label, see `disting.ideals.Solved`, where `small_given` says that the points are of the
-    smaller chain.
+    each label, see `disting.fibres.ideals.Solved`, where `small_given` says that the points are of
+    the smaller chain.
     """
 
     kind: ClassVar[str] = "limit-fibre"

@@ -48,6 +48,17 @@ InclusionEvidence = (
     | Solved
     | Refuted
 )
+GROUNDS = {
+    "theorem": "a theorem",
+    "dead time": "dead time",
+    "fibre": "one fibre",
+    "solved": "the ideal of one fibre",
+    "refuted": "the ideal of one fibre",
+    "row": "a row of masses decided once for all",
+    "shared": "all ways to share out the zeros of a row",
+    "full-parts": "rows that can have any receptance",
+    "constants": "constants",
+}  # on which the exact decision rests, by the kind of its evidence
 
 
 def evidence_from(data: dict[str, Any]) -> Evidence:

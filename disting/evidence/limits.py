@@ -25,8 +25,8 @@ SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
 
 
 class RowLimits(NamedTuple):
-    """What is shown of one row (`part`) in one `split` (see `disting.ideals.splits`; "whole" for a
-    chain without a gap).
+    """What is shown of one row (`part`) in one `split` (see `disting.fibres.ideals.splits`; "whole"
+    for a chain without a gap).
 
     `detail`: the coefficient's name, both ranks, or the label from which primes and points of an
     equation are drawn.

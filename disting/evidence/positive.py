@@ -11,7 +11,7 @@ from enum import StrEnum
 from math import sqrt
 from typing import Any, ClassVar, get_args
 
-from disting.certainty import Certainty, shortfall
+from disting.algebra.certainty import Certainty, shortfall
 from disting.evidence import plain
 from disting.evidence.decision import Theorem
 

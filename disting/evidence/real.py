@@ -14,7 +14,7 @@ Point = tuple[tuple[str, str], ...]  # parameter name, fraction
 @dataclass(frozen=True, slots=True)
 class RealFactors:
     """Every polynomial that either chain must split into real factors can be split so (see
-    `positivity.real`).
+    `questions.positive.real`).
     """
 
     kind: ClassVar[str] = "real factors"

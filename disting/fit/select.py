@@ -15,7 +15,6 @@ from math import exp, log
 
 import numpy as np
 
-from disting.engine import Engine, Store
 from disting.errors import InputError
 from disting.fit.admissible import Rule, reasons
 from disting.fit.alternatives import Alternative, alternatives, limits_of, representatives
@@ -32,6 +31,8 @@ from disting.fit.repeatability import margin, repeatability
 from disting.fit.scatter import Scatter
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
+from disting.store import Store
+from disting.verdict import Engine
 
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
 

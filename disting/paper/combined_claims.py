@@ -6,13 +6,13 @@ from collections import Counter
 from itertools import combinations
 
 from disting.conditions.finding import Outcome as Holding
+from disting.conditions.rule import Stage
 from disting.conditions.structural import condition_9
-from disting.invariants.sample import Representation
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome
 from disting.paper.findings import Findings
+from disting.paper.told import counted, named, told, undecided
 from disting.paper.verdict_claims import MISREAD
-from disting.paper.words import counted, named, told, undecided
 from disting.verdict import Relation, View
 
 FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}
@@ -48,9 +48,7 @@ def eight_cases(findings: Findings) -> Found:
     """Undamped 4-mass pairs that Markov parameters decide and coefficients do not."""
     catalog = findings.catalog(4)
     gained = [
-        v.relation
-        for i, j, v in catalog.pairs(View.COMBINED)
-        if v.representation == Representation.MARKOV
+        v.relation for i, j, v in catalog.pairs(View.COMBINED) if v.representation is Stage.MARKOV
     ]
     return Found(
         f"{len(gained)} cases, all distinguishable", set(gained) != {Relation.DISTINGUISHABLE}

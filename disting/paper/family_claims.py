@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 
-from disting.invariants.sample import Representation
+from disting.behaviour.sample import Representation
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome
 from disting.paper.findings import Findings
-from disting.paper.words import named
+from disting.paper.told import named
 
 FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 

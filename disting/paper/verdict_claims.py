@@ -5,16 +5,16 @@ from itertools import combinations
 
 import numpy as np
 
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome as Holding
 from disting.conditions.necessary import DEPENDENCES
 from disting.conditions.sufficient import condition_7
-from disting.invariants.sample import Representation
 from disting.model.chain import Sensor
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome
 from disting.paper.family_claims import coefficients
 from disting.paper.findings import Findings
-from disting.paper.words import Pair, counted, deciding, named, told, undecided
+from disting.paper.told import Pair, counted, deciding, named, told, undecided
 from disting.verdict import Relation, View
 
 

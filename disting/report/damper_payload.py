@@ -19,10 +19,10 @@ from disting.conditions.rule import EXACT
 from disting.conditions.structural import SUBMODEL, SUPERMODEL
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING
 from disting.conditions.table import CONDITIONS
-from disting.engine.classes import Classes
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.report.payload import packed, script_json
+from disting.verdict.classes import Classes
 
 Numbers = NDArray[np.int64]
 Rule = tuple[str, str, str]

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from disting.catalogs import Catalog
-from disting.domain import Domain
 from disting.evidence.positive import Share
+from disting.model.domain import Domain
 from disting.report.words import totals
 from disting.verdict import Relation, View
 

@@ -9,10 +9,10 @@ from disting.catalogs import Catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_files import name_of
 from disting.report.damper_drawing import definitions
+from disting.report.damper_page import family_title
 from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
-from disting.report.dampers import family_title
+from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
-from disting.report.machine import machines, parts
 from disting.report.matrix import thumbnail
 from disting.report.model import Drawing, folder_of, model_of
 from disting.report.payload import script_json

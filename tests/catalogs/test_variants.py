@@ -16,12 +16,12 @@ from disting.catalogs.variants import (
     with_and_without_dead_time,
     with_and_without_lag,
 )
-from disting.conditions.exact import exact_finding, mirrored
-from disting.conditions.verify import Witness
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
-from disting.settings import Settings
+from disting.model.settings import Settings
+from disting.questions.same.exact import exact_finding, mirrored
+from disting.questions.same.verify import Witness
 
 APART = Relation.DISTINGUISHABLE
 ENGINE = Engine()

@@ -3,9 +3,9 @@
 import pytest
 import sympy
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.notation import text
 from disting.algebra.rational_function import variables
-from disting.certainty import Certainty
 from disting.equivalence import equivalents, explicit_map
 from disting.equivalence.identity import holds_at_random, is_identity
 from disting.model.chain import Chain

@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 
 from disting import Chain, Family, Query, Relation, View
-from disting.conditions.verify import Witness
 from disting.evidence.conditions import (
     Counts,
     Embedding,
@@ -16,6 +15,7 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
+from disting.questions.same.verify import Witness
 from disting.verdict import steps
 from tests.laws.pairs import (
     EXAMPLES,

@@ -1,8 +1,8 @@
 """Whether a chain with positive parameters has one given receptance: proven, at a rational point,
 or not known.
 
-A second route to `disting.positivity`: by the chains that the inverse synthesis finds, not by the
-order of poles and zeros.
+A second route to `disting.questions.positive`: by the chains that the inverse synthesis finds, not
+by the order of poles and zeros.
 
 Damped chains have finitely many solutions, all of which are listed. Undamped ones with force and
 sensor apart have families. There poles and zeros of a positive chain are real, and each row is
@@ -25,19 +25,19 @@ from typing import TypeVar
 from flint import acb, acb_poly, ctx, fmpq
 
 from disting.algebra.sampling import residues
+from disting.fibres.synthesis.ball import Ball, Imprecise, roots, shifted
+from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf
+from disting.fibres.synthesis.construction import exact_rows, is_untested
+from disting.fibres.synthesis.fibre import PRECISIONS, fibre
+from disting.fibres.synthesis.methods import synthesise
+from disting.fibres.synthesis.poles import Split, pole_splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.target import Target, is_regular, target
+from disting.fibres.synthesis.undamped import neighbours_at
 from disting.model.chain import Chain
 from disting.model.row import Row, grounded_and_free
 from disting.model.symmetry import canonical
-from disting.synthesis.ball import Ball, Imprecise, roots, shifted
-from disting.synthesis.construction import exact_rows, is_untested
-from disting.synthesis.fibre import PRECISIONS, fibre
-from disting.synthesis.methods import synthesise
-from disting.synthesis.poles import Split, pole_splits
-from disting.synthesis.receptance import Receptance
-from disting.synthesis.result import Answer, Status
-from disting.synthesis.row_values import BOUNDARY, Dead, Leaf
-from disting.synthesis.target import Target, is_regular, target
-from disting.synthesis.undamped import neighbours_at
 
 T = TypeVar("T")
 
