@@ -168,7 +168,7 @@ COMBINED_CLAIMS = (
         "condition 6 never applies",
         condition_6_damped,
         Outcome.DIFFERS,
-        "Exchanging force and sensor and mirroring the free part are renamings with damping too;"
+        "Exchanging force and sensor and mirroring the free row are renamings with damping too;"
         " condition 7 is the one that never applies there.",
     ),
     Claim(

@@ -140,7 +140,7 @@ def test_the_sensor_quantity_changes_no_verdict(n, damped):
 
 
 def test_with_ground_dampers_another_condition_may_decide_but_the_same():
-    """One model with a damper to the ground in its free part, the other without: poles at zero
+    """One model with a damper to the ground in its free row, the other without: poles at zero
     of different multiplicity.
     """
     chains = [Chain(2, damped=True, ground_dampers=m) for m in ((), (1,), (2,), (1, 2))]

@@ -24,7 +24,7 @@ from disting.algebra.sampling import about, prime, residues
 from disting.fibres.ideals.system import CoefficientMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
-REMEMBERED = 512  # ranks: a part of a chain is asked for in many pairs
+REMEMBERED = 512  # ranks: a row is asked for in many pairs
 # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
 BITS = 64
 

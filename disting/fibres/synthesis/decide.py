@@ -23,12 +23,13 @@ from disting.evidence.decision import FibreAt
 from disting.fibres.decision import Decision
 from disting.fibres.synthesis.construction import is_constructed, is_untested
 from disting.fibres.synthesis.duality import are_dual
-from disting.fibres.synthesis.fibre import fibre, segments
+from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import cost
 from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.row import rows_of
 from disting.model.symmetry import canonical
 
 # bits of an error bound that points are made long enough for; LEAST_SAFETY is what must be reached
@@ -196,7 +197,7 @@ def _refuse(given: Chain, other: Chain) -> None:
 
 def _cost(chain: Chain) -> int:
     """Rank of the dearest method that the chain needs; those without any last."""
-    return max(cost(s) for s in segments(canonical(chain).chain) if s is not None)
+    return max(map(cost, rows_of(canonical(chain).chain.structure)))
 
 
 def _better(first: Exact, second: Exact) -> Exact:

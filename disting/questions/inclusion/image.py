@@ -22,7 +22,7 @@ from math import ceil, log2
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.powers import powers
 from disting.evidence.ideals import Refuted
-from disting.fibres.ideals import Limits, decide, normalised, refuted_by_parts
+from disting.fibres.ideals import Limits, decide, normalised, refuted_by_rows
 from disting.fibres.synthesis.decide import (
     DRAWS,
     member,
@@ -44,7 +44,7 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
     falling = by_relative_degrees(small, large)
     if falling is not None:
         return falling
-    exact = refuted_by_parts(rational_part(small), rational_part(large), settings.seed)
+    exact = refuted_by_rows(rational_part(small), rational_part(large), settings.seed)
     if exact is not None:
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
     found = _by_synthesis(small, large, settings)

@@ -10,11 +10,11 @@ import sympy as sp
 
 from disting import Chain, Family
 from disting.algebra.sampling import prime, residues
+from disting.model.row import Row
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.across_sizes import included
 from disting.questions.inclusion.pole_sharing import TRIALS, excludes, excluding_points
 from disting.questions.inclusion.row_equations import equation_safety, model_at, row_equation
-from disting.questions.inclusion.rows import Row
 
 
 def pair(small, large, damped=False):
