@@ -317,12 +317,12 @@ class PositiveFinding:
         )
         empirical = Empirical(**data["empirical"]) if "empirical" in data else None
         return PositiveFinding(
-            Share(data["share"]),
-            certainty,
-            data.get("safety", 0),
-            evidence,
-            empirical,
-            data.get("reason", ""),
+            share=Share(data["share"]),
+            certainty=certainty,
+            safety=data.get("safety", 0),
+            evidence=evidence,
+            empirical=empirical,
+            reason=data.get("reason", ""),
         )
 
     def to_json(self) -> str:

@@ -177,15 +177,15 @@ def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLE
     """The verdict that a deciding step gives."""
     f = step.finding
     return Verdict(
-        left,
-        right,
-        step.relation,
-        f.rule.name,
-        step.representation,
-        f.certainty,
-        f.safety,
-        f.evidence,
-        domain,
+        left=left,
+        right=right,
+        relation=step.relation,
+        decided_by=f.rule.name,
+        representation=step.representation,
+        certainty=f.certainty,
+        safety=f.safety,
+        evidence=f.evidence,
+        domain=domain,
     )
 
 

@@ -75,6 +75,12 @@ def confirms_row(evidence: ByRow, a: Structure, b: Structure) -> bool:
             given = next(row for row, ports in told.items() if ports == evidence.given)
             (searched,) = pair - {given}
             return confirms_branches(
-                Branched(given, searched, evidence.label, evidence.branches, evidence.degree)
+                Branched(
+                    given=given,
+                    searched=searched,
+                    label=evidence.label,
+                    branches=evidence.branches,
+                    degree=evidence.degree,
+                )
             )
     return False

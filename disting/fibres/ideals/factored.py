@@ -107,13 +107,13 @@ def factored(row: Row) -> FactoredMap:
     power = min(e[0] for e in den.monoms())  # of the poles at zero, which no zero cancels
     at = {name: k for k, name in enumerate(names)}
     return FactoredMap(
-        f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
-        names,
-        tuple(at[f"h{i}"] for i in range(a, b)),
-        _by_power(theta),
-        _by_power(phi),
-        _by_power(den // ring["s"] ** power),
-        separated((*names, "g"), num, den),
+        name=f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
+        parameters=names,
+        joints=tuple(at[f"h{i}"] for i in range(a, b)),
+        left=_by_power(theta),
+        right=_by_power(phi),
+        poles=_by_power(den // ring["s"] ** power),
+        whole=separated((*names, "g"), num, den),
     )
 
 
@@ -144,7 +144,9 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
             (change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles))
         )
     poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
-    return Values(roots, left, right, numerator, poles, tuple(slopes))
+    return Values(
+        joints=roots, left=left, right=right, numerator=numerator, poles=poles, slopes=tuple(slopes)
+    )
 
 
 def shared_fibre(

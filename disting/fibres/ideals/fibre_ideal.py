@@ -65,11 +65,11 @@ def fibre_ideal(
     values = [fixed.get(name, 0) for name in other.parameters]
     reduced = (restricted(e, kept, values, modulus) for e in equations)
     return FibreIdeal(
-        modulus,
-        point,
-        tuple(other.parameters[i] for i in kept),
-        fixed,
-        tuple(e for e in reduced if e),
+        modulus=modulus,
+        point=point,
+        unknowns=tuple(other.parameters[i] for i in kept),
+        fixed=fixed,
+        generators=tuple(e for e in reduced if e),
     )
 
 

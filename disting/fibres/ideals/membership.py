@@ -125,7 +125,13 @@ def decide(
             Membership.UNKNOWN,
             reason="primes of 64 bits give no useful bound for models of this size",
         )
-    question = _Question(left, right, equal_rank, limits, process_time() + limits.seconds)
+    question = _Question(
+        left=left,
+        right=right,
+        equal_rank=equal_rank,
+        limits=limits,
+        deadline=process_time() + limits.seconds,
+    )
     try:
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])

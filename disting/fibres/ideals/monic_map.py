@@ -71,4 +71,11 @@ def monic_map(row: Row) -> MonicMap:
     heads = tuple(f"h{i}" for i in range(a, b))
     zeros = reduce(mul, (s + ring[h] for h in heads), left * right)
     sides = [separated(names, p, one).numerator[:-1] for p in (left, right, poles)]
-    return MonicMap(names, heads, sides[0], sides[1], sides[2], separated(names, zeros, poles))
+    return MonicMap(
+        parameters=names,
+        heads=heads,
+        left=sides[0],
+        right=sides[1],
+        poles=sides[2],
+        whole=separated(names, zeros, poles),
+    )

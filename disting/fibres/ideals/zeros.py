@@ -206,7 +206,7 @@ def refute(given: Row, searched: Row, label: str, entries: int = ENTRIES) -> Bra
         if basis is None or not basis.is_one:
             return None
         degree = max(degree, basis.degree)
-    return Branched(given, searched, label, len(tried), degree)
+    return Branched(given=given, searched=searched, label=label, branches=len(tried), degree=degree)
 
 
 def are_comparable(given: Row, searched: Row) -> bool:

@@ -43,12 +43,18 @@ def between(row: Row, data: Receptance, left: list[Ball], right: list[Ball]) -> 
         sum((r.value / r.at ** (i + 1) for r in rights), 0 * whole[0]) for i in range(q)
     ]
     w_right = Stiffness(
-        grounded_at_zero(over(rights, low), q), product(right), row.n_masses - row.a, False, q
+        numerator=grounded_at_zero(over(rights, low), q),
+        denominator=product(right),
+        masses=row.n_masses - row.a,
+        wall=False,
+        q=q,
     )
     p_left = over(lefts, [whole[i] - low[i] for i in range(q)])
     if not row.grounded:
         p_left = grounded_at_zero(p_left, q)
-    w_left = Stiffness(p_left, product(left), row.a - 1, row.grounded, q)
+    w_left = Stiffness(
+        numerator=p_left, denominator=product(left), masses=row.a - 1, wall=row.grounded, q=q
+    )
     mass = whole[q]
 
     def join(a: RowValues, b: RowValues) -> RowValues:

@@ -326,4 +326,10 @@ def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, row: Row | None) -> Sti
     """
     wall, known = (row.grounded, row.poles_at_zero(2)) if row else (False, 2)
     numerator = cut(whole - mass * shifted(zeros, 2), 2 * nu + 1)
-    return Stiffness(numerator if wall else grounded_at_zero(numerator, known), zeros, nu, wall, 2)
+    return Stiffness(
+        numerator=numerator if wall else grounded_at_zero(numerator, known),
+        denominator=zeros,
+        masses=nu,
+        wall=wall,
+        q=2,
+    )

@@ -186,7 +186,11 @@ def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
     quotient = (branch.data.denominator - m_b * driven) // branch.swing(t)
     numerator = cut(m_a * (quotient - shifted(denominator, 2)), 2 * nu + 1)
     return Stiffness(
-        numerator if wall else grounded_at_zero(numerator, known), denominator, nu, wall, 2
+        numerator=numerator if wall else grounded_at_zero(numerator, known),
+        denominator=denominator,
+        masses=nu,
+        wall=wall,
+        q=2,
     )
 
 

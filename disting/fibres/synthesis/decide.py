@@ -212,17 +212,17 @@ def _finding(found: Fibre, way: Direction, point: dict[str, fmpq], grounds: Grou
     width = max((s.width for s in found.solutions), default=0.0)
     count, bits = len(found.solutions), found.precision_bits
     return Exact(
-        _MEANING[grounds],
-        way,
-        point,
-        found.status,
-        count,
-        real,
-        positive,
-        bits,
-        width,
-        grounds,
-        found.reason,
+        membership=_MEANING[grounds],
+        direction=way,
+        point=point,
+        status=found.status,
+        solutions=count,
+        real=real,
+        positive=positive,
+        precision_bits=bits,
+        width=width,
+        grounds=grounds,
+        reason=found.reason,
     )
 
 

@@ -75,7 +75,11 @@ def _side(row: Row, residues: list[Residue], constant: Ball, left: bool) -> Side
     places = range(row.a - 1, 0, -1) if left else range(row.a + 1, row.n_masses + 1)
     dampers = tuple(i in row.ground_dampers for i in places)
     side = Side(
-        poly([]), product([r.at for r in residues]), dampers, row.grounded and left, not row.damped
+        numerator=poly([]),
+        denominator=product([r.at for r in residues]),
+        dampers=dampers,
+        wall=row.grounded and left,
+        elastic=not row.damped,
     )
     known = side.is_loose and row.damped
     growth = sum((r.value / r.at**2 for r in residues), NOTHING) if known else NOTHING

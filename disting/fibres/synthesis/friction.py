@@ -94,13 +94,27 @@ def peel(w: Side) -> Iterator[Leaf]:
     elif any(w.dampers):
         yield from _damped(w)
     else:
-        yield from plain_peel(Stiffness(w.numerator, w.denominator, len(w.dampers), w.wall, 2))
+        yield from plain_peel(
+            Stiffness(
+                numerator=w.numerator,
+                denominator=w.denominator,
+                masses=len(w.dampers),
+                wall=w.wall,
+                q=2,
+            )
+        )
 
 
 def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     """Yield b (zero without a damper) with all that can be behind the mass."""
     nu = len(node.dampers)
-    side = Side(node.numerator, node.denominator, node.dampers, node.wall, node.elastic)
+    side = Side(
+        numerator=node.numerator,
+        denominator=node.denominator,
+        dampers=node.dampers,
+        wall=node.wall,
+        elastic=node.elastic,
+    )
     if not node.damper and not node.elastic:
         yield from (
             (NOTHING, leaf) for leaf in peel(replace(side, numerator=_low(node.numerator, side)))
@@ -212,7 +226,16 @@ def _behind(w: Side, numerator: Poly, spring: Poly) -> Iterator[Leaf]:
     mass: Ball = 1 / rest[2 * nu - 2]
     raw = cut(mass * (delta - mass * shifted(rest, 2)), 2 * nu - 1)
     raw = raw if w.wall else shifted(shifted(raw, -1), 1)
-    for b, leaf in behind(Node(raw, rest * mass, w.dampers[0], w.dampers[1:], w.wall, w.elastic)):
+    for b, leaf in behind(
+        Node(
+            numerator=raw,
+            denominator=rest * mass,
+            damper=w.dampers[0],
+            dampers=w.dampers[1:],
+            wall=w.wall,
+            elastic=w.elastic,
+        )
+    ):
         yield attached(spring, mass, b, w.dampers[0], leaf)
 
 

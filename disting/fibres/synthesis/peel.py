@@ -88,7 +88,13 @@ def _behind(w: Stiffness, spring: Poly) -> Iterator[Leaf]:
         yield BOUNDARY
         return
     mass: Ball = 1 / rest[q * (nu - 1)]
-    inner = Stiffness(_remaining(delta, rest, mass, w), rest * mass, nu - 1, w.wall, q)
+    inner = Stiffness(
+        numerator=_remaining(delta, rest, mass, w),
+        denominator=rest * mass,
+        masses=nu - 1,
+        wall=w.wall,
+        q=q,
+    )
     for leaf in peel(inner):
         yield (
             replace(leaf, masses=(mass, *leaf.masses), springs=(spring, *leaf.springs))

@@ -79,7 +79,13 @@ def _side(pair: tuple[Ball, Ball], mass: Ball, kappa: Ball, nu: int, wall: bool)
     """W = (m Theta - kappa A - m x A)/A of degree nu over nu."""
     theta, zeros = pair
     numerator = cut(mass * theta - kappa * zeros - mass * shifted(zeros, 1), nu)
-    return Stiffness(numerator if wall else grounded_at_zero(numerator, 1), zeros, nu, wall, 1)
+    return Stiffness(
+        numerator=numerator if wall else grounded_at_zero(numerator, 1),
+        denominator=zeros,
+        masses=nu,
+        wall=wall,
+        q=1,
+    )
 
 
 def to_end(row: Row, data: Receptance) -> Iterator[Leaf]:

@@ -86,7 +86,13 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
             Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
         )
     solved = found.solved
-    evidence = LimitFibre(False, found.steps, solved.left_given, solved.labels, solved.solutions)
+    evidence = LimitFibre(
+        left_is_larger=False,
+        steps=found.steps,
+        small_given=solved.left_given,
+        labels=solved.labels,
+        solutions=solved.solutions,
+    )
     return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, found.safety, evidence)
 
 

@@ -162,7 +162,7 @@ def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, lis
         wanted, there = normalised(given), normalised(other)
         return {
             WHOLE: (
-                [Wanted(WHOLE, WHOLE, wanted, there, rows[FREE])]
+                [Wanted(split=WHOLE, name=WHOLE, receptance=wanted, there=there, row=rows[FREE])]
                 if wanted.degrees[1] == there.degrees[1]
                 else []
             )
@@ -171,7 +171,7 @@ def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, lis
     for split in splits(given, gap(other)):
         pairs = zip(split.receptances.named, receptances(other).named, strict=True)
         found[split.name] = [
-            Wanted(split.name, name, wanted, there, rows[name])
+            Wanted(split=split.name, name=name, receptance=wanted, there=there, row=rows[name])
             for (name, wanted), (_, there) in pairs
         ]
     return found

@@ -126,7 +126,13 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
     if found is None or found[1] < LEAST_SAFETY:
         return None
-    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, found[1], found[0])
+    return Finding(
+        rule=EXACT,
+        outcome=Outcome.FAILS,
+        certainty=Certainty.BOUNDED,
+        safety=found[1],
+        evidence=found[0],
+    )
 
 
 def by_row(a: Chain, b: Chain) -> Finding | None:
@@ -142,7 +148,13 @@ def by_row(a: Chain, b: Chain) -> Finding | None:
     )
     safety = safety_of_branches(given, searched)
     return (
-        Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety, evidence)
+        Finding(
+            rule=EXACT,
+            outcome=Outcome.FAILS,
+            certainty=Certainty.BOUNDED,
+            safety=safety,
+            evidence=evidence,
+        )
         if safety >= LEAST_SAFETY
         else None
     )
