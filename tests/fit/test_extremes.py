@@ -27,6 +27,8 @@ TAKEN = {
     "wide": (OMEGA, RESPONSE * np.logspace(-25, 25, 30)),
     "slow": (OMEGA * 1e-28, RESPONSE),
     "fast": (OMEGA * 1e26, RESPONSE),
+    "8 lines": (OMEGA[::4], RESPONSE[::4]),
+    "10 lines": (OMEGA[::3], RESPONSE[::3]),  # fewer than lie near a line
 }
 
 
