@@ -31,18 +31,17 @@ def page(
 
 
 @pytest.fixture
-def tab(browser, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
+def tab(window, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     """The page; at the end of the test: no message on the console, no request but for the file."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    opened, troubles, requests = context.new_page(), [], []
+    opened, troubles, requests = window.new_page(), [], []
     opened.on("console", lambda message: troubles.append(message.text))
     opened.on("pageerror", lambda error: troubles.append(str(error)))
     opened.on("request", lambda request: requests.append(request.url))
     opened.goto(page.as_uri())
     yield opened
+    opened.close()
     assert troubles == []
     assert requests == [page.as_uri()]
-    context.close()
 
 
 def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection) -> None:  # type: ignore[no-untyped-def]
@@ -103,7 +102,7 @@ def test_commands_break_between_their_words(tab) -> None:  # type: ignore[no-unt
 
 
 def test_structures_lead_to_the_catalogue(
-    browser,  # type: ignore[no-untyped-def]
+    window,  # type: ignore[no-untyped-def]
     selection: Selection,
     train: FrequencyResponse,
     tmp_path: Path,
@@ -114,7 +113,7 @@ def test_structures_lead_to_the_catalogue(
     found = replace(selection, members=(replace(first, twins=(loaded,)),))
     text = fit_page(found, [], [waterfall(found.described)], train, site=Site(REPORTS, tmp_path))
     (tmp_path / "fit.html").write_text(text, encoding="utf-8")
-    opened = browser.new_page()
+    opened = window.new_page()
     for link, title in ((".member h3 a", "Model A1"), (".same a", "1+b2")):
         opened.goto((tmp_path / "fit.html").as_uri())
         follow_link(opened, link)
