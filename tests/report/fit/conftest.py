@@ -10,6 +10,8 @@ from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.report.fit import waterfall
+from disting.report.fit.style import Drawn
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
 # antiresonance 33.8 Hz, resonance 58.5 Hz
@@ -40,6 +42,12 @@ def test() -> FrequencyResponse:
 @pytest.fixture(scope="session")
 def selection(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
     return select(train, figure_1((1, 2)), test=test)
+
+
+@pytest.fixture(scope="session")
+def starts(selection: Selection) -> Drawn:
+    """One figure, for pages of which no figure is looked at."""
+    return waterfall(selection.described)
 
 
 @pytest.fixture(scope="session")

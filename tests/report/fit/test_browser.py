@@ -12,8 +12,9 @@ from disting.fit.members import Twin
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.report.fit import fit_page, waterfall
+from disting.report.fit import fit_page
 from disting.report.fit.onward import Site, next_steps
+from disting.report.fit.style import Drawn
 from tests.report.links import follow_link
 
 REPORTS = Path(__file__).parents[3] / "reports"
@@ -21,12 +22,13 @@ REPORTS = Path(__file__).parents[3] / "reports"
 
 @pytest.fixture(scope="module")
 def page(
-    selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory
+    selection: Selection,
+    train: FrequencyResponse,
+    starts: Drawn,
+    tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     path = tmp_path_factory.mktemp("browser") / "fit.html"
-    path.write_text(
-        fit_page(selection, [], [waterfall(selection.described)], train), encoding="utf-8"
-    )
+    path.write_text(fit_page(selection, [], [starts], train), encoding="utf-8")
     return path
 
 
@@ -105,13 +107,14 @@ def test_structures_lead_to_the_catalogue(
     window,  # type: ignore[no-untyped-def]
     selection: Selection,
     train: FrequencyResponse,
+    starts: Drawn,
     tmp_path: Path,
 ) -> None:
     """To the model's page, and to the model among those with ground dampers."""
     (first,) = selection.members
     loaded = Twin(Chain(3, damped=True, ground_dampers=(2,)), {})
     found = replace(selection, members=(replace(first, twins=(loaded,)),))
-    text = fit_page(found, [], [waterfall(found.described)], train, site=Site(REPORTS, tmp_path))
+    text = fit_page(found, [], [starts], train, site=Site(REPORTS, tmp_path))
     (tmp_path / "fit.html").write_text(text, encoding="utf-8")
     opened = window.new_page()
     for link, title in ((".member h3 a", "Model A1"), (".same a", "1+b2")):

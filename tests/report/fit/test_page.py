@@ -25,6 +25,7 @@ from disting.report.fit import (
 )
 from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.page import reasoning
+from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
@@ -61,10 +62,10 @@ def outline(written: list[Path]) -> Outline:
 
 
 @pytest.fixture(scope="module")
-def empty(nothing: Selection, train: FrequencyResponse) -> Outline:
+def empty(nothing: Selection, train: FrequencyResponse, starts: Drawn) -> Outline:
     """With one figure: of the files of all of them, those of `written` are looked at."""
     found = nothing.described
-    return Outline(fit_page(nothing, physical(found, nothing.task), [waterfall(found)], train))
+    return Outline(fit_page(nothing, physical(found, nothing.task), [starts], train))
 
 
 def test_all_files_are_written_and_linked(written: list[Path], outline: Outline) -> None:
@@ -151,10 +152,13 @@ def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline
 
 
 def test_more_candidates_than_fit_are_behind_details(
-    selection: Selection, train: FrequencyResponse, monkeypatch: pytest.MonkeyPatch
+    selection: Selection,
+    train: FrequencyResponse,
+    starts: Drawn,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("disting.report.fit.page.FIRST", 10)
-    text = fit_page(selection, [], [waterfall(selection.described)], train)
+    text = fit_page(selection, [], [starts], train)
     assert "<summary>All 24 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
     assert len(re.findall('class="chosen"', text)) in (1, 2)
@@ -236,7 +240,7 @@ def test_an_unknown_parameter_has_no_profile(
 
 
 def test_structures_that_no_data_can_tell_apart_are_named(
-    train: FrequencyResponse, test: FrequencyResponse
+    train: FrequencyResponse, test: FrequencyResponse, starts: Drawn
 ) -> None:
     loose = Thresholds(1e12, 1e12, 1e12)
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
@@ -246,7 +250,7 @@ def test_structures_that_no_data_can_tell_apart_are_named(
         and len(found.selected.chain.ground_dampers) == 1
         and found.saved == 1
     )
-    said = " ".join(Outline(fit_page(found, [], [waterfall(found.described)], train)).text.split())
+    said = " ".join(Outline(fit_page(found, [], [starts], train)).text.split())
     assert (
         "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
     )
