@@ -19,11 +19,11 @@ VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}
 HOSTILE = """</script><img src=x onerror='alert(1)'>&amp;{{ 7*7 }} $x^2$ <!-- --"""
 
 
-def response(start: int, step: int, seed: int) -> FrequencyResponse:
-    """The drive between 5 and 200 Hz with 1 % noise."""
+def response(start: int, step: int, seed: int, drive: Chain = DRIVE) -> FrequencyResponse:
+    """The drive, or another with its values, between 5 and 200 Hz with 1 % noise."""
     omega = 2 * np.pi * np.geomspace(5.0, 200.0, 90)[start::step]
     noise = np.random.default_rng(seed).normal(size=(2, len(omega))) / 100
-    measured = predicted(DRIVE, VALUES, omega) * (1 + noise[0] + 1j * noise[1])
+    measured = predicted(drive, VALUES, omega) * (1 + noise[0] + 1j * noise[1])
     coherence = np.full(len(omega), 0.998)
     signals = (("torque", "Nm"), (HOSTILE, "rad/s^2"))
     return FrequencyResponse(omega, measured, None, coherence, DRIVE.sensor, *signals, HOSTILE)  # type: ignore[arg-type]

@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,6 @@ from disting.fit.modes import physical
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain, Sensor
 from disting.report.fit import (
     collinearity_dots,
     fit_page,
@@ -31,7 +31,7 @@ from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
 
-from .conftest import DRIVE, HOSTILE
+from .conftest import DRIVE, HOSTILE, response
 
 FIGURES = [
     "bode",
@@ -239,10 +239,11 @@ def test_an_unknown_parameter_has_no_profile(
     assert not (tmp_path / "x").exists()
 
 
-def test_structures_that_no_data_can_tell_apart_are_named(
-    train: FrequencyResponse, test: FrequencyResponse, starts: Drawn
-) -> None:
-    loose = Thresholds(1e12, 1e12, 1e12)
+FAR = replace(DRIVE, meas_plus=2)
+
+
+def test_structures_that_no_data_can_tell_apart_are_named(starts: Drawn) -> None:
+    train, test, loose = response(0, 2, 1, FAR), response(1, 3, 2, FAR), Thresholds(*3 * (1e12,))
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
     found = select(train, candidates, test=test, thresholds=loose)
     assert (
@@ -265,12 +266,10 @@ def test_no_alternatives_are_said_so(outline: Outline) -> None:
     )
 
 
-def test_what_no_data_determine_is_said_in_words(
-    train: FrequencyResponse, test: FrequencyResponse
-) -> None:
-    found = select(
-        train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)], test=test
-    )
+def test_what_no_data_determine_is_said_in_words() -> None:
+    free = replace(FAR, ground_dampers=())
+    train = response(0, 2, 1, free)
+    found = select(train, [free], test=response(1, 3, 2, free))
     candidate = found.described
     drawn = [
         waterfall(candidate),
