@@ -204,9 +204,7 @@ def test_what_was_settled_once_holds():
 
 
 def assert_settled(known, pairs):
-    chains = {
-        str(canonical(c).chain): canonical(c).chain
-        for c in damper_catalog(5, damped=True).found.chains
-    }
+    canonicals = {canonical(c).chain for c in damper_catalog(5, damped=True).found.chains}
+    chains = {str(c): c for c in canonicals}
     for names in pairs:
         assert Witness().confirms(known[names].evidence, "fibre", *(chains[n] for n in names))
