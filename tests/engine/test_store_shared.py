@@ -62,7 +62,7 @@ def test_processes_that_keep_replacing_the_file_do_not_disturb_each_other(
 def test_a_write_waits_for_another_process(filled: Path) -> None:
     worker, found = start("hold", filled), []
     assert first_line(worker) == "held\n"
-    with Store.open(filled, wait_seconds=20) as store:
+    with Store.open(filled, wait_seconds=LONG) as store:
         waiting = threading.Thread(target=lambda: found.append(works(store)), daemon=True)
         waiting.start()
         waiting.join(0.3)

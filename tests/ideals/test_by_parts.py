@@ -30,7 +30,7 @@ from disting.model.symmetry import canonical
 from disting.question import Membership
 from disting.synthesis.decide import Grounds, member
 
-LIMITS = Limits(seconds=20, entries=1_000_000, safety=100)
+LIMITS = Limits(seconds=600, entries=1_000_000, safety=100)
 P = prime("test of parts")
 
 

@@ -16,7 +16,7 @@ from disting.evidence.ideals import FullParts
 from disting.ideals import Limits, same_by_full_parts
 from disting.settings import Settings
 
-LIMITS = Limits(seconds=60.0, entries=500_000, safety=100)
+LIMITS = Limits(seconds=600, entries=500_000, safety=100)
 
 
 def found(a: Chain, b: Chain) -> FullParts | None:
