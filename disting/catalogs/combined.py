@@ -7,11 +7,10 @@ lie inside the larger one, as a limit (see `conditions.across_sizes`).
 from collections.abc import Sequence
 from concurrent.futures import Executor
 
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
-from disting.verdict import Query
+from disting.verdict import Decisions, Engine, Progress, Query, silent
 
 
 def combined_family(

@@ -15,11 +15,11 @@ from markupsafe import Markup
 from disting.algebra.notation import Sum, latex, latex_symbol
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import Polynomial, coefficients, factors, terms
+from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
-from disting.identifiability.parts import Combination
-from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
+from disting.questions.identifiability.parts import Combination
 from disting.report.mathml import (
     equation,
     expression,
