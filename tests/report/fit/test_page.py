@@ -4,6 +4,7 @@ import csv
 import json
 import re
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -157,7 +158,8 @@ def test_more_candidates_than_fit_are_behind_details(
     starts: Drawn,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("disting.report.fit.fit_page.FIRST", 10)
+    # the package has a function of the module's name
+    monkeypatch.setattr(import_module("disting.report.fit.fit_page"), "FIRST", 10)
     text = fit_page(selection, [], [starts], train)
     assert "<summary>All 24 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
