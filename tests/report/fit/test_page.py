@@ -24,7 +24,7 @@ from disting.report.fit import (
     write_fit_report,
 )
 from disting.report.fit.criteria import limits, nearest, weakest
-from disting.report.fit.fit_page import reasoning
+from disting.report.fit.selection_page import reasoning
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name
@@ -159,7 +159,7 @@ def test_more_candidates_than_fit_are_behind_details(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # the package has a function of the module's name
-    monkeypatch.setattr(import_module("disting.report.fit.fit_page"), "FIRST", 10)
+    monkeypatch.setattr(import_module("disting.report.fit.selection_page"), "FIRST", 10)
     text = fit_page(selection, [], [starts], train)
     assert "<summary>All 24 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
