@@ -76,6 +76,10 @@ class Engine:
         found: T = self.answers[key]
         return found
 
+    def remember(self, question: Question[T], chains: Chains, answer: T) -> None:
+        """Take over an answer that is known already, such as a catalogue's; it is not stored."""
+        self.answers[question_key(question, chains, self.settings)] = answer
+
     def verdict(
         self, left: Subject, right: Subject, query: Query, *, audited: bool = False
     ) -> Verdict:

@@ -16,6 +16,7 @@ from disting.inclusion.decide import inclusions as inclusions
 from disting.inclusion.decide import joined as joined
 from disting.inclusion.decide import needs_ideals as needs_ideals
 from disting.inclusion.decide import quick_closure as quick_closure
+from disting.inclusion.decide import turned as turned
 from disting.inclusion.finding import ONE_SIDED as ONE_SIDED
 from disting.inclusion.finding import Inclusion as Inclusion
 from disting.inclusion.finding import InclusionFinding as InclusionFinding

@@ -11,12 +11,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from flint import Ordering, fmpz_mpoly_ctx
 from markupsafe import Markup
 
 from disting.algebra.notation import Sum, latex, latex_symbol
 from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import Polynomial, coefficients, factors, terms
+from disting.algebra.symbols import (
+    Content,
+    Polynomial,
+    coefficients,
+    content,
+    factors,
+    polynomial_of,
+    terms,
+)
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
 from disting.identifiability.parts import Combination
@@ -80,7 +87,7 @@ def written(chain: Chain) -> TransferFunction:
     sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
     head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
     flat = [
-        (f"{letter}{power}", _shown(p.context().names(), tuple(p.to_dict().items())))
+        (f"{letter}{power}", _shown(content(p)))
         for letter, coefficients in sides
         for power, p in coefficients
     ]
@@ -123,14 +130,12 @@ def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
 
 
 @cache
-def _shown(
-    names: tuple[str, ...], entries: tuple[tuple[tuple[int, ...], int], ...]
-) -> tuple[tuple[str, ...], str]:
-    """A polynomial, given as exponents and numbers, in MathML and in LaTeX.
+def _shown(known: Content) -> tuple[tuple[str, ...], str]:
+    """A polynomial in MathML and in LaTeX.
 
     Many chains of a family share it: a denominator does not depend on the ports.
     """
-    shown = _readable(fmpz_mpoly_ctx.get(names, Ordering.lex).from_dict(dict(entries)))
+    shown = _readable(polynomial_of(known))
     parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
     return tuple(parts), latex(shown)
 
