@@ -20,7 +20,7 @@ from math import ceil, log2
 
 from flint import fmpz
 
-from disting.certainty import LEAST_SAFETY
+from disting.algebra.certainty import LEAST_SAFETY
 
 # products of two residues fit into 64 bits: the vectorised searches use such primes
 SEARCH_BITS = 31

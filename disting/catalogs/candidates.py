@@ -4,7 +4,7 @@ of a fit (Fig. 1).
 `candidates.jsonl`: a header, a line a model, then a line for each model but the last with one sign
 for each later model: relation (. distinguishable, = indistinguishable, ? undecided), deciding
 condition (e the exact decision), representation and certainty. The evidence is not kept: `compare`
-gives it. A relation does not depend on the sensor quantity (see `catalogs.variants`), so the
+gives it. A relation does not depend on the sensor quantity, so the
 stored ones serve all three.
 """
 
@@ -15,18 +15,16 @@ from functools import cache, cached_property
 from pathlib import Path
 from string import ascii_letters
 
+from disting.algebra.certainty import Certainty
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
-from disting.certainty import Certainty
-from disting.comparison import name_of
 from disting.conditions.table import RULES
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import CatalogError, InputError
+from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
-from disting.packaged import intact_text
-from disting.verdict import Query, Relation, View
-from disting.written import write_whole
+from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
+from disting.verdict.comparison import name_of
 
 SCHEMA = 1
 FILE = "candidates.jsonl"

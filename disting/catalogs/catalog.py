@@ -22,9 +22,9 @@ from disting.catalogs.files import (
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
-from disting.identifiability import Identifiability
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.questions.identifiability import Identifiability
 from disting.verdict import Relation, Verdict, View
 
 if TYPE_CHECKING:
@@ -227,7 +227,16 @@ class Catalog:
         number, (numerator, denominator) = record["model"], record["degrees"]
         known = Identifiability.from_dict(record["identifiability"])
         chain, count = self.family[number], len(record["parameters"])
-        return ModelRow(number, chain, numerator, denominator, count, record["rank"], group, known)
+        return ModelRow(
+            number=number,
+            chain=chain,
+            numerator_degree=numerator,
+            denominator_degree=denominator,
+            n_parameters=count,
+            rank=record["rank"],
+            group=group,
+            identifiability=known,
+        )
 
     @cached_property
     def _known(self) -> dict[tuple[int, int, View], Verdict]:

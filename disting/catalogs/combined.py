@@ -10,16 +10,15 @@ from typing import Any
 
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE
-from disting.conditions.admissible import POSITIVELY
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding
-from disting.inclusion import CLOSURE, IMAGE, inclusions_from_dict, turned
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
+from disting.model.question import Models, Question
 from disting.model.symmetry import canonical
-from disting.question import Chains, Question
-from disting.verdict import Query
+from disting.questions.inclusion import CLOSURE, IMAGE, inclusions_from_dict, turned
+from disting.questions.same.real_and_positive import POSITIVELY
+from disting.verdict import Decisions, Engine, Progress, Query, silent
 
 
 def combined_family(
@@ -66,7 +65,7 @@ def combined(
     return engine.decisions(subjects, query or Query(), executor=executor, progress=progress)
 
 
-def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Chains, Any]]:
+def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
     """Yield what a catalogue answers about pairs of its models: which are limits or equivalents
     of others, and which positive ones have positive equivalents.
 

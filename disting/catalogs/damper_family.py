@@ -10,13 +10,12 @@ from functools import cached_property
 from disting.catalogs.damper_settled import preload, read_settled
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.files import shipped_folder
-from disting.conditions.quick import PATIENTLY, SETTLED, SHARING
-from disting.engine import Engine, Progress, silent
-from disting.engine.classes import Classes
-from disting.engine.grouping import classes
 from disting.errors import InputError
 from disting.model.family import Family
-from disting.verdict import Relation
+from disting.questions.same.limited import PATIENTLY, SETTLED, SHARING
+from disting.verdict import Engine, Progress, Relation, silent
+from disting.verdict.classes import Classes
+from disting.verdict.grouping import classes
 
 # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
 PATIENT_UP_TO = 4

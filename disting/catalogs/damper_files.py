@@ -4,7 +4,7 @@ masses.
 `dampers-<masses>-<undamped|damped>.jsonl`: a header with the pairs of classes that are undecided,
 then a line a model of the family with a list for each of its sets of dampers, in the order of
 `DamperSets.ALL`: `columns` (buckets of the tests that the header names, 10 for the exact decision;
-null where not known), `group`, `renamed`, `free` and `rank`, as in `engine.classes`. The evidence
+null where not known), `group`, `renamed`, `free` and `rank`, as in `verdict.classes`. The evidence
 is not kept: `compare` gives it.
 """
 
@@ -20,14 +20,13 @@ from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
-from disting.conditions.codec import WRITTEN
+from disting.conditions.finding_json import WRITTEN
 from disting.conditions.rule import EXACT
-from disting.engine.classes import Classes
 from disting.errors import CatalogError
+from disting.files import intact_text, write_whole
 from disting.model.family import Family
-from disting.packaged import intact_text
-from disting.settings import Settings
-from disting.written import write_whole
+from disting.model.settings import Settings
+from disting.verdict.classes import Classes
 
 SCHEMA = 1
 SHIPPED_SIZES = (3, 4, 5)

@@ -8,9 +8,9 @@ from pathlib import Path
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_settled import append, read_settled
 from disting.conditions.finding import Outcome
-from disting.conditions.quick import sharing_finding
-from disting.conditions.subject import Subject
-from disting.settings import Settings
+from disting.model.settings import Settings
+from disting.questions.same.limited import sharing_finding
+from disting.verdict.chains import ComparedChain
 
 
 def settle_dampers(
@@ -32,7 +32,7 @@ def settle_dampers(
     return count
 
 
-def _representative(found: DamperFamily, group: int) -> Subject:
-    """The member of a class with the fewest dampers, as `engine.grouping` chooses it."""
+def _representative(found: DamperFamily, group: int) -> ComparedChain:
+    """The member of a class with the fewest dampers, as `verdict.grouping` chooses it."""
     members = (c for c, g in zip(found.found.chains, found.found.group, strict=True) if g == group)
-    return Subject("", min(members, key=lambda c: (len(c.ground_dampers), c.indices)))
+    return ComparedChain("", min(members, key=lambda c: (len(c.ground_dampers), c.indices)))

@@ -8,14 +8,14 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from disting.conditions.codec import finding_from_json, finding_to_json
 from disting.conditions.finding import Finding
-from disting.conditions.quick import SETTLED
-from disting.conditions.subject import Subject
-from disting.engine import Engine
-from disting.engine.engine import question_key
+from disting.conditions.finding_json import finding_from_json, finding_to_json
+from disting.files import intact_text
 from disting.model.chain import Chain
-from disting.packaged import intact_text
+from disting.questions.same.limited import SETTLED
+from disting.verdict import Engine
+from disting.verdict.chains import ComparedChain
+from disting.verdict.engine import question_key
 
 FILE = "settled-dampers.jsonl"
 Settled = dict[tuple[str, str], Finding]
@@ -42,7 +42,7 @@ def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
         file.write(json.dumps(record, separators=(",", ":")) + "\n")
 
 
-def preload(engine: Engine, known: Settled, subjects: Sequence[Subject]) -> None:
+def preload(engine: Engine, known: Settled, subjects: Sequence[ComparedChain]) -> None:
     """Let the engine know the findings on these subjects."""
     chains = {str(s.canonical.chain): s.canonical.chain for s in subjects}
     for names, finding in known.items():

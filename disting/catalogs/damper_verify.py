@@ -9,10 +9,9 @@ from pathlib import Path
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import name_of, read, text_of, was_patient
 from disting.catalogs.damper_settled import read_settled
-from disting.conditions.verify import Witness
-from disting.engine import Engine, Progress, silent
 from disting.model.symmetry import canonical
-from disting.verdict import Relation
+from disting.questions.same.verify import Witness
+from disting.verdict import Engine, Progress, Relation, silent
 
 
 def verify_dampers(

@@ -13,11 +13,10 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
 
-from disting.domain import Domain
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.verdict import Query, Relation, Verdict, View
+from disting.model.domain import Domain
+from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
 
 Masses = tuple[int, ...]
 COLUMNS = ("left", "right", "relation", "decided_by", "domain")

@@ -5,12 +5,11 @@ import io
 import json
 from collections.abc import Iterable, Sequence
 
-from disting.certainty import Certainty
-from disting.domain import Domain
-from disting.engine import Decisions, family_safety
+from disting.algebra.certainty import Certainty
 from disting.evidence.positive import PositiveFinding
-from disting.inclusion import Inclusion, Sense
-from disting.verdict import Relation, error_bound
+from disting.model.domain import Domain
+from disting.questions.inclusion import Inclusion, Sense
+from disting.verdict import Decisions, Relation, error_bound, family_safety
 
 CSV_COLUMNS = (
     "left",
@@ -85,8 +84,8 @@ def share_text(found: PositiveFinding | None) -> str:
 
 
 def _names(decided: Decisions) -> Sequence[int | str]:
-    """Numbers from 1 for models of one size, else the subjects' names."""
-    of_one_size = len({s.chain.n_masses for s in decided.subjects}) == 1
+    """Numbers from 1 for chains of one size, else the subjects' names."""
+    of_one_size = len(set(decided.sizes)) == 1
     return (
         range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
     )

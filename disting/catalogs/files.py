@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import CatalogError
-from disting.packaged import PROVENANCE as PROVENANCE
-from disting.packaged import intact_text
-from disting.packaged import shipped_folder as shipped_folder
+from disting.files import PROVENANCE as PROVENANCE
+from disting.files import intact_text
+from disting.files import shipped_folder as shipped_folder
 
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)

@@ -2,7 +2,7 @@
 whenever one is read.
 
 Files that `disting catalog settle` appends to are named with the length that they had: what is
-appended later is the user's own. See `disting.packaged.intact_text`, which compares.
+appended later is the user's own. See `disting.files.intact_text`, which compares.
 """
 
 import json
@@ -13,8 +13,8 @@ from pathlib import Path
 import disting
 from disting.catalogs.damper_settled import FILE as SETTLED
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest
-from disting.ideals.row_answers import ROWS
-from disting.written import write_whole
+from disting.fibres.ideals.row_answers import ROWS
+from disting.files import write_whole
 
 GROWING = (ROWS, SETTLED)
 

@@ -7,14 +7,13 @@ from pathlib import Path
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
-from disting.conditions.subject import Subject
-from disting.conditions.verify import Witness
-from disting.engine import Engine, Progress, silent
-from disting.ideals.row_answers import false_answers
-from disting.inclusion import confirms
+from disting.fibres.ideals.row_answers import false_answers
 from disting.model.symmetry import canonical
-from disting.positivity import proves
-from disting.verdict import View
+from disting.questions.inclusion import confirms
+from disting.questions.positive import proves
+from disting.questions.same.verify import Witness
+from disting.verdict import Engine, Progress, View, silent
+from disting.verdict.chains import ComparedChain
 
 
 def verify(
@@ -42,7 +41,7 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
     """Yield a sentence for each piece of evidence that does not hold."""
     witness = Witness()
     subjects = {
-        number: Subject(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)
+        number: ComparedChain(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)
     }
     total = len(stored.family) * (len(stored.family) - 1) // 2
     for done, (left, right, _) in enumerate(stored.pairs(View.EXACT), 1):
@@ -60,7 +59,7 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
 
 
 def _false_inclusions(
-    stored: Catalog, left: Subject, right: Subject, numbers: tuple[int, int]
+    stored: Catalog, left: ComparedChain, right: ComparedChain, numbers: tuple[int, int]
 ) -> Iterator[str]:
     """Of what is known of finite elements, and of limits; that evidence is of the right kind
     was seen when it was read.

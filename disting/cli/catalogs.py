@@ -2,8 +2,8 @@
 
 import argparse
 
-from disting.cli.work import engine_for
-from disting.engine import Engine
+from disting.cli.workers import engine_for
+from disting.verdict import Engine
 
 
 def build(options: argparse.Namespace) -> int:

@@ -8,13 +8,13 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from disting.certainty import USELESS
+from disting.algebra.certainty import USELESS
 from disting.conditions.table import RULES
-from disting.domain import Domain
 from disting.errors import InputError, shown
+from disting.files import write_whole
+from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 from disting.verdict import Query, Relation, View
-from disting.written import write_whole
 
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
 

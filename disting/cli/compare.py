@@ -7,18 +7,18 @@ from collections.abc import Iterator
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import query, reference
-from disting.cli.work import engine_for
-from disting.comparison import compare
-from disting.domain import Domain
+from disting.cli.workers import engine_for
 from disting.equivalence import chain_of
 from disting.errors import InputError, listed
 from disting.evidence.real import BothWays
-from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.chain import Chain, Sensor
+from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
-from disting.proof import prove
+from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Query, Relation, Verdict, View
+from disting.verdict.comparison import compare
+from disting.verdict.proof import prove
 
 
 def run(options: argparse.Namespace) -> int:
@@ -72,7 +72,7 @@ def _both_ways(
 
     Without ranges that is told where the verdict tells it.
     """
-    from disting.positivity import ranges, within_ranges
+    from disting.questions.positive import ranges, within_ranges
 
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:

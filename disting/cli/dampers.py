@@ -12,14 +12,13 @@ from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli.common import emitted, emitted_lines, joint_in_words, reference, relations_in_words
 from disting.cli.paths import written_file
-from disting.cli.work import engine_for
+from disting.cli.workers import engine_for
 from disting.conditions.table import RULES
-from disting.domain import Domain
-from disting.engine import classes_safety
 from disting.errors import InputError
+from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
-from disting.verdict import Relation
+from disting.verdict import Relation, classes_safety
 
 SIGNS = {
     Relation.DISTINGUISHABLE: ".",

@@ -7,7 +7,6 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from disting.comparison import name_of
 from disting.equivalence import (
     NONE,
     Equivalent,
@@ -27,6 +26,7 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
+from disting.verdict.comparison import name_of
 
 ABREAST = 3  # parameter sets beside each other
 FEW = 12  # names of structures that are told one by one

@@ -11,7 +11,7 @@ from typing import Any
 from disting.cli.common import emitted
 from disting.cli.fit_data import measured
 from disting.cli.plain import complain
-from disting.cli.work import cores, engine_for
+from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 
+from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.work import engine_for
-from disting.engine import Engine, Progress
-from disting.identifiability import Identifiability, Level
-from disting.invariants.profile import Profile
+from disting.cli.workers import engine_for
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
+from disting.questions.identifiability import Identifiability, Level
+from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
 

@@ -24,9 +24,9 @@ from disting.cli.common import VIEWS
 from disting.cli.paths import written_file, written_folder
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
-from disting.domain import Domain
 from disting.errors import LONGEST_ECHO, shown
 from disting.model.chain import Sensor
+from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 
 MODEL = (

@@ -11,9 +11,9 @@ from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import relations_in_words
-from disting.cli.work import engine_for
-from disting.engine import Engine, Progress
+from disting.cli.workers import engine_for
 from disting.errors import InputError
+from disting.verdict import Engine, Progress
 
 MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 

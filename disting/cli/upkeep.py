@@ -3,7 +3,7 @@
 import argparse
 
 from disting import __version__
-from disting.engine import Store
+from disting.store import Store
 
 
 def cache_info(options: argparse.Namespace) -> int:

@@ -13,12 +13,12 @@ from disting.cli.common import (
     relations_in_words,
     rules_in_words,
 )
-from disting.cli.work import engine_for
-from disting.engine import Decisions, family_safety
+from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.inclusion import ONE_SIDED, Sense
 from disting.model.chain import Sensor
-from disting.proof import prove_all
+from disting.questions.inclusion import ONE_SIDED, Sense
+from disting.verdict import Decisions, family_safety
+from disting.verdict.proof import prove_all
 
 
 def run(options: argparse.Namespace) -> int:
@@ -70,5 +70,9 @@ def _summary(decided: Decisions) -> str:
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:
     """Whether the smaller model lies in the one with more masses."""
-    sizes = {decided.subjects[k].chain.n_masses for k in (i, j)}
-    return len(sizes) == 2 and decided.inclusion(i, j, Sense.CLOSURE) in ONE_SIDED
+    sizes = decided.sizes
+    return (
+        len(sizes) > 0
+        and sizes[i] != sizes[j]
+        and decided.inclusion(i, j, Sense.CLOSURE) in ONE_SIDED
+    )

@@ -6,5 +6,5 @@ from disting.conditions.finding import Finding as Finding
 from disting.conditions.finding import Outcome as Outcome
 from disting.conditions.rule import Role as Role
 from disting.conditions.rule import Rule as Rule
-from disting.conditions.subject import Subject as Subject
+from disting.conditions.side import Side as Side
 from disting.conditions.table import CONDITIONS as CONDITIONS

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.certainty import Certainty, shortfall
+from disting.algebra.certainty import Certainty, shortfall
 from disting.conditions.rule import Rule
 from disting.evidence.kinds import Evidence
 

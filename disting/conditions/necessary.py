@@ -7,14 +7,14 @@ also sorts a whole family into buckets. That a condition holds proves nothing.
 
 from collections.abc import Hashable
 
+from disting.algebra.certainty import Certainty, Grade, graded
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
-from disting.certainty import Certainty, Grade, graded
+from disting.behaviour.profile import Profile, Unsearched
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.kinds import Evidence
-from disting.invariants.profile import Profile, Unsearched
-from disting.invariants.sample import Representation
 
 INVARIANTS = Rule("1", Role.NECESSARY, "number of invariants", "equally many moment invariants")
 DEGREES = Rule(

@@ -8,7 +8,20 @@ how many conditions there are, or in what order.
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.domain import Domain
+from disting.model.domain import Domain
+
+
+class Stage(StrEnum):
+    """Where a rule looks, in the order in which a verdict does: two exhaustive summaries, the
+    elements, one fibre, the values of the parameters; NONE where nothing decides.
+    """
+
+    NONE = ""
+    TF = "tf"
+    MARKOV = "markov"
+    STRUCTURE = "structure"
+    FIBRE = "fibre"
+    PARAMETERS = "parameters"
 
 
 class Role(StrEnum):

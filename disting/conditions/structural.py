@@ -8,13 +8,13 @@ they are equal.
 
 from dataclasses import replace
 
-from disting.certainty import Grade, graded
+from disting.algebra.certainty import Grade, graded
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
-from disting.conditions.subject import Subject
+from disting.conditions.side import Side
 from disting.evidence.conditions import Embedding, Supermodel
-from disting.invariants.profile import Profile, profile
-from disting.invariants.sample import Representation
 
 SUBMODEL = Rule(
     "8", Role.STRUCTURAL, "submodel", "one model is a part of the other, with equal rank"
@@ -22,14 +22,17 @@ SUBMODEL = Rule(
 SUPERMODEL = Rule(
     "9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank"
 )
+NO_ELEMENTS = "general models have no elements to be left out"
 
 
-def condition_8(left: Subject, right: Subject) -> Finding:
+def condition_8(left: Side, right: Side) -> Finding:
     """Cond. 8: "One model is a submodel of the other and both have the same number of determinable
     parameters. Submodel means that model structures are identical except for missing elements such
     as springs, dampers and masses."
     """
-    sides = (left.chain.structure, right.chain.structure)
+    if left.structure is None or right.structure is None:
+        return Finding(SUBMODEL, Outcome.INAPPLICABLE, note=NO_ELEMENTS)
+    sides = (left.structure, right.structure)
     if len(sides[0].elements) == len(sides[1].elements):
         return Finding(
             SUBMODEL,
@@ -52,12 +55,14 @@ def condition_8(left: Subject, right: Subject) -> Finding:
     return Finding(SUBMODEL, Outcome.HOLDS, *_grade(profiles), evidence)
 
 
-def condition_9(left: Subject, right: Subject) -> Finding:
+def condition_9(left: Side, right: Side) -> Finding:
     """Cond. 9: "The two models are submodels of a third model and all three models have the same
     number of determinable parameters." The third model has the elements of both; force and sensor
     must be at the same places.
     """
-    a, b = left.chain.structure, right.chain.structure
+    a, b = left.structure, right.structure
+    if a is None or b is None:
+        return Finding(SUPERMODEL, Outcome.INAPPLICABLE, note=NO_ELEMENTS)
     if (a.ports, a.sensor_order, a.dead_time) != (b.ports, b.sensor_order, b.dead_time):
         return Finding(
             SUPERMODEL,

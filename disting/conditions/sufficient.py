@@ -4,14 +4,13 @@ complex parameter space.
 
 from itertools import islice
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.colouring import renamings
-from disting.certainty import Certainty
+from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Rule
-from disting.conditions.subject import Subject
+from disting.conditions.side import Side
 from disting.evidence.conditions import FreeChoice, Renaming
-from disting.invariants.expanded import is_renaming
-from disting.invariants.profile import Profile
 
 RENAMING = Rule(
     "6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical"
@@ -26,7 +25,7 @@ INCOMPLETE = "fewer than N_S1 + N_S2 Markov parameters are not exhaustive"
 CANDIDATES = 50  # of a renaming that are verified; a colouring leaves one or two in practice
 
 
-def condition_6(left: Subject, right: Subject, exhaustive: bool) -> Finding:
+def condition_6(left: Side, right: Side, exhaustive: bool) -> Finding:
     """Cond. 6: "A renaming and permutation scheme for the parameters of the first model exists so
     that the moment invariants are identical to those of the second model in symbolic form and vice
     versa."
@@ -36,10 +35,9 @@ def condition_6(left: Subject, right: Subject, exhaustive: bool) -> Finding:
     """
     if not exhaustive:
         return Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
-    if left.canonical.chain == right.canonical.chain:
-        return Finding(
-            RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=_by_symmetry(left, right)
-        )
+    symmetry = left.symmetry_with(right)
+    if symmetry:
+        return Finding(RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=symmetry)
     if left.colouring.fingerprint != right.colouring.fingerprint:
         return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
     return _searched(left, right)
@@ -75,20 +73,12 @@ def condition_7(left: Profile, right: Profile) -> Finding:
     )
 
 
-def _by_symmetry(left: Subject, right: Subject) -> Renaming:
-    """Left to the common canonical form, then back to the right model."""
-    back = {there: here for here, there in right.canonical.renaming.items()}
-    pairs = tuple((p, back[left.canonical.renaming[p]]) for p in left.chain.parameters)
-    used = set(left.canonical.symmetries) ^ set(right.canonical.symmetries)
-    return Renaming(pairs, tuple(sorted(used)))
-
-
-def _searched(left: Subject, right: Subject) -> Finding:
-    names = left.chain.parameters, right.chain.parameters
+def _searched(left: Side, right: Side) -> Finding:
+    names = left.parameters, right.parameters
     candidates = list(islice(renamings(left.columns, right.columns, len(names[0])), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:
         renaming = {name: names[1][image] for name, image in zip(names[0], images, strict=True)}
-        if is_renaming(left.chain.structure, right.chain.structure, renaming):
+        if left.is_renamed(right, renaming):
             return Finding(
                 RENAMING,
                 Outcome.HOLDS,

@@ -8,15 +8,13 @@ says how it is asked.
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
-from disting.certainty import Grade
+from disting.algebra.certainty import Grade
+from disting.behaviour.profile import Profile
+from disting.behaviour.sample import Representation
 from disting.conditions import necessary, structural, sufficient
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
-from disting.conditions.subject import Subject
-from disting.invariants.profile import Profile
-from disting.invariants.sample import Representation
-
-STRUCTURE = "structure"  # the representation of structural conditions
+from disting.conditions.side import Side
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,12 +35,12 @@ class Necessary:
 
 @dataclass(frozen=True, slots=True)
 class Sufficient:
-    """A condition on the exhaustive summaries of two subjects, in a representation, with so
+    """A condition on the exhaustive summaries of two sides, in a representation, with so
     many Markov parameters.
     """
 
     rule: Rule
-    check: Callable[[Subject, Subject, Representation, int], Finding]
+    check: Callable[[Side, Side, Representation, int], Finding]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,17 +48,15 @@ class Structural:
     """A sufficient condition on the model structure, in no representation."""
 
     rule: Rule
-    check: Callable[[Subject, Subject], Finding]
+    check: Callable[[Side, Side], Finding]
 
 
-def _renaming(left: Subject, right: Subject, representation: Representation, count: int) -> Finding:
+def _renaming(left: Side, right: Side, representation: Representation, count: int) -> Finding:
     whole = left.profile(representation, count).describes_all(right.profile(representation, count))
     return sufficient.condition_6(left, right, whole)
 
 
-def _free_choice(
-    left: Subject, right: Subject, representation: Representation, count: int
-) -> Finding:
+def _free_choice(left: Side, right: Side, representation: Representation, count: int) -> Finding:
     return sufficient.condition_7(
         left.profile(representation, count), right.profile(representation, count)
     )

@@ -17,8 +17,8 @@ from numbers import Number
 from flint import fmpq
 
 from disting.errors import InputError, shown
-from disting.exact_number import MOST_DIGITS, is_too_long
 from disting.model.chain import Chain
+from disting.model.exact_number import MOST_DIGITS, is_too_long
 from disting.model.family import MOST_MASSES, Family
 
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number

@@ -18,8 +18,8 @@ from flint import fmpq
 
 from disting.algebra.rational_function import RationalFunction, variables
 from disting.algebra.symbols import symbols
+from disting.behaviour.transfer import plain_receptance
 from disting.equivalence.residual import exactly_equal
-from disting.invariants.transfer import plain_receptance
 from disting.model.chain import Chain
 
 BITS = 256  # of a random coordinate

@@ -2,8 +2,8 @@
 duality.
 
 Symmetries (`disting.model.symmetry`) rename parameters; the duality theorem
-(`disting.synthesis.duality`) applies where both ports sit at the two sides of the gap. All are
-exact in any field, numbers or rational functions, and keep positive parameters positive.
+(`disting.fibres.synthesis.duality`) applies where both ports sit at the two sides of the gap. All
+are exact in any field, numbers or rational functions, and keep positive parameters positive.
 Symmetries, duality, symmetries again: more duality leads back, as only the mirrored form leaves
 the gap.
 """
@@ -12,9 +12,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from disting.fibres.synthesis.duality import are_dual, dual
 from disting.model.chain import Chain
 from disting.model.symmetry import forms
-from disting.synthesis.duality import are_dual, dual
 
 Number = Any  # an element of a field
 Values = Mapping[str, Number]

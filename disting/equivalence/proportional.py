@@ -13,10 +13,10 @@ from typing import Any
 
 from flint import fmpq
 
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Solution
+from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
-from disting.synthesis.fibre import fibre
-from disting.synthesis.result import Solution
-from disting.synthesis.target import target
 
 
 def common_ratio(chain: Chain, point: Mapping[str, fmpq]) -> Any | None:

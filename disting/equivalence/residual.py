@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 
-from disting.invariants.transfer import plain_receptance
+from disting.behaviour.transfer import plain_receptance
 from disting.model.chain import Chain
 
 Number = Any  # fmpq or acb

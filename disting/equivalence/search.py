@@ -2,7 +2,7 @@
 given model.
 
 Theorems first (`images`, exact for all values), then inverse network synthesis
-(`disting.synthesis.fibre`), which lists what else there is and proves whether the list is
+(`disting.fibres.synthesis.fibre`), which lists what else there is and proves whether the list is
 complete; for special values that it cannot treat, the theorems remain, and with proportional
 damping the synthesis without dampers.
 """
@@ -14,19 +14,19 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from disting.comparison import name_of
+from disting.equivalence.completeness import not_covered, sentence, special
 from disting.equivalence.given import Value, chain_of, chains_of, point_of
 from disting.equivalence.images import DUALITY, Image, images
+from disting.equivalence.listing import Equivalent, Equivalents, Listing, Origin, Signs
 from disting.equivalence.proportional import common_ratio, proportional_solutions
 from disting.equivalence.residual import difference
-from disting.equivalence.result import Equivalent, Equivalents, Listing, Origin, Signs
-from disting.equivalence.words import not_covered, sentence, special
 from disting.errors import ContradictionError, InputError
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
+from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.synthesis.fibre import fibre
-from disting.synthesis.result import Answer, Fibre, Solution, Status
-from disting.synthesis.target import target
+from disting.verdict.comparison import name_of
 
 Point = Mapping[str, fmpq]
 
@@ -69,7 +69,13 @@ def equivalents(
     )
     fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
     special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
-    return Equivalents(_name(given), given, fractions, listings, special_damping)
+    return Equivalents(
+        name=_name(given),
+        chain=given,
+        values=fractions,
+        listings=listings,
+        proportional=special_damping,
+    )
 
 
 def _listing(given: Chain, point: Point, other: Chain, exact: list[Image]) -> Listing:

@@ -21,13 +21,12 @@ from dataclasses import dataclass
 from math import inf
 
 from disting.catalogs import candidates as stored
-from disting.conditions.subject import Subject
-from disting.engine import Engine
 from disting.errors import CatalogError
 from disting.evidence.positive import Share
 from disting.model.chain import Chain
-from disting.positivity import renamings
-from disting.verdict import Query, Relation, View
+from disting.questions.positive import renamings
+from disting.verdict import Engine, Query, Relation, View
+from disting.verdict.chains import ComparedChain
 
 Limits = Mapping[str, tuple[float, float]]
 """Range of each parameter that is given (one value) or bounded, by name."""
@@ -104,7 +103,7 @@ def alternatives(
 
 
 def _alternative(
-    winner: Subject, other: Subject, engine: Engine, limits: Limits
+    winner: ComparedChain, other: ComparedChain, engine: Engine, limits: Limits
 ) -> Alternative | None:
     """By the conditions, and only where they are silent by the exact decision: inclusions are
     not asked for.

@@ -5,11 +5,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 
-from disting.comparison import name_of
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.symmetry import Form, forms
+from disting.verdict.comparison import name_of
 
 
 def figure_1(

@@ -20,9 +20,6 @@ from math import inf
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from disting.engine import Store
-from disting.engine.code import digest
-from disting.engine.engine import mapped
 from disting.errors import InputError
 from disting.fit.cost import Cost
 from disting.fit.descent import Box, fine, rough
@@ -42,6 +39,9 @@ from disting.fit.starts import (
     stacked,
 )
 from disting.model.chain import Chain
+from disting.store import Store
+from disting.store.code import digest
+from disting.verdict.engine import mapped
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
 # every so many candidates that exchange divide their starts into one part more, up to so many parts

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disting.errors import InputError, shown
+from disting.files import write_whole
 from disting.fit.candidates import as_listed, reference
 from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
@@ -22,7 +23,6 @@ from disting.fit.select import Selection
 from disting.fit.telling import suspicions
 from disting.model.chain import Chain, Sensor
 from disting.simulation import matrices, port_vectors
-from disting.written import write_whole
 
 if TYPE_CHECKING:
     import control

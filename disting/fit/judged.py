@@ -17,7 +17,7 @@ from disting.fit.practical import Practical, practical
 from disting.fit.scatter import Scatter, scatter
 from disting.fit.structural import with_structure
 from disting.model.chain import Chain
-from disting.settings import Settings
+from disting.model.settings import Settings
 
 FOLDS = 5  # of the cross-validation
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound

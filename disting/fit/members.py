@@ -15,7 +15,6 @@ from itertools import combinations
 
 import numpy as np
 
-from disting.engine.engine import mapped
 from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.alternatives import Limits
 from disting.fit.candidates import as_listed, reference
@@ -28,6 +27,7 @@ from disting.fit.practical import practical
 from disting.fit.scatter import scatter
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.verdict.engine import mapped
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
 EVERY_SET = 4

@@ -10,11 +10,11 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
-from disting.engine import Store
 from disting.errors import ConstraintViolation
 from disting.fit.estimate import Estimate, Task, estimates
 from disting.fit.judged import Candidate
 from disting.model.chain import Chain, Sensor
+from disting.store import Store
 
 # of the cost: what helps less than that, or than half as much as the best one, is not named
 FALLS = 0.5

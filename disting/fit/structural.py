@@ -5,8 +5,8 @@ Where a candidate has more free parameters than the Jacobian of its transfer fun
 coefficients by these has rank, its sensitivities are dependent for all parameter values: condition
 and collinearity index are infinite, and what a computer finds is rounding. Such a candidate is
 described by the combinations that data do determine, not by a number. Rank and combinations are
-those of `disting.identifiability`, at random points modulo random primes; how many parameter
-vectors fit is not asked here, which costs more than the fit.
+those of `disting.questions.identifiability`, at random points modulo random primes; how many
+parameter vectors fit is not asked here, which costs more than the fit.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,11 +15,11 @@ from math import inf
 
 from disting.algebra.quotient import matrix
 from disting.fit.practical import Practical
-from disting.identifiability.basis import basis
-from disting.identifiability.formula import Formula
-from disting.identifiability.tangent import Tangent, proof_tangents
 from disting.model.chain import Chain
-from disting.settings import Settings
+from disting.model.settings import Settings
+from disting.questions.identifiability.basis import basis
+from disting.questions.identifiability.formula import Formula
+from disting.questions.identifiability.tangent import Tangent, proof_tangents
 
 MOST_TERMS = 3  # of a combination that is written out
 
@@ -54,7 +54,7 @@ def _rank(at: Tangent, free: Sequence[str]) -> int:
 def in_words(determined: Sequence[Formula]) -> str:
     """What is determinable at most; combinations that are long to read are counted.
 
-    >>> from disting.identifiability.formula import monomial
+    >>> from disting.questions.identifiability.formula import monomial
     >>> in_words([monomial(k12=1, d12=-1), monomial(k12=1, m1=-1, m2=-1)])
     'not identifiable: no data determine more than k12/d12, k12/(m1*m2)'
     """

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from disting.errors import InputError
+from disting.files import write_whole
 from disting.measurement.response import FrequencyResponse, Signal
 from disting.measurement.tabular import ESCAPED, MARK
-from disting.written import write_whole
 
 FORMULA = re.compile(
     rf"(?<=[,;])[=+@-]|(?<=[,;] )[=+@-]|{ESCAPED.pattern[:2]}(?={ESCAPED.pattern[2:]})"

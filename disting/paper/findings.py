@@ -8,16 +8,15 @@ from functools import cached_property
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
-from disting.domain import Domain
-from disting.engine import Decisions, Engine, Progress, silent
 from disting.fit.candidates import figure_1
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
+from disting.model.domain import Domain
 from disting.model.family import Family
 from disting.paper.refit import Refit, refitted
 from disting.simulation import demo
-from disting.verdict import Query, View
+from disting.verdict import Decisions, Engine, Progress, Query, View, silent
 
 PictureKey = tuple[int, bool, View, int, Sensor]
 

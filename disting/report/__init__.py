@@ -2,7 +2,7 @@
 formulas out for people.
 """
 
-from disting.report.dampers import damper_page as damper_page
+from disting.report.damper_page import damper_page as damper_page
 from disting.report.drawing import chain_png as chain_png
 from disting.report.drawing import chain_svg as chain_svg
 from disting.report.drawing import describe as describe

@@ -19,10 +19,10 @@ from disting.conditions.rule import EXACT
 from disting.conditions.structural import SUBMODEL, SUPERMODEL
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING
 from disting.conditions.table import CONDITIONS
-from disting.engine.classes import Classes
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.report.payload import packed, script_json
+from disting.verdict.classes import Classes
 
 Numbers = NDArray[np.int64]
 Rule = tuple[str, str, str]
@@ -110,7 +110,7 @@ def bits(masses: Masses) -> int:
 
 
 def mirror(chain: Chain) -> int:
-    """Mass m of the free part may be taken for mass (this number) - m, because force and sensor
+    """Mass m of the free row may be taken for mass (this number) - m, because force and sensor
     are at its centre; else 0.
 
     >>> mirror(Chain(3, 0, 0, 2, 0, 2)), mirror(Chain(3))

@@ -24,11 +24,11 @@ from disting.algebra.symbols import (
     polynomial_of,
     terms,
 )
+from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
-from disting.identifiability.parts import Combination
-from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
+from disting.questions.identifiability.parts import Combination
 from disting.report.mathml import (
     equation,
     expression,

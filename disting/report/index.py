@@ -9,10 +9,10 @@ from disting.catalogs import Catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_files import name_of
 from disting.report.damper_drawing import definitions
+from disting.report.damper_page import family_title
 from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
-from disting.report.dampers import family_title
+from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
-from disting.report.machine import machines, parts
 from disting.report.matrix import thumbnail
 from disting.report.model import Drawing, folder_of, model_of
 from disting.report.payload import script_json
@@ -122,4 +122,12 @@ def _card(
     name: str, title: str, models: int, groups: int, counts: dict[Relation, int], scene: Scene
 ) -> Card:
     box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    return Card(name, title, models, groups, counts, box, Markup(body(scene, PAGE_PALETTE)))
+    return Card(
+        name=name,
+        title=title,
+        models=models,
+        groups=groups,
+        totals=counts,
+        box=box,
+        drawing=Markup(body(scene, PAGE_PALETTE)),
+    )

@@ -15,7 +15,7 @@ from markupsafe import Markup
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import Polynomial, Term, factors, terms
-from disting.identifiability.formula import Formula
+from disting.questions.identifiability.formula import Formula
 
 
 def math(inner: str) -> Markup:

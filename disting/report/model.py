@@ -14,10 +14,10 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog, ModelRow
 from disting.evidence.positive import PositiveFinding, Share
-from disting.identifiability import Level
-from disting.inclusion import Inclusion
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.questions.identifiability import Level
+from disting.questions.inclusion import Inclusion
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.formulas import Correspondence, combinations, correspondence, written

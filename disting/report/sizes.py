@@ -14,15 +14,14 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from disting.engine import Decisions
-from disting.inclusion import Inclusion, Sense
+from disting.files import write_whole
+from disting.questions.inclusion import Inclusion, Sense
 from disting.report.environment import render
 from disting.report.fields import CORNERS, LETTERS, corner, field
 from disting.report.scene import PAGE_PALETTE, Anchor, Ink, Layer, Rect, Scene, Text
 from disting.report.svg import body, number
 from disting.report.words import probability, sign
-from disting.verdict import Verdict
-from disting.written import write_whole
+from disting.verdict import Decisions, Verdict
 
 CELL = 24.0
 LEFT, TOP = 44.0, 8.0
@@ -64,9 +63,7 @@ def write_sizes(decided: Decisions, out: Path) -> Path:
     returns its path.
     """
     out.mkdir(parents=True, exist_ok=True)
-    return write_whole(
-        out / f"{name_of(decided.subjects[0].chain.damped)}.html", [sizes_page(decided)]
-    )
+    return write_whole(out / f"{name_of(decided.chains[0].damped)}.html", [sizes_page(decided)])
 
 
 def sizes_page(decided: Decisions) -> str:
@@ -74,8 +71,8 @@ def sizes_page(decided: Decisions) -> str:
     scene, found = figure(decided), list(between(decided))
     return render(
         "sizes.html",
-        damped=decided.subjects[0].chain.damped,
-        sizes=sorted({s.chain.n_masses for s in decided.subjects}),
+        damped=decided.chains[0].damped,
+        sizes=sorted(set(decided.sizes)),
         models=len(decided.subjects),
         box=f"0 0 {number(scene.width)} {number(scene.height)}",
         width=number(scene.width),
@@ -91,7 +88,7 @@ def sizes_page(decided: Decisions) -> str:
 
 def between(decided: Decisions) -> Iterator[Between]:
     """Counts for every two sizes."""
-    sizes = [s.chain.n_masses for s in decided.subjects]
+    sizes = decided.sizes
     for small, large in combinations(sorted(set(sizes)), 2):
         pairs = (
             (i, j)
@@ -100,7 +97,13 @@ def between(decided: Decisions) -> Iterator[Between]:
         )
         count = Counter(decided.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)
         inside, unknown = count[Inclusion.LEFT_IN_RIGHT], count[Inclusion.UNKNOWN]
-        yield Between(small, large, inside, count.total() - inside - unknown, unknown)
+        yield Between(
+            small=small,
+            large=large,
+            inside=inside,
+            outside=count.total() - inside - unknown,
+            unknown=unknown,
+        )
 
 
 def outside(decided: Decisions) -> Iterator[Outside]:
@@ -139,7 +142,7 @@ def figure(decided: Decisions) -> Scene:
     )
     signs = tuple(_sign(decided, j, i) for j, i in pairs)
     labels = tuple(_labels([s.name for s in subjects]))
-    frames = tuple(_frames([s.chain.n_masses for s in subjects]))
+    frames = tuple(_frames(decided.sizes))
     layers = (
         Layer("fields", fields),
         Layer("corners", corners),
@@ -152,7 +155,7 @@ def figure(decided: Decisions) -> Scene:
 
 def _across(decided: Decisions) -> Iterator[Pair]:
     """Pairs of different size, the smaller model first."""
-    sizes = [s.chain.n_masses for s in decided.subjects]
+    sizes = decided.sizes
     return ((i, j) for i, j in combinations(range(len(sizes)), 2) if sizes[i] != sizes[j])
 
 

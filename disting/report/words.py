@@ -2,7 +2,7 @@
 
 from disting.catalogs import Catalog
 from disting.conditions.table import RULES
-from disting.domain import Domain
+from disting.model.domain import Domain
 from disting.verdict import Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms

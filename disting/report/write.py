@@ -12,7 +12,8 @@ from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
-from disting.report.dampers import damper_page
+from disting.files import write_whole
+from disting.report.damper_page import damper_page
 from disting.report.environment import source
 from disting.report.guide import guide_files
 from disting.report.index import Link, index
@@ -20,7 +21,6 @@ from disting.report.matrix import figure, figure_png
 from disting.report.model import folder_of, model_page
 from disting.report.page import page
 from disting.report.svg import svg
-from disting.written import write_whole
 
 STYLE = "models/style.css"
 GUIDE: Link = (

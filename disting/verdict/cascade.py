@@ -6,25 +6,26 @@ that holds INDISTINGUISHABLE; otherwise the pair is left to the exact decision; 
 settle is UNDECIDED. The paper's view ends with the conditions. All of it is over the complex
 numbers: distinguishable models are so over real and positive parameters too (real and positive
 points are Zariski dense), while for indistinguishable ones the admissible values are asked for
-(see `conditions.admissible`).
+(see `questions.same.real_and_positive`).
 """
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from disting.certainty import Certainty
-from disting.conditions.admissible import resting_on
+from disting.algebra.certainty import Certainty
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import Role
-from disting.conditions.subject import Subject
-from disting.conditions.table import CONDITIONS, STRUCTURE, Necessary, Structural, Sufficient
-from disting.domain import Domain
+from disting.conditions.rule import Role, Stage
+from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
-from disting.inclusion import Inclusion, Inclusions, inclusions
-from disting.invariants.sample import Representation
-from disting.verdict.query import FIBRE, PARAMETERS, Query
+from disting.model.domain import Domain
+from disting.questions.inclusion import Inclusion, Inclusions
+from disting.questions.same.real_and_positive import resting_on
+from disting.verdict.compared import Compared
+from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
+SUMMARIES = (Stage.TF, Stage.MARKOV)  # exhaustive ones, which profiles are made of
 _APART, _SAME = (
     {Outcome.FAILS: Relation.DISTINGUISHABLE},
     {Outcome.HOLDS: Relation.INDISTINGUISHABLE},
@@ -41,7 +42,7 @@ PROVES: dict[Role, dict[Outcome, Relation]] = {
 class Step:
     """One condition in one representation, with what it found."""
 
-    representation: str
+    representation: Stage
     finding: Finding
 
     @property
@@ -50,7 +51,7 @@ class Step:
         return PROVES[self.finding.rule.role].get(self.finding.outcome, Relation.UNDECIDED)
 
 
-def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
+def steps(left: Compared, right: Compared, query: Query) -> Iterator[Step]:
     """Yield every condition's finding lazily, in order: representation by representation,
     condition by condition.
     """
@@ -59,22 +60,25 @@ def steps(left: Subject, right: Subject, query: Query) -> Iterator[Step]:
         for condition in CONDITIONS:
             if query.asks(condition.rule):
                 yield from _step(condition, left, right, representation, count)
-        if representation == FIBRE:
-            yield Step(FIBRE, left.exact(right))
+        if representation is Stage.FIBRE:
+            yield Step(Stage.FIBRE, left.exact(right))
 
 
-def decide(left: Subject, right: Subject, query: Query) -> Verdict:
+def decide(left: Compared, right: Compared, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it
     goes on to admissible ones.
     """
     found, domain = first(left.name, right.name, steps(left, right, query)), query.view.domain
     if query.tells_inclusion:
-        found = with_inclusion(found, left.rank == right.rank, lambda: inclusions(left, right))
+        found = with_inclusion(found, left.rank == right.rank, lambda: left.inclusions(right))
         found = _with_shares(found, left, right)
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
     grade = (found.certainty or Certainty.NUMERICAL, found.safety)
-    step = Step(PARAMETERS, resting_on(left.admissible(right, domain), grade, found.evidence))
+    step = Step(
+        Stage.PARAMETERS,
+        resting_on(left.admissible(right, domain, found.evidence), grade, found.evidence),
+    )
     open_pair = Verdict(
         left.name,
         right.name,
@@ -96,11 +100,11 @@ def open_note(reason: str) -> str:
     return f"over complex parameters they are indistinguishable; {reason}"
 
 
-def _with_shares(verdict: Verdict, left: Subject, right: Subject) -> Verdict:
+def _with_shares(verdict: Verdict, left: Compared, right: Compared) -> Verdict:
     """With the positive equivalents of each side whose generic models are models of the other
     side, or limits of them.
     """
-    if left.chain.n_masses != right.chain.n_masses:
+    if not left.tells_shares(right):
         return verdict
     here = verdict.closure in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
     there = verdict.closure in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
@@ -151,7 +155,7 @@ def _rule(step: Step) -> str:
     )
 
 
-def audit(left: Subject, right: Subject, query: Query) -> Verdict:
+def audit(left: Compared, right: Compared, query: Query) -> Verdict:
     """Run every condition in every representation; raise ContradictionError where two decide
     differently.
     """
@@ -173,33 +177,33 @@ def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLE
     """The verdict that a deciding step gives."""
     f = step.finding
     return Verdict(
-        left,
-        right,
-        step.relation,
-        f.rule.name,
-        step.representation,
-        f.certainty,
-        f.safety,
-        f.evidence,
-        domain,
+        left=left,
+        right=right,
+        relation=step.relation,
+        decided_by=f.rule.name,
+        representation=step.representation,
+        certainty=f.certainty,
+        safety=f.safety,
+        evidence=f.evidence,
+        domain=domain,
     )
 
 
 def _step(
     condition: Necessary | Sufficient | Structural,
-    left: Subject,
-    right: Subject,
-    representation: str,
+    left: Compared,
+    right: Compared,
+    representation: Stage,
     count: int,
 ) -> Iterator[Step]:
     match condition:
-        case Structural() if representation == STRUCTURE:
+        case Structural() if representation is Stage.STRUCTURE:
             yield Step(representation, condition.check(left, right))
-        case Necessary() if representation in tuple(Representation):
+        case Necessary() if representation in SUMMARIES:
             r = Representation(representation)
             n = count if r is Representation.MARKOV else 0
             yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
-        case Sufficient() if representation in tuple(Representation):
+        case Sufficient() if representation in SUMMARIES:
             r = Representation(representation)
             yield Step(
                 representation,

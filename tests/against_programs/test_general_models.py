@@ -16,8 +16,8 @@ from disting import (
     compare,
     local_identifiability,
 )
-from disting.parametric import Extent
-from disting.parametric.target import rational_values, target
+from disting.general import Extent
+from disting.general.target import rational_values, target
 from tests.against_programs.draws import Tally, cases
 from tests.oracles import plain_by_sympy
 from tests.oracles.drawn_models import pair

@@ -11,6 +11,7 @@ from flint import fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
+from disting.algebra.certainty import LEAST_SAFETY
 from disting.algebra.sampling import (
     PROOF_BITS,
     SEARCH_BITS,
@@ -22,7 +23,6 @@ from disting.algebra.sampling import (
     residues,
     safety,
 )
-from disting.certainty import LEAST_SAFETY
 
 sizes = st.builds(Size, st.integers(1, 10**6), st.integers(1, 10**6))
 

@@ -13,9 +13,9 @@ from disting.catalogs import catalog
 from disting.catalogs.damper_files import read as read_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
-from disting.domain import Domain
-from disting.engine.store import CacheWarning
 from disting.errors import CatalogError
+from disting.model.domain import Domain
+from disting.store.store import CacheWarning
 from tests.attack.counts import chance, times
 from tests.attack.measured_files import with_bytes_changed
 from tests.cli.process import disting

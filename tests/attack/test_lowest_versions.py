@@ -15,7 +15,7 @@ PART = (
     "tests/invariants",
     "tests/measurement",
     "tests/fit/test_export.py",
-    "tests/engine/test_store.py",
+    "tests/store/test_store.py",
 )
 
 

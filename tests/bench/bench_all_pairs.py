@@ -9,8 +9,8 @@ import pytest
 
 from disting import Chain, Engine, Family
 from disting.algebra.sampling import residues
-from disting.invariants.profile import samples
-from disting.invariants.sample import Representation
+from disting.behaviour.profile import samples
+from disting.behaviour.sample import Representation
 from disting.model.symmetry import canonical
 from tests.bench.measure import in_fresh_process, seconds, table
 

@@ -8,7 +8,7 @@ import pytest
 
 from disting import Chain
 from disting.algebra.sampling import prime, residues
-from disting.invariants.sample import Representation, sample
+from disting.behaviour.sample import Representation, sample
 from tests.bench.measure import seconds, table
 
 pytestmark = pytest.mark.bench

@@ -22,11 +22,11 @@ from disting.catalogs.damper_verify import verify_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions import Outcome
-from disting.conditions.quick import quick_finding, quick_profile
-from disting.conditions.verify import Witness
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
-from disting.scheduling import executor
-from disting.settings import Settings
+from disting.questions.same.limited import quick_finding, quick_profile
+from disting.questions.same.verify import Witness
+from disting.store.scheduling import executor
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 MODELS = {3: 88, 4: 464, 5: 2336}

@@ -13,7 +13,7 @@ import sympy as sp
 from disting import Chain, Engine, Family, InputError, Query, Relation, View, compare
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli import main
-from disting.domain import Domain
+from disting.model.domain import Domain
 
 SAME, APART = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
 ENGINE = Engine()

@@ -7,7 +7,7 @@ import pytest
 
 from disting import CatalogError, catalog
 from disting.catalogs.files import shipped_folder
-from disting.packaged import intact_text
+from disting.files import intact_text
 
 
 def damaged(folder, source):

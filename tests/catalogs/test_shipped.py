@@ -10,8 +10,8 @@ from disting.catalogs.build import build, write
 from disting.catalogs.files import PROVENANCE, lines, name_of, shipped_folder
 from disting.catalogs.provenance import provenance_of
 from disting.catalogs.verify import false_evidence, verify
-from disting.conditions.verify import Witness
 from disting.errors import InputError
+from disting.questions.same.verify import Witness
 
 SMALL = [(n, damped) for n in (1, 2, 3) for damped in (False, True)]
 # seconds to minutes

@@ -183,7 +183,7 @@ def test_no_file_gets_the_number_of_a_closed_stream(tmp_path):
     """A cache opened as number 2 would take what libraries say there."""
     cache = tmp_path / "c.sqlite3"
     program = (
-        "import os; from disting.cli import main; from disting.engine.store import Store;"
+        "import os; from disting.cli import main; from disting.store.store import Store;"
         f" main(['models', '1']);store = Store.open({str(cache)!r}); store.put_many({{'0' * 64:"
         " '1'});print(sorted(os.readlink(f'/proc/self/fd/{n}') for n in range(3)), file=open(3,"
         " 'w'))"

@@ -48,7 +48,7 @@ COMMANDS = [
 ]
 SCRIPT = f"""
 from disting.cli import main
-from disting.ideals.process import run_limited
+from disting.algebra.groebner.own_process import run_limited
 
 if __name__ == "__main__":
     for command in {COMMANDS!r}:

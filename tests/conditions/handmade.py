@@ -3,9 +3,9 @@ these.
 """
 
 from disting.algebra.sampling import Size
-from disting.invariants.profile import from_samples
-from disting.invariants.sample import Sample
-from disting.settings import Settings
+from disting.behaviour.profile import from_samples
+from disting.behaviour.sample import Sample
+from disting.model.settings import Settings
 
 LARGE, SMALL = 2**61 - 1, 2**31 - 1  # Mersenne primes for the proof and for the search
 

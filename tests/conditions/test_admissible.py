@@ -22,28 +22,33 @@ from disting import (
     View,
     compare,
 )
+from disting.algebra.certainty import weakest
 from disting.catalogs import Catalog
 from disting.catalogs.build import build
 from disting.catalogs.export import decisions_csv
 from disting.catalogs.verify import false_evidence
-from disting.certainty import weakest
-from disting.conditions.admissible import by_counts, positive_share, positive_ways, resting_on
-from disting.conditions.verify import Witness
-from disting.domain import Domain
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors
-from disting.identifiability import identifiability
-from disting.inclusion import Inclusion
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.target import target
+from disting.model.domain import Domain
+from disting.model.settings import Settings
 from disting.model.symmetry import canonical
-from disting.positivity import positive_finding, proves
+from disting.questions.identifiability import identifiability
+from disting.questions.inclusion import Inclusion
+from disting.questions.positive import positive_finding, proves
+from disting.questions.same.real_and_positive import (
+    by_counts,
+    positive_share,
+    positive_ways,
+    resting_on,
+)
+from disting.questions.same.verify import Witness
 from disting.report.domains import VIEWS, over
 from disting.report.payload import payload
-from disting.settings import Settings
-from disting.synthesis.fibre import fibre
-from disting.synthesis.result import Answer, Status
-from disting.synthesis.target import target
 from disting.verdict import Verdict
 from tests.oracles.positive_synthesis import positive_point
 

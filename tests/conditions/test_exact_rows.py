@@ -7,18 +7,18 @@ import stat
 import pytest
 
 from disting import Engine, Query, Relation
-from disting.certainty import Certainty
-from disting.conditions import exact
-from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import by_row, exact_finding
+from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Outcome
-from disting.conditions.verify import Witness
+from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.evidence.ideals import ByRow
 from disting.evidence.kinds import evidence_from
-from disting.ideals import Limits
-from disting.ideals.by_rows import row_pairs
+from disting.fibres.ideals import Limits
+from disting.fibres.ideals.by_one_row import row_pairs
 from disting.model.chain import Chain
-from disting.settings import Settings
+from disting.model.settings import Settings
+from disting.questions.same import exact
+from disting.questions.same.exact import by_row, exact_finding
+from disting.questions.same.verify import Witness
 from disting.verdict import decide
 
 WALLED = (Chain(5, 4, 1, 5, 3, 5, damped=True), Chain(5, 4, 2, 5, 4, 5, damped=True))

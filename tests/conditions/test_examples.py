@@ -9,6 +9,7 @@ import pytest
 
 from disting import Outcome
 from disting.algebra.sampling import Size, residues
+from disting.behaviour.profile import from_samples
 from disting.conditions.necessary import (
     condition_1,
     condition_2,
@@ -17,8 +18,7 @@ from disting.conditions.necessary import (
     condition_5,
 )
 from disting.conditions.sufficient import condition_7
-from disting.invariants.profile import from_samples
-from disting.settings import Settings
+from disting.model.settings import Settings
 from tests.conditions.handmade import LARGE, SMALL, sample
 
 LABELS = ("b0", "b1")

@@ -8,16 +8,16 @@ from math import log2
 import pytest
 
 from disting import Certainty, Chain, Relation, Settings, compare
-from disting.certainty import LEAST_SAFETY, joint_safety, shortfall
-from disting.conditions.codec import finding_from_json, finding_to_json
-from disting.conditions.exact import by_synthesis
+from disting.algebra.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Ranks
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
-from disting.inclusion import Inclusion, InclusionFinding
 from disting.model.symmetry import canonical
-from disting.positivity import positive_finding
+from disting.questions.inclusion import Inclusion, InclusionFinding
+from disting.questions.positive import positive_finding
+from disting.questions.same.exact import by_synthesis
 from tests.conditions.handmade import handmade
 
 RANKS = Ranks(("b0",), 1, 0, all_rows=False)

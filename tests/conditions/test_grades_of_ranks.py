@@ -6,18 +6,18 @@ from fractions import Fraction
 
 import pytest
 
-from disting import Chain, Engine, Family, Outcome, Query, View
-from disting.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
+from disting import Chain, Engine, Family, Outcome, Query, View, compare
+from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
+from disting.behaviour.sample import Representation
 from disting.cli.common import joint_in_words
-from disting.conditions.exact import by_synthesis, resting_on_ranks
 from disting.conditions.finding import Finding
 from disting.conditions.rule import EXACT
-from disting.engine import family_safety
-from disting.invariants.sample import Representation
-from disting.parametric import Model, compare
-from disting.parametric.exact import exact_finding
-from disting.parametric.profiles import profile
-from disting.settings import Settings
+from disting.general import Model
+from disting.general.exact import exact_finding
+from disting.general.profiles import profile
+from disting.model.settings import Settings
+from disting.questions.same.exact import by_synthesis, resting_on_ranks
+from disting.verdict import family_safety
 from disting.verdict.result import error_bound
 from tests.conditions.handmade import handmade
 

@@ -15,7 +15,7 @@ import disting
 
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
 RULES = """
-from disting.certainty import Certainty, graded
+from disting.algebra.certainty import Certainty, graded
 from disting.evidence.decision import Theorem
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import Role
@@ -25,7 +25,7 @@ NEVER = Rule("11", Role.NECESSARY, "beside the point", "both are something else"
 MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked ones", "the mark", "M")
 
 
-def _marked(left: Subject, right: Subject) -> Finding:
+def _marked(left: Side, right: Side) -> Finding:
     if {left.name, right.name} != {"A1", "A11"}:
         return Finding(MARKED, Outcome.INAPPLICABLE, note="not marked")
     return Finding(MARKED, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("duality"))

@@ -19,6 +19,8 @@ from disting import (
     View,
     compare,
 )
+from disting.behaviour.profile import Unsearched, profile
+from disting.behaviour.sample import Representation
 from disting.conditions import sufficient
 from disting.conditions.necessary import (
     INVARIANTS,
@@ -31,8 +33,6 @@ from disting.conditions.necessary import (
 from disting.conditions.structural import condition_8, condition_9
 from disting.conditions.sufficient import condition_6, condition_7
 from disting.evidence.conditions import Counts, Forms, Ranks
-from disting.invariants.profile import Unsearched, profile
-from disting.invariants.sample import Representation
 from tests.conditions.handmade import handmade, markov
 
 ENGINE = Engine()

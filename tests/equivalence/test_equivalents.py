@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from disting.equivalence import Origin, Signs, equivalents, explicit_map
 from disting.equivalence.given import point_of
 from disting.errors import InputError
+from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
-from disting.synthesis.result import Status
 from tests.equivalence.mechanics import agree
 
 DAMPED = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": 0.3}

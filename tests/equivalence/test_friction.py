@@ -9,9 +9,9 @@ import pytest
 
 from disting.equivalence import Origin, Signs, assignments, chain_of, chains_of, equivalents
 from disting.errors import InputError
+from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.synthesis.result import Status
 from tests.equivalence.mechanics import agree
 
 VALUES = assignments(

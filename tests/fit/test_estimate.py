@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disting.engine import Store
 from disting.errors import InputError
 from disting.fit.candidates import figure_1, variants, whole_family
 from disting.fit.cost import Case, Cost
@@ -19,6 +18,7 @@ from disting.fit.pairs import conspicuous, paired
 from disting.fit.starts import cauer, extrema, merged, scale, shortened
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.store import Store
 from tests.fit.best_known import best_known, name
 from tests.fit.drives import OMEGA, bench, response, truth
 

@@ -18,7 +18,7 @@ from disting.fit.members import QUANTILE
 from disting.fit.practical import covariance
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.settings import Settings
+from disting.model.settings import Settings
 from tests.fit.drives import response
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")

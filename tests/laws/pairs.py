@@ -8,8 +8,8 @@ from hypothesis import example, settings
 from hypothesis import strategies as st
 
 from disting import Chain, Engine, Family, Query, View, compare
-from disting.conditions.verify import Witness
 from disting.evidence.conditions import Counts, Embedding, Forms, Ranks, Renaming
+from disting.questions.same.verify import Witness
 from disting.verdict import audit, decide
 from tests.laws.strategies import chains
 

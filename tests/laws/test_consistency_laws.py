@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 
 from disting import ContradictionError, Family, Query, Relation, View
-from disting.conditions import Subject
 from disting.verdict import audit, decide
+from disting.verdict.chains import ComparedChain
 from tests.laws.pairs import (
     ENGINE,
     PAPER,
@@ -47,7 +47,9 @@ def test_no_condition_contradicts_another_for_any_pair(pair):
 def test_a_contradiction_is_an_error(reverse):
     """One model with two profiles: condition 4 tells it from itself, condition 6 does not."""
     chain = Family(3, damped=True)[1]
-    false = Subject("false", chain, source=lambda *what: replace(ENGINE.profile(*what), rank=6))
+    false = ComparedChain(
+        "false", chain, source=lambda *what: replace(ENGINE.profile(*what), rank=6)
+    )
     pair = (false, subject(chain)) if reverse else (subject(chain), false)
     assert decide(*pair, PAPER).decided_by == "4"
     assert decide(*pair, Query(View.COMBINED, conditions=(6, 7))).decided_by == "6"

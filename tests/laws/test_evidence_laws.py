@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 
 from disting import Chain, Family, Query, Relation, View
-from disting.conditions.verify import Witness
 from disting.evidence.conditions import (
     Counts,
     Embedding,
@@ -16,6 +15,7 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
+from disting.questions.same.verify import Witness
 from disting.verdict import steps
 from tests.laws.pairs import (
     EXAMPLES,
@@ -132,7 +132,7 @@ def test_evidence_of_another_pair_is_refused(kind):
 
 
 def test_a_supermodel_of_larger_rank_is_refused():
-    """The chain without gap has rank 8, its two parts have 7."""
+    """The chain without gap has rank 8, its two rows have 7."""
     left, right = Family(4)[11], Family(4)[13]
     names = left.structure.united(right.structure).parameters
     assert not any(

@@ -3,7 +3,7 @@
 from hypothesis import given
 
 from disting import Relation
-from disting.certainty import Certainty
+from disting.algebra.certainty import Certainty
 from disting.evidence.conditions import Renaming
 from disting.model.symmetry import forms
 from tests.laws.pairs import (

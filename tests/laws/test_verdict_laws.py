@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 
 from disting import Chain, Engine, Family, Query, Relation, Verdict, View, compare
-from disting.certainty import Certainty
+from disting.algebra.certainty import Certainty
 from disting.evidence.conditions import Counts
 from disting.evidence.kinds import ByDecision, evidence_from
 from disting.evidence.plain import to_dict

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from disting.ideals.fibre_ideal import FibreIdeal, Polynomial
+from disting.fibres.ideals.fibre_ideal import FibreIdeal, Polynomial
 from tests.oracles.rational import Emptiness
 
 PROGRAM_BITS = 31

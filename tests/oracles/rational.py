@@ -11,9 +11,9 @@ from enum import StrEnum
 
 from flint import Ordering, fmpq_mat, fmpz_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
-from disting.ideals.fibre_ideal import Polynomial, derivative
-from disting.ideals.process import run_limited
-from disting.ideals.system import CoefficientMap, Terms, matched
+from disting.algebra.groebner.own_process import run_limited
+from disting.fibres.ideals.fibre_ideal import Polynomial, derivative
+from disting.fibres.ideals.system import CoefficientMap, Terms, matched
 
 
 class Emptiness(StrEnum):

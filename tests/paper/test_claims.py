@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 from disting import Chain, Engine, Family, Outcome, Query, Relation, Sensor, View, compare
+from disting.behaviour.sample import Representation
 from disting.conditions.structural import condition_9
 from disting.conditions.sufficient import condition_7
-from disting.invariants.sample import Representation
 from tests.paper.fibre import fibre_is_empty
 
 ENGINE = Engine()

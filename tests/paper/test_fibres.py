@@ -8,7 +8,7 @@ from itertools import combinations
 import pytest
 
 from disting import Chain, Engine, Family, Query, Relation, View
-from disting.invariants.sample import Representation
+from disting.behaviour.sample import Representation
 from tests.paper.fibre import fibre_is_empty
 
 ENGINE = Engine()

@@ -14,9 +14,9 @@ from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.dampers import DamperSets
 from disting.conditions.rule import EXACT
-from disting.engine.classes import Classes
 from disting.model.family import Family
 from disting.report import damper_page, write_report
+from disting.verdict.classes import Classes
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 import pytest
 import sympy
 
+from disting.behaviour.expanded import expanded
 from disting.catalogs import catalog
-from disting.invariants.expanded import expanded
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.formulas import correspondence, written

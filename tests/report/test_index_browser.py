@@ -15,9 +15,9 @@ from disting.model.chain import Chain
 from disting.model.constraints import violated
 from disting.model.symmetry import Symmetry, forms
 from disting.report import write_report
+from disting.report.describe_machine import descriptions, machines, part_name, parts
 from disting.report.drawing import draw
 from disting.report.index import index
-from disting.report.machine import descriptions, machines, part_name, parts
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

@@ -6,7 +6,7 @@ import pytest
 
 from disting.catalogs import Catalog, catalog
 from disting.evidence.positive import Share
-from disting.inclusion import Inclusion
+from disting.questions.inclusion import Inclusion
 from disting.report.domains import one_sided
 from disting.report.model import limits, model_page, standing, told_apart
 from disting.verdict import Relation, View

@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 from disting.catalogs.combined import combined
-from disting.engine import Decisions
-from disting.inclusion import Inclusion, Sense
+from disting.questions.inclusion import Inclusion, Sense
 from disting.report.scene import Text
 from disting.report.sizes import between, figure, outside, sizes_page, write_sizes
-from disting.verdict import Query
+from disting.verdict import Decisions, Query
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.fit.onward import Link, Site, Step, step_to, steps_of
-from disting.report.fit.rows import Row, intervals
+from disting.report.fit.table_rows import Row, intervals
 from disting.report.scene import PAGE_PALETTE
 from disting.report.svg import body, number
 

@@ -7,6 +7,7 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
+from disting.files import write_whole
 from disting.fit.export import candidate_to_dict, selection_to_dict
 from disting.fit.modes import Result, physical
 from disting.fit.select import Selection
@@ -14,14 +15,13 @@ from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
+from disting.report.fit.fit_page import fit_page
 from disting.report.fit.onward import Site, beside
-from disting.report.fit.page import fit_page
 from disting.report.fit.residuals import residuals
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
 from disting.report.fit.words import name
-from disting.written import write_whole
 
 COLUMNS = (
     "n_masses", "gap", "actuator", "sensor", "ground_dampers", "lag", "delay", "n_parameters",

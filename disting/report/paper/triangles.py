@@ -8,7 +8,6 @@ from itertools import combinations
 
 from disting.catalogs import Catalog
 from disting.catalogs.dampers import DamperTable, spelled
-from disting.engine import Decisions
 from disting.report.fields import (
     CORNERS,
     LETTERS,
@@ -20,7 +19,7 @@ from disting.report.fields import (
 )
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
 from disting.report.words import sign
-from disting.verdict import Relation, View
+from disting.verdict import Decisions, Relation, View
 
 MARGIN = 16.0
 HEAD = 26.0  # a panel's title

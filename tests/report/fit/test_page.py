@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from disting.comparison import name_of
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
 from disting.fit.export import read_model, selection_to_dict
@@ -24,10 +23,11 @@ from disting.report.fit import (
     write_fit_report,
 )
 from disting.report.fit.criteria import limits, nearest, weakest
-from disting.report.fit.page import reasoning
+from disting.report.fit.fit_page import reasoning
 from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
+from disting.verdict.comparison import name_of
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE
@@ -153,7 +153,7 @@ def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline
 def test_more_candidates_than_fit_are_behind_details(
     selection: Selection, train: FrequencyResponse, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("disting.report.fit.page.FIRST", 10)
+    monkeypatch.setattr("disting.report.fit.fit_page.FIRST", 10)
     text = fit_page(selection, [], [waterfall(selection.described)], train)
     assert "<summary>All 24 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2

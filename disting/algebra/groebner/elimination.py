@@ -1,0 +1,268 @@
+"""Gröbner bases modulo a prime by linear algebra: the F4 algorithm, in steps that can be
+interleaved and given up.
+
+Pairs of basis elements of the smallest degree are reduced all at once, as rows of one matrix
+together with the multiples that their monomials call for. Those multiples are many, sparse and
+triangular: they are used as they are, row by row, and FLINT brings the few rows that remain into
+echelon form. New leading monomials that are of lower degree than their pairs ("mutants") are
+handled first in the next step, because the smallest degree comes first. Generators wait until
+their own degree is reached, so a system that is contradictory in low degrees never looks at its
+large equations. Pairs are thinned out by the criteria of Gebauer and Möller. (J.-C. Faugère, A new
+efficient algorithm for computing Gröbner bases (F4), J. Pure Appl. Algebra 139, 1999; R. Gebauer,
+H. M. Möller, On an installation of Buchberger's algorithm, J. Symb. Comp. 6, 1988.)
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import SupportsInt
+
+from disting.algebra.groebner.modular import matrix as modular_matrix
+from disting.algebra.groebner.monomials import MAX_DEGREE, Order
+
+Sparse = Mapping[tuple[int, ...], int]  # exponents -> coefficient
+Multiple = tuple[list[int], tuple[int, ...]]  # codes and coefficients of a row of the matrix
+Pivots = dict[int, Multiple]  # by leading monomial
+MAX_PAIRS = 400  # of one step: larger matrices cost more than they save
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A polynomial with leading coefficient 1: codes in falling order, and coefficients."""
+
+    codes: tuple[int, ...]
+    numbers: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Basis:
+    """A Gröbner basis modulo a prime; `degree` is the largest degree that was needed to find it."""
+
+    order: Order
+    modulus: int
+    rows: tuple[Row, ...]
+    degree: int
+
+    @property
+    def is_one(self) -> bool:
+        """Whether the ideal is everything: no common zeros, over any extension field."""
+        return any(row.codes[0] == 0 for row in self.rows)
+
+
+class TooLarge(Exception):
+    """A degree that the codes of monomials cannot hold."""
+
+
+@dataclass(slots=True)
+class _Work:
+    order: Order
+    modulus: int
+    waiting: list[Row]
+    rows: list[Row] = field(default_factory=list)
+    # exponents of their leading monomials
+    leads: list[tuple[int, ...]] = field(default_factory=list)
+    # elements whose leading monomial no other one divides
+    active: list[int] = field(default_factory=list)
+    pairs: list[tuple[int, int, int]] = field(default_factory=list)  # lcm, two elements
+    known: dict[int, int] = field(default_factory=dict)  # monomial -> element that reduces it
+    # monomial -> number of elements that were tried in vain
+    missed: dict[int, int] = field(default_factory=dict)
+    degree: int = 0
+
+
+def basis_steps(generators: Iterable[Sparse], size: int, modulus: int) -> Iterator[Basis | int]:
+    """Yield, before each step, the number of entries of its matrix, and the minimal basis at the
+    end; raises TooLarge.
+
+    >>> *_, basis = basis_steps([{(2,): 1, (0,): -1}, {(1,): 1, (0,): -2}], 1, 101)
+    >>> basis.is_one  # x^2 = 1 and x = 2
+    True
+    """
+    order, generators = Order(size), [g for g in generators if g]
+    _limit(max((sum(e) for g in generators for e in g), default=0))
+    rows = [_row({order.encode(e): c for e, c in g.items()}, modulus) for g in generators]
+    work = _Work(
+        order,
+        modulus,
+        sorted(
+            (r for r in rows if r.codes), key=lambda r: (order.degree(r.codes[0]), len(r.codes))
+        ),
+    )
+    while work.pairs or work.waiting:
+        pivots, others, columns = _matrix(work, *_selected(work))
+        yield len(others) * len(columns)
+        for new in _echelon(pivots, others, sorted(columns, reverse=True), modulus):
+            if new.codes[0] == 0:
+                yield Basis(order, modulus, (new,), work.degree)
+                return
+            _insert(work, new)
+    yield Basis(order, modulus, tuple(work.rows[i] for i in work.active), work.degree)
+
+
+def _limit(degree: int) -> None:
+    if degree > MAX_DEGREE // 2:  # least common multiples have at most twice the degree
+        raise TooLarge(f"degree {degree}")
+
+
+def _row(polynomial: Mapping[int, int], modulus: int) -> Row:
+    items = sorted(((m, c % modulus) for m, c in polynomial.items() if c % modulus), reverse=True)
+    if not items:
+        return Row((), ())
+    inverse = pow(items[0][1], -1, modulus)
+    return Row(tuple(m for m, _ in items), tuple(c * inverse % modulus for _, c in items))
+
+
+def _selected(work: _Work) -> tuple[list[Row], set[tuple[int, int]]]:
+    """Generators and multiples (factor, element) of the smallest degree, taken out of what
+    waits.
+    """
+    degree = work.order.degree
+    low = min(
+        [degree(lcm) for lcm, _, _ in work.pairs] + [degree(r.codes[0]) for r in work.waiting[:1]]
+    )
+    work.degree = max(work.degree, low)
+    _limit(work.degree)
+    chosen = sorted(p for p in work.pairs if degree(p[0]) == low)[:MAX_PAIRS]
+    gone = set(chosen)
+    work.pairs = [p for p in work.pairs if p not in gone]
+    fresh = [r for r in work.waiting if degree(r.codes[0]) == low]
+    work.waiting = work.waiting[len(fresh) :]
+    return fresh, {(lcm - work.rows[i].codes[0], i) for lcm, *two in chosen for i in two}
+
+
+def _matrix(
+    work: _Work, fresh: list[Row], multiples: set[tuple[int, int]]
+) -> tuple[Pivots, list[Multiple], set[int]]:
+    """One multiple for each leading monomial that is known, the shortest; all other rows; all
+    monomials.
+    """
+    rows = [_multiple(work, f, i) for f, i in multiples]
+    rows.sort(key=lambda row: (row[0][0], len(row[0]), row))
+    pivots: Pivots = {}
+    others = [row for row in rows if pivots.setdefault(row[0][0], row) is not row]
+    others += [(list(r.codes), r.numbers) for r in fresh]
+    seen, todo = set(pivots), [m for codes, _ in (*pivots.values(), *others) for m in codes]
+    while todo:
+        m = todo.pop()
+        if m in seen:
+            continue
+        seen.add(m)
+        i = _reducer(work, m)
+        if i is not None:
+            pivots[m] = _multiple(work, m - work.rows[i].codes[0], i)
+            todo += pivots[m][0]
+    return pivots, others, seen
+
+
+def _multiple(work: _Work, factor: int, element: int) -> Multiple:
+    return [m + factor for m in work.rows[element].codes], work.rows[element].numbers
+
+
+def _reducer(work: _Work, code: int) -> int | None:
+    if code in work.known:
+        return work.known[code]
+    guard, mask = work.order.guard, work.order.mask
+    low, tried = (code & mask) | guard, work.missed.get(code, 0)
+    for i in work.active:
+        if i >= tried and (low - (work.rows[i].codes[0] & mask)) & guard == guard:
+            work.known[code] = i
+            return i
+    work.missed[code] = len(work.rows)
+    return None
+
+
+def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus: int) -> list[Row]:
+    """Rows with new leading monomials: the other rows, freed of the known leading monomials, in
+    echelon form.
+    """
+    at = {m: j for j, m in enumerate(columns)}
+    placed = {at[m]: ([at[c] for c in codes], numbers) for m, (codes, numbers) in pivots.items()}
+    free = [j for j in range(len(columns)) if j not in placed]
+    reduced = [
+        _freed([at[c] for c in codes], numbers, placed, len(columns), modulus)
+        for codes, numbers in others
+    ]
+    kept = [row for row in reduced if any(row)]
+    if not kept:
+        return []
+    matrix, rank = modular_matrix(
+        len(kept), len(free), [row[j] for row in kept for j in free], modulus
+    ).rref()
+    entries, monomials, width = matrix.entries(), [columns[j] for j in free], len(free)
+    return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
+
+
+def _freed(
+    places: list[int],
+    numbers: tuple[int, ...],
+    placed: dict[int, tuple[list[int], tuple[int, ...]]],
+    width: int,
+    modulus: int,
+) -> list[int]:
+    """A row minus multiples of the pivot rows, which are sparse: zero in all their columns."""
+    row = [0] * width
+    for j, c in zip(places, numbers, strict=True):
+        row[j] = c
+    for j in range(places[0], width):
+        if row[j]:
+            row[j] %= modulus
+            if row[j] and j in placed:
+                factor = row[j]
+                for k, c in zip(*placed[j], strict=True):
+                    row[k] -= factor * c
+    return row
+
+
+def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> Row:
+    kept = [(m, int(c)) for m, c in zip(columns, entries, strict=True) if c]
+    return Row(tuple(m for m, _ in kept), tuple(c for _, c in kept))
+
+
+def _insert(work: _Work, new: Row) -> None:
+    """Add an element, its pairs that the criteria leave, and drop the old pairs that it makes
+    superfluous.
+    """
+    order, lead, h = work.order, new.codes[0], len(work.rows)
+    guard, mask = order.guard, order.mask
+    exponents, low = order.decode(lead), lead & mask
+    lcms = {i: _lcm(order, exponents, work.leads[i]) for i in work.active}
+    # only where the new leading monomial divides the least common multiple
+    met = {
+        p
+        for p in work.pairs
+        if (((p[0] & mask) | guard) - low) & guard == guard and _superfluous(work, p, exponents)
+    }
+    work.pairs = [p for p in work.pairs if p not in met] if met else work.pairs
+    work.pairs += [(lcm, i, h) for lcm, i in _minimal(work, lcms, lead)]
+    work.active = [
+        i for i in work.active if (((work.rows[i].codes[0] & mask) | guard) - low) & guard != guard
+    ] + [h]
+    work.rows.append(new)
+    work.leads.append(exponents)
+
+
+def _lcm(order: Order, a: tuple[int, ...], b: tuple[int, ...]) -> int:
+    return order.encode(tuple(map(max, a, b)))
+
+
+def _superfluous(work: _Work, pair: tuple[int, int, int], exponents: tuple[int, ...]) -> bool:
+    """Whether the least common multiples of the new monomial with both of the pair are other
+    ones than the pair's.
+    """
+    lcm, i, j = pair
+    return all(_lcm(work.order, exponents, work.leads[k]) != lcm for k in (i, j))
+
+
+def _minimal(work: _Work, lcms: Mapping[int, int], lead: int) -> Iterator[tuple[int, int]]:
+    """One pair for each least common multiple that no other divides, and none where a product
+    of leading monomials is met.
+    """
+    groups: dict[int, list[int]] = {}
+    for i, lcm in lcms.items():
+        groups.setdefault(lcm, []).append(i)
+    guard, mask, kept = work.order.guard, work.order.mask, list[int]()
+    for lcm in sorted(groups):
+        high = (lcm & mask) | guard
+        if not any((high - low) & guard == guard for low in kept):
+            kept.append(lcm & mask)
+            if all(lcm != lead + work.rows[i].codes[0] for i in groups[lcm]):
+                yield lcm, groups[lcm][0]

@@ -1,0 +1,37 @@
+"""Findings of the exact decision as JSON text and back, for a cache and for files of settled
+decisions.
+"""
+
+import json
+
+from disting.algebra.certainty import Certainty
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
+from disting.evidence.kinds import evidence_from
+from disting.evidence.plain import to_dict
+
+# what the files have in the place of the rule: the exact decision comes after the nine conditions
+# of the paper
+WRITTEN = 10
+
+
+def finding_to_json(finding: Finding) -> str:
+    """Compact JSON text of a finding of the exact decision."""
+    evidence = to_dict(finding.evidence) if finding.evidence else None
+    data = [WRITTEN, finding.outcome, finding.certainty, finding.safety, evidence, finding.note]
+    return json.dumps(data, separators=(",", ":"))
+
+
+def finding_from_json(text: str) -> Finding:
+    """Inverse of `finding_to_json`; raises ValueError, KeyError or TypeError for what is none."""
+    written, outcome, certainty, safety, evidence, note = json.loads(text)
+    if written != WRITTEN:
+        raise ValueError("not a finding of the exact decision")
+    return Finding(
+        rule=EXACT,
+        outcome=Outcome(outcome),
+        certainty=Certainty(certainty),
+        safety=safety,
+        evidence=evidence_from(evidence) if evidence else None,
+        note=note,
+    )

@@ -1,0 +1,279 @@
+"""Whether generic models of one chain are models of another one that has a gap, row by row.
+
+The theorem of `splits` leaves three splits at most. In each of them both rows of the second chain
+have to be given receptances:
+
+* generic models of the first have an equivalent with finite elements other than zero only if in
+  some split both rows do;
+* if in some split both receptances lie in the closures of what the rows can be, the models of the
+  first lie in the closure of those of the second, because a sum of fractions is a continuous
+  function of its terms.
+
+A row is refuted by a Markov parameter, h_i in sum h_i s^-i, that is a product of unknowns there
+(so not zero) and zero in the receptance to be met, or the reverse: an identity of polynomials,
+without any chance. What is left goes to `decide`, which has to do with much smaller maps than
+those of whole chains.
+"""
+
+from dataclasses import replace
+from math import comb
+
+from flint import fmpz_mpoly
+
+from disting.evidence.ideals import ByRows, RowStep, Shown, Solved, Vanishing
+from disting.fibres.decision import Decision
+from disting.fibres.ideals.confirm import confirms
+from disting.fibres.ideals.fibre_ideal import generic_rank
+from disting.fibres.ideals.membership import Limits, decide
+from disting.fibres.ideals.monodromy import poles_are_inseparable
+from disting.fibres.ideals.splits import (
+    Receptances,
+    Split,
+    gap,
+    has_relation,
+    is_plain,
+    power,
+    receptances,
+    relative_degree,
+    splits,
+)
+from disting.fibres.ideals.system import CoefficientMap
+from disting.model.question import Membership
+from disting.model.structure import Structure
+
+PLAIN_MONOMIALS = 3000  # that plain elimination can bear
+# for up to eight statements: at most two rows in three splits, and the ranks that they rest on
+SPARE_BITS = 3
+Pair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there
+RANK_POINTS = 3  # one misses a rank with less than 2^-50, so that three are surer than the ideals
+
+
+def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByRows | None:
+    """A proof, without any chance, that generic models of `given` have no equivalent in
+    `other`; None if there is none.
+    """
+    if not_covered(given, other, f"{seed}:poles"):
+        return None
+    steps = [vanishing_step(split, receptances(other)) for split in splits(given, gap(other))]
+    found = tuple(step for step in steps if step is not None)
+    return ByRows(True, found) if len(found) == len(steps) else None
+
+
+def included_by_rows(
+    given: Structure, other: Structure, seed: str, limits: Limits
+) -> Decision[ByRows]:
+    """Whether, in some split, both rows have the receptances wanted in their closures;
+    elements may be zero. Else UNKNOWN.
+    """
+    wanted = replace(limits, safety=limits.safety + SPARE_BITS)
+    for split in splits(given, gap(other)) if _are_alike(given, other) else ():
+        steps = _members(split, receptances(other), seed, wanted)
+        if steps is not None:
+            return Decision(Membership.MEMBER, limits.safety, ByRows(True, steps))
+    return Decision(Membership.UNKNOWN, reason="no split was found in which both rows can be met")
+
+
+def _members(
+    split: Split, searched: Receptances, seed: str, limits: Limits
+) -> tuple[RowStep, ...] | None:
+    steps = list[RowStep]()
+    for name, wanted, there in _by_size(split, searched):
+        here, most = _ranks(wanted, there, f"rank:{seed}")
+        short = there.degrees[0] - wanted.degrees[0]
+        if here > most or short < 0 or (here == most and short):
+            return None
+        found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
+        if (
+            found.membership is not Membership.MEMBER
+            or found.evidence is None
+            or found.safety < limits.safety
+        ):
+            return None
+        steps.append(RowStep(split.name, name, replace(found.evidence, is_normalised=True)))
+    return tuple(steps)
+
+
+def decide_by_rows(
+    given: Structure, other: Structure, seed: str, limits: Limits
+) -> Decision[ByRows]:
+    """Whether generic models of `given` are models of `other`, a chain with a gap; both without
+    dead time.
+    """
+    why = not_covered(given, other, f"{seed}:poles")
+    if why:
+        return Decision(Membership.UNKNOWN, reason=why)
+    searched, wanted = receptances(other), replace(limits, safety=limits.safety + SPARE_BITS)
+    refuted, least = list[RowStep](), limits.safety + SPARE_BITS
+    for split in splits(given, gap(other)):
+        found = _split(split, searched, seed, wanted)
+        if found.membership is not Membership.EXCLUDED or found.evidence is None:
+            return found
+        refuted += found.evidence.steps
+        least = min(least, found.safety or least)
+    evidence = ByRows(True, tuple(refuted))
+    return Decision(Membership.EXCLUDED, 0 if evidence.is_proven else least - SPARE_BITS, evidence)
+
+
+def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> bool:
+    """Whether the evidence holds: poles and splits are found again, each step is checked
+    without the search that found it.
+    """
+    given, other = (left, right) if evidence.left_given else (right, left)
+    if not _are_alike(given, other) or (
+        not evidence.is_member and not_covered(given, other, "verify:poles")
+    ):
+        return False
+    searched, possible = (
+        dict(receptances(other).named),
+        {s.name: dict(s.receptances.named) for s in splits(given, gap(other))},
+    )
+    if any(s.split not in possible or s.part not in possible[s.split] for s in evidence.steps):
+        return False
+    told = {s.split for s in evidence.steps}
+    if evidence.is_member:
+        complete = len(told) == 1 and {s.part for s in evidence.steps} == set(searched)
+    else:
+        complete = told == set(possible) and not any(
+            isinstance(s.shown, Solved) for s in evidence.steps
+        )
+    return complete and all(
+        _confirms(s.shown, possible[s.split][s.part], searched[s.part]) for s in evidence.steps
+    )
+
+
+def not_covered(given: Structure, other: Structure, label: str) -> str:
+    """Why the theorem does not apply; empty if it does."""
+    if not _are_alike(given, other):
+        return (
+            "chains of one size and sensor are taken apart, without ground dampers and lag, and the"
+            " searched one has a gap"
+        )
+    if not has_relation(receptances(other), power(other)):
+        return "force and sensor at one place in both rows leave all sets of poles possible"
+    return (
+        ""
+        if poles_are_inseparable(given, label)
+        else "the poles of a row were not proven to be inseparable"
+    )
+
+
+def _are_alike(given: Structure, other: Structure) -> bool:
+    """Whether both are plain, of one size, sensor and damping, and the one that is searched has
+    a gap.
+    """
+    kinds = [(s.n_masses, s.sensor_order, power(s)) for s in (given, other)]
+    return is_plain(given) and is_plain(other) and kinds[0] == kinds[1] and gap(other) > 0
+
+
+def _ranks(wanted: CoefficientMap, there: CoefficientMap, label: str) -> tuple[int, int]:
+    """Generic ranks of both, the largest seen at some points."""
+    labels = (label, *(f"{label}:{k}" for k in range(1, RANK_POINTS)))
+    here, most = (max(generic_rank(m, x) for x in labels) for m in (wanted, there))
+    return here, most
+
+
+def _split(split: Split, searched: Receptances, seed: str, limits: Limits) -> Decision[ByRows]:
+    """Both rows in one split: an exact refutation of either, then ideals, the fewest unknowns
+    first.
+    """
+    exact = vanishing_step(split, searched)
+    if exact is not None:
+        return Decision(Membership.EXCLUDED, 0, ByRows(True, (exact,)))
+    steps, least = list[RowStep](), limits.safety
+    for name, wanted, there in _by_size(split, searched):
+        here, most = _ranks(wanted, there, f"rank:{seed}")
+        if here > most:
+            return Decision(
+                Membership.UNKNOWN, reason=f"the ranks of the {name} row are {here} and {most}"
+            )
+        found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
+        if found.evidence is None or found.safety < limits.safety:
+            return Decision(Membership.UNKNOWN, reason=f"the {name} row: {found.reason}")
+        step = RowStep(split.name, name, replace(found.evidence, is_normalised=True))
+        least = min(least, found.safety)
+        if found.membership is Membership.EXCLUDED:
+            return Decision(Membership.EXCLUDED, found.safety, ByRows(True, (step,)))
+        steps.append(step)
+    return Decision(Membership.MEMBER, least - SPARE_BITS, ByRows(True, tuple(steps)))
+
+
+def _pairs(split: Split, searched: Receptances) -> list[Pair]:
+    """Name of a row, the receptance wanted and the map that is there."""
+    return [
+        (name, wanted, there)
+        for (name, wanted), (_, there) in zip(split.receptances.named, searched.named, strict=True)
+    ]
+
+
+def _by_size(
+    split: Split, searched: Receptances
+) -> list[tuple[str, CoefficientMap, CoefficientMap]]:
+    """The row with the fewest unknowns first."""
+    return sorted(_pairs(split, searched), key=lambda pair: len(pair[2].parameters))
+
+
+def vanishing_step(split: Split, searched: Receptances) -> RowStep | None:
+    """A row that a Markov parameter refutes in this split, without any chance; None if there
+    is none.
+    """
+    found = ((name, vanishing(wanted, there)) for name, wanted, there in _pairs(split, searched))
+    return next(
+        (RowStep(split.name, name, Vanishing(index)) for name, index in found if index is not None),
+        None,
+    )
+
+
+def vanishing(wanted: CoefficientMap, there: CoefficientMap) -> int | None:
+    """Index of a Markov parameter that refutes the row, among its first two; None if there is
+    none.
+
+    >>> from disting.model.chain import Chain
+    >>> chains = (Chain(2, 0, 0, 1, 0, port, damped=True) for port in (2, 1))
+    >>> vanishing(*(receptances(c.structure).free for c in chains))
+    2
+    """
+    first = relative_degree(there)
+    return next((i for i in range(1, first + 2) if _refutes(i, wanted, there)), None)
+
+
+def _refutes(index: int, wanted: CoefficientMap, there: CoefficientMap) -> bool:
+    met, own = (_markov(m, index) for m in (wanted, there))
+    return bool((len(own) == 1 and met.is_zero()) or (own.is_zero() and not met.is_zero()))
+
+
+def _markov(model: CoefficientMap, index: int) -> fmpz_mpoly:
+    """a_n^i h_i for a denominator of degree n: a_n h_i = b_(n-i) - sum_(j < i) a_(n-i+j) h_j."""
+    n, lead = len(model.denominator) - 1, model.denominator[-1]
+    zero = lead - lead
+    scaled = [zero]
+    for i in range(1, index + 1):
+        top = model.numerator[n - i] if 0 <= n - i < len(model.numerator) else zero
+        tail = (
+            model.denominator[n - i + j] * lead ** (i - 1 - j) * scaled[j]
+            for j in range(max(1, i - n), i)
+        )
+        scaled.append(top * lead ** (i - 1) - sum(tail, zero))
+    return scaled[index]
+
+
+def _confirms(shown: Shown, wanted: CoefficientMap, there: CoefficientMap) -> bool:
+    if isinstance(shown, Vanishing):
+        return shown.index > 0 and _refutes(shown.index, wanted, there)
+    ranks = _ranks(wanted, there, "rank:verify")
+    equal = ranks[0] == ranks[1]
+    if ranks[0] > ranks[1] or not (equal or shown.left_given):
+        return False
+    if isinstance(shown, Solved):
+        return confirms(shown, wanted, there)
+    if shown.tangent != equal:
+        return False
+    if comb(len(there.parameters) + 1 + shown.degree, shown.degree) <= PLAIN_MONOMIALS:
+        return confirms(shown, wanted, there)
+    again = decide(
+        wanted,
+        there,
+        equal_rank=equal,
+        seed="verify",
+        limits=Limits(seconds=600, entries=10**9, safety=1),
+    )
+    return again.membership is Membership.EXCLUDED

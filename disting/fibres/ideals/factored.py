@@ -1,0 +1,285 @@
+"""A row of masses as a map to the factors of its receptance's numerator and to its poles, and
+fibres of that map.
+
+Force and sensor at the masses a <= b of one row: N = g theta prod_(a <= i < b) (s + h_i) phi over
+D, with theta the determinant of the masses left of a, phi of those right of b, c_i = u_i + e_i s
+the joints, h_i their ratio between the ports. `normalised` has ratios of masses everywhere; here
+theta and phi look alike, and joints between the ports have their root as an unknown:
+
+    left of a:   w_i = (u_i + e_i s)        enters row i,      r_i w_i    row i + 1       (c_i =
+    m_i w_i) between:     e_i (s + h_i)              enters row i,      x_i (s + h_i)    row i + 1
+    right of b:  w_i = (u_i + e_i s)        enters row i + 1,  r_i w_i    row i           (c_i =
+    m_(i+1) w_i)
+
+and f_i = b_i/m_i. The joint to a wall enters the first row alone; a damper of the first mass
+beside it is part of it. For non-zero masses and dampers of the joints these unknowns are quotients
+of products of the elements, and the elements quotients of products of these and of one mass: a
+birational map, as in `normalised`. N/g, theta, phi and D are monic.
+
+FIBRES WITH SHARES. Let p0 be a point of one row where N has its roots in the field, all distinct.
+An equivalent q of another row has the same N, so its joints between the ports, its theta and its
+phi share out these roots. For one way of sharing,
+
+    h_i = -z_i,    theta(q) = prod_left (s - rho),    phi(q) = prod_right (s - rho),    D(q) = D(p0)
+
+has far fewer unknowns than the fibre of the coefficients. The gain g fits whatever the rest: it is
+left out. For equal ranks the tangent equations are added in the coordinates h_i and the
+coefficients of theta, phi and D. Near p0 they are functions of the coefficients of N/g and D,
+invertible ones because the roots are distinct, and the same functions for both rows; so equal
+tangent spaces remain equal: W J2(q) = 0 for W J1(p0) = 0. A factor f of N/g moves by df = d(N/g)
+(N/(g f))^-1 modulo f.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+from operator import mul
+
+from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
+
+from disting.algebra.groebner.modular import long_polynomial, null_space
+from disting.algebra.symbols import coefficients, symbols
+from disting.fibres.ideals.fibre_ideal import Polynomial, derivative, evaluated
+from disting.fibres.ideals.system import CoefficientMap, Terms, minors, separated
+from disting.model.row import Row
+
+Point = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """Which roots of the numerator belong to the joints between the ports, in order, to theta
+    and to phi.
+    """
+
+    joints: tuple[int, ...]
+    left: tuple[int, ...]
+    right: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FactoredMap:
+    """`joints`: positions of the h_i; coefficients of theta, phi and D but the leading ones, which
+    are 1.
+
+    D is without its factor s^k. `whole`: the receptance with its gain, the last parameter, which
+    the others do not contain.
+    """
+
+    name: str
+    parameters: tuple[str, ...]
+    joints: tuple[int, ...]
+    left: tuple[Terms, ...]
+    right: tuple[Terms, ...]
+    poles: tuple[Terms, ...]
+    whole: CoefficientMap
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """A point of a map: roots of the joints, theta, phi, D modulo the prime, and the derivatives
+    (dN, dD) by each parameter.
+
+    N is monic here.
+    """
+
+    joints: tuple[int, ...]
+    left: fmpz_mod_poly
+    right: fmpz_mod_poly
+    numerator: fmpz_mod_poly
+    poles: tuple[int, ...]
+    slopes: tuple[tuple[fmpz_mod_poly, tuple[int, ...]], ...]
+
+
+def factored(row: Row) -> FactoredMap:
+    """The receptance of a row with dampers in its joints.
+
+    >>> m = factored(Row(3, False, 1, 2, damped=True))
+    >>> m.parameters, [len(x) for x in (m.joints, m.left, m.right, m.poles)]
+    (('h1', 'e1', 'x1', 'u2', 'e2', 'r2'), [1, 0, 2, 4])
+    """
+    first, last = row.before + 1, row.before + row.n_masses
+    a, b = _ports(row)
+    names = _names(row)
+    ring = symbols(["s", *names, "g"])
+    theta, phi, den = _minors(row, ring)
+    num = reduce(mul, (ring["s"] + ring[f"h{i}"] for i in range(a, b)), ring["g"] * theta * phi)
+    power = min(e[0] for e in den.monoms())  # of the poles at zero, which no zero cancels
+    at = {name: k for k, name in enumerate(names)}
+    return FactoredMap(
+        name=f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
+        parameters=names,
+        joints=tuple(at[f"h{i}"] for i in range(a, b)),
+        left=_by_power(theta),
+        right=_by_power(phi),
+        poles=_by_power(den // ring["s"] ** power),
+        whole=separated((*names, "g"), num, den),
+    )
+
+
+def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
+    """The map and its derivatives at a point."""
+
+    def at(coordinates: Sequence[Terms], lead: int) -> fmpz_mod_poly:
+        """Their values as a polynomial in s."""
+        return long_polynomial(
+            [*(evaluated(c, point, modulus) for c in coordinates), lead], modulus
+        )
+
+    def slope(coordinates: Sequence[Terms], by: int) -> fmpz_mod_poly:
+        """The derivative of that polynomial."""
+        return at([derivative(c, by) for c in coordinates], 0)
+
+    roots = tuple(-point[h] % modulus for h in chain.joints)
+    left, right = at(chain.left, 1), at(chain.right, 1)
+    numerator = reduce(mul, (long_polynomial([-z, 1], modulus) for z in roots), left * right)
+    slopes = []
+    for by in range(len(point)):
+        change = numerator // left * slope(chain.left, by) + numerator // right * slope(
+            chain.right, by
+        )
+        if by in chain.joints:
+            change += numerator // long_polynomial([point[by], 1], modulus)
+        slopes.append(
+            (change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles))
+        )
+    poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
+    return Values(
+        joints=roots, left=left, right=right, numerator=numerator, poles=poles, slopes=tuple(slopes)
+    )
+
+
+def shared_fibre(
+    given: Values, other: FactoredMap, share: Share, modulus: int
+) -> tuple[int, list[Polynomial]]:
+    """Number of unknowns, and equations, of the parameters of `other` over these values with
+    this share; linear ones solved.
+    """
+    field = fmpz_mod_mpoly_ctx.get(other.parameters, modulus=modulus)
+    shares = [_product(share.left, modulus), _product(share.right, modulus)]
+    wanted = [*(int(f[i]) for f in shares for i in range(f.degree())), *given.poles]
+    lifted = [
+        field.from_dict({e: x % modulus for e, x in c})
+        for c in (*other.left, *other.right, *other.poles)
+    ]
+    equations = [p - y for p, y in zip(lifted, wanted, strict=True)]
+    for normal in _normals(given, share, modulus):
+        height = sum(
+            (p * w for p, w in zip(lifted, normal[len(other.joints) :], strict=True)),
+            field.constant(0),
+        )
+        equations += _tangents(height, other, normal)
+    placed = list(field.gens())
+    for h, z in zip(other.joints, share.joints, strict=True):
+        placed[h] = field.constant(-z % modulus)
+    return _solved([p.compose(*placed) for p in equations], field, set(other.joints))
+
+
+def _ports(row: Row) -> tuple[int, int]:
+    """Its ports, numbered as in the chain."""
+    return row.a + row.before, row.b + row.before
+
+
+def _names(row: Row) -> tuple[str, ...]:
+    """Unknowns of a row but its gain, numbered as in the chain."""
+    at = row.before
+    joints = (
+        f"{x}{i + at}"
+        for i in range(1, row.n_masses)
+        for x in ("hex" if row.a <= i < row.b else "uer")
+    )
+    dampers = (f"f{i + at}" for i in row.ground_dampers if not (row.grounded and i == 1))
+    return (*("u0", "e0")[: 2 * row.grounded], *joints, *dampers)
+
+
+def _minors(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly, fmpz_mpoly]:
+    """theta, phi and D by the three-term recurrences."""
+    s, zero, one = ring["s"], 0 * ring["s"], ring["s"] ** 0
+    first, last, ports = row.before + 1, row.before + row.n_masses, _ports(row)
+    near = {
+        last: (zero, zero),
+        first - 1: (zero, ring.get(f"u{first - 1}", zero) + ring.get(f"e{first - 1}", zero) * s),
+    }
+    near |= {i: _entries(i, ports, ring) for i in range(first, last)}
+    diagonal = [
+        s * s + near[i - 1][1] + near[i][0] + ring.get(f"f{i}", zero) * s
+        for i in range(first, last + 1)
+    ]
+    squares = [near[i][0] * near[i][1] for i in range(first, last)]
+    leading, trailing = minors(diagonal, squares, one), minors(diagonal[::-1], squares[::-1], one)
+    return leading[ports[0] - first], trailing[last - ports[1]], leading[-1]
+
+
+def _entries(
+    joint: int, ports: tuple[int, int], ring: dict[str, fmpz_mpoly]
+) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """What a joint adds to the rows of the masses on its left and on its right."""
+    s = ring["s"]
+    if ports[0] <= joint < ports[1]:
+        return ring[f"e{joint}"] * (s + ring[f"h{joint}"]), ring[f"x{joint}"] * (
+            s + ring[f"h{joint}"]
+        )
+    one, ratio = ring[f"u{joint}"] + ring[f"e{joint}"] * s, ring[f"r{joint}"]
+    return (one, ratio * one) if joint < ports[0] else (ratio * one, one)
+
+
+def _by_power(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
+    """Coefficients of s^0, s^1, .. but the leading one, in the unknowns: between s, the first
+    symbol, and the gain.
+    """
+    found = (c.to_dict() for c in coefficients(polynomial, "s")[:-1])
+    return tuple(tuple((tuple(map(int, e[1:-1])), int(x)) for e, x in c.items()) for c in found)
+
+
+def _product(roots: Sequence[int], modulus: int) -> fmpz_mod_poly:
+    return reduce(
+        mul, (long_polynomial([-z, 1], modulus) for z in roots), long_polynomial([1], modulus)
+    )
+
+
+def _normals(given: Values, share: Share, modulus: int) -> list[list[int]]:
+    """W: the relations between the rows of the Jacobian matrix, in the order joints, theta,
+    phi, D, in echelon form.
+    """
+    factors = [f for f in (*((z,) for z in share.joints), share.left, share.right) if f]
+    parts = [
+        (f, (given.numerator // f).inverse_mod(f)) for f in (_product(x, modulus) for x in factors)
+    ]
+    columns = []
+    for change, poles in given.slopes:
+        moved = [(change * inverse % f, f.degree()) for f, inverse in parts]
+        columns.append([*(int(d[i]) for d, size in moved for i in range(size)), *poles])
+    return [normal[::-1] for normal in null_space([column[::-1] for column in columns], modulus)]
+
+
+def _tangents(
+    height: fmpz_mod_mpoly, other: FactoredMap, normal: Sequence[int]
+) -> list[fmpz_mod_mpoly]:
+    """The derivatives of the height along a normal by all parameters; the coordinates h_i are
+    parameters themselves.
+    """
+    more = dict(zip(other.joints, normal, strict=False))
+    return [height.derivative(by) + more.get(by, 0) for by in range(len(other.parameters))]
+
+
+def _solved(
+    equations: list[fmpz_mod_mpoly], field: fmpz_mod_mpoly_ctx, gone: set[int]
+) -> tuple[int, list[Polynomial]]:
+    """The equations without the unknowns that are gone already, or that linear equations give."""
+    gens, gone = list(field.gens()), set(gone)
+    while True:
+        equations = [p for p in equations if not p.is_zero()]
+        linear = next((p for p in equations if p.total_degree() == 1), None)
+        if linear is None:
+            break
+        lead = next(e for e, _ in linear.terms() if sum(e))
+        at = lead.index(1)
+        images = list(gens)
+        images[at] = gens[at] - linear * pow(int(linear[lead]), -1, int(field.modulus()))
+        gone.add(at)
+        equations = [p.compose(*images) for p in equations]
+    # in this order the bases are found a little faster
+    kept = [i for i in reversed(range(len(gens))) if i not in gone]
+    return len(kept), [
+        {tuple(int(e[i]) for i in kept): int(c) for e, c in p.terms()} for p in equations
+    ]

@@ -1,0 +1,259 @@
+"""Whether generic models of one structure are models of another, by the ideal of one fibre, for
+any two coefficient maps.
+
+For equal ranks both directions decide the same question, and one of them is often a hundred times
+cheaper: they are raced, the step of the least total work first. Work is counted in entries of
+matrices, not in seconds, so that the outcome depends on the seed and not on the machine (unless
+the time runs out). Further points and primes, in the direction that won, multiply the error bounds
+of `bounds` until the wanted one is reached; one bit is paid for the choice of the direction. No
+point is passed over: one that contradicts the others makes the decision UNKNOWN, so all points
+drawn must mislead before a decision is wrong.
+
+Meaning. Equal ranks: MEMBER says V1 = V2, EXCLUDED says V1 != V2, for the closures of the images
+over the complex numbers. Smaller rank of the given model: MEMBER says that V1 lies inside V2,
+EXCLUDED that generic points of V1 are not reached by Phi2 (they could be limits of points that
+are). Elements may be zero in a solution; an empty fibre is empty with them.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil
+from time import process_time
+
+from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
+from disting.algebra.groebner.points import free_variable, solution
+from disting.algebra.sampling import about, residues
+from disting.errors import ContradictionError, InputError
+from disting.evidence.ideals import Refuted, Solved
+from disting.fibres.decision import Decision
+from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
+from disting.fibres.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
+from disting.fibres.ideals.system import CoefficientMap, matched
+from disting.model.question import Membership
+
+LEAST = 8  # bits of one run: with fewer, too many runs would be needed
+# draws for one solution modulo the prime: each square root that it needs halves the chance that
+# there is one
+SPARE = 32
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """`entries` of one matrix (about 1 microsecond each), `safety` wanted bits, `seconds` for the
+    whole decision.
+
+    The seconds are those of this process, whatever else the machine does.
+    """
+
+    seconds: float = 60.0
+    entries: int = 20_000_000
+    safety: int = 100
+
+
+Told = Decision[Solved | Refuted]
+
+
+class _GivenUp(Exception):
+    pass
+
+
+@dataclass(slots=True)
+class _Run:
+    """One direction at one label: the equations, the steps still to do, and the work done and
+    announced.
+    """
+
+    left_given: bool
+    label: str
+    ideal: FibreIdeal
+    steps: Iterator[Basis | int]
+    work: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class _Question:
+    left: CoefficientMap
+    right: CoefficientMap
+    equal_rank: bool
+    limits: Limits
+    deadline: float
+
+    @property
+    def price(self) -> int:
+        """Bits for the choice between two directions."""
+        return int(self.equal_rank)
+
+    def sides(self, left_given: bool) -> tuple[CoefficientMap, CoefficientMap]:
+        """The model whose point is given, and the one that is searched."""
+        return (self.left, self.right) if left_given else (self.right, self.left)
+
+    def run(self, left_given: bool, label: str) -> _Run:
+        """The Gröbner basis of the fibre in this direction, at the point of this label, ready
+        to be computed step by step.
+        """
+        ideal = fibre_ideal(*self.sides(left_given), label, self.equal_rank)
+        return _Run(
+            left_given,
+            label,
+            ideal,
+            basis_steps(ideal.generators, len(ideal.unknowns), ideal.modulus),
+        )
+
+
+def decide(
+    given: CoefficientMap,
+    other: CoefficientMap,
+    *,
+    equal_rank: bool,
+    seed: str = "disting",
+    limits: Limits = Limits(),
+) -> Told:
+    """Whether generic models of `given` are models of `other`; `equal_rank` lets the other
+    direction decide as well.
+
+    Numerators of unequal degrees are compared with zeros where one has no coefficient. Raises
+    InputError if the ranks at random points are not as told, or the given model has the larger
+    one.
+    """
+    if given.degrees[1] != other.degrees[1]:
+        return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
+    left, right = matched(given, other)
+    _refuse(left, right, equal_rank, seed)
+    seed = about(f"ideals:{seed}", left.content, right.content)
+    if safety_of_empty(left, right, equal_rank) < LEAST:
+        return Decision(
+            Membership.UNKNOWN,
+            reason="primes of 64 bits give no useful bound for models of this size",
+        )
+    question = _Question(
+        left=left,
+        right=right,
+        equal_rank=equal_rank,
+        limits=limits,
+        deadline=process_time() + limits.seconds,
+    )
+    try:
+        ways = (True, False) if equal_rank else (True,)
+        run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
+        return (
+            _excluded(question, run, basis, seed)
+            if basis.is_one
+            else _member(question, run, basis, seed)
+        )
+    except _GivenUp as why:
+        return Decision(Membership.UNKNOWN, reason=str(why))
+
+
+def _refuse(left: CoefficientMap, right: CoefficientMap, equal_rank: bool, seed: str) -> None:
+    ranks = [generic_rank(model, f"rank:{seed}") for model in (left, right)]
+    if ranks[0] > ranks[1] or equal_rank != (ranks[0] == ranks[1]):
+        raise InputError(f"the ranks are {ranks[0]} and {ranks[1]}")
+
+
+def _label(seed: str, number: int) -> str:
+    return f"{seed}:{number}"
+
+
+def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
+    """The first basis that is found, always doing the step with the least total work; raises
+    _GivenUp.
+    """
+    why = "no direction"
+    while runs:
+        if process_time() > question.deadline:
+            raise _GivenUp(f"out of time ({question.limits.seconds:g} s)")
+        run = min(runs, key=lambda r: r.work)
+        try:
+            step = next(run.steps)
+        except TooLarge as error:
+            why, step = str(error), question.limits.entries + 1
+        if isinstance(step, Basis):
+            return run, step
+        run.work += step
+        if step > question.limits.entries:
+            why = why if why != "no direction" else f"a matrix of {step} entries"
+            runs.remove(run)
+    raise _GivenUp(f"too large: {why}")
+
+
+def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
+    each = safety_of_empty(*question.sides(run.left_given), question.equal_rank)
+    labels, degree, reason = [run.label], basis.degree, ""
+    try:
+        while len(labels) < _needed(question, each):
+            again, found = _race(
+                question, [question.run(run.left_given, _label(seed, len(labels)))]
+            )
+            if not found.is_one:
+                return Decision(
+                    Membership.UNKNOWN, reason="one random point refutes, another does not"
+                )
+            labels.append(again.label)
+            degree = max(degree, found.degree)
+    except _GivenUp as why:
+        reason = str(why)
+    evidence = Refuted(run.left_given, tuple(labels), degree, question.equal_rank)
+    return Decision(Membership.EXCLUDED, each * len(labels) - question.price, evidence, reason)
+
+
+def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
+    each = safety_of_member(*question.sides(run.left_given))
+    found, reason, wanted = dict[str, tuple[int, ...]](), "", _needed(question, each)
+    try:
+        for number in range(1, SPARE * wanted + 1):
+            if basis.is_one:
+                return Decision(
+                    Membership.UNKNOWN, reason="one random point refutes, another does not"
+                )
+            solved = _solution(question, run, basis)
+            found |= {run.label: solved} if solved else {}
+            if len(found) == wanted:
+                break
+            run, basis = _race(question, [question.run(run.left_given, _label(seed, number))])
+    except _GivenUp as why:
+        reason = str(why)
+    if not found:
+        return Decision(
+            Membership.UNKNOWN,
+            reason=reason or "no solution with coordinates modulo the prime was found",
+        )
+    evidence = Solved(run.left_given, tuple(found), tuple(found.values()))
+    return Decision(Membership.MEMBER, each * len(found) - question.price, evidence, reason)
+
+
+def _needed(question: _Question, each: int) -> int:
+    if each <= question.price:
+        raise _GivenUp("primes of 64 bits give no bound for models of this size")
+    return ceil((question.limits.safety + question.price) / each)
+
+
+def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] | None:
+    """All parameters of the searched model, in its order; further unknowns are fixed as long as
+    solutions are not finite.
+
+    What is found is put into both coefficient maps; raises ContradictionError where they differ, a
+    defect of the program.
+    """
+    ideal, extra = run.ideal, list[Sparse]()
+    values = residues(f"cut:{run.label}", len(ideal.unknowns), ideal.modulus)
+    while (at := free_variable(basis)) is not None:
+        extra.append(_fixed(at, values[at], len(ideal.unknowns)))
+        steps = basis_steps([*ideal.generators, *extra], len(ideal.unknowns), ideal.modulus)
+        _, basis = _race(question, [_Run(run.left_given, run.label, ideal, steps)])
+        if basis.is_one:
+            return None
+    found = solution(basis, run.label)
+    if found is None:
+        return None
+    given, other = question.sides(run.left_given)
+    named = ideal.fixed | dict(zip(ideal.unknowns, found, strict=True))
+    solved = tuple(named[name] for name in other.parameters)
+    if not agree(given, ideal.point, other, solved, ideal.modulus):
+        raise ContradictionError(
+            "a solution of the fibre's equations is none of the coefficient maps"
+        )
+    return solved
+
+
+def _fixed(at: int, value: int, size: int) -> Sparse:
+    return {tuple(int(i == at) for i in range(size)): 1, (0,) * size: -value}

@@ -1,0 +1,236 @@
+"""Parametric models as maps from parameters to the coefficients of a transfer function.
+
+A model with one input and one output is the map Phi: parameters -> coefficients of numerator and
+denominator, polynomials with integer coefficients. For chains there are two: `coefficient_map` in
+the parameters themselves, and `normalised` in fewer and better ones. There row i of M s^2 + D s +
+K is divided by m_i; with c_i, d_i for spring and damper between masses i and i+1
+
+    u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,  f_i =
+    b_i/m_i,  g = 1/m_b
+
+with one gain g for each row, b its right port. A joint enters row i as u_i +
+e_i s and row i+1 as r_i (u_i + e_i s), so every determinant is monic in s and linear in each
+single unknown, and the receptance of a row is
+
+    H = g * prod_(a <= i < b) (u_i + e_i s) * theta_(a-1) * phi_(b+1) / D
+
+(theta, phi, D: leading, trailing and all principal minors). A lag becomes 1/(s + f), f = 1/T1, and
+its f is taken into the gains. For non-zero masses (and T1) the new unknowns are quotients and
+products of the old ones and the old ones of the new ones: a birational map. Both maps have the
+same closure of their image, which alone matters for generic models; parameters of rows without a
+port, which the transfer function does not contain, are left out.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
+from operator import mul
+
+from flint import fmpz_mpoly, fmpz_mpoly_ctx
+
+from disting.algebra.sampling import digest
+from disting.algebra.symbols import coefficients, renamed, symbols
+from disting.behaviour.expanded import expanded
+from disting.errors import InputError
+from disting.model.row import Row, rows_of
+from disting.model.structure import Structure
+
+SCALE = "scale"  # the unknown common factor of numerator and denominator
+Term = tuple[tuple[int, ...], int]  # exponents and coefficient
+Terms = tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class CoefficientMap:
+    """Transfer function sum b_i s^i / sum a_i s^i: polynomials b_i, a_i in `parameters`,
+    ascending, in lowest terms.
+
+    Lowest terms means for generic parameters; the caller answers for it. Raises InputError where a
+    polynomial has other symbols than the parameters, or the denominator has no leading
+    coefficient.
+    """
+
+    parameters: tuple[str, ...]
+    numerator: tuple[fmpz_mpoly, ...]
+    denominator: tuple[fmpz_mpoly, ...]
+
+    def __post_init__(self) -> None:
+        if any(
+            tuple(p.context().names()) != self.parameters
+            for p in (*self.numerator, *self.denominator)
+        ):
+            raise InputError(
+                "the coefficients of a model are polynomials in exactly its parameters"
+            )
+        if not self.denominator or self.denominator[-1].is_zero() or not self.numerator:
+            raise InputError(
+                "a transfer function has a numerator and a leading denominator coefficient that is"
+                " not zero"
+            )
+
+    @property
+    def is_monic(self) -> bool:
+        """Whether the leading coefficient of the denominator is 1, so that equal functions have
+        equal coefficients.
+        """
+        return bool(self.denominator[-1].is_one())
+
+    @property
+    def degrees(self) -> tuple[int, int]:
+        """Degrees in s of numerator and denominator."""
+        tops = [i for i, b in enumerate(self.numerator) if not b.is_zero()]
+        return max(tops, default=0), len(self.denominator) - 1
+
+    @cached_property
+    def coordinates(self) -> tuple[Terms, ...]:
+        """Terms of b_0, b_1, .. and a_0, a_1, .., the last a left out where it is 1."""
+        kept = self.denominator[:-1] if self.is_monic else self.denominator
+        return tuple(terms(p) for p in (*self.numerator, *kept))
+
+    @cached_property
+    def content(self) -> str:
+        """A digest of all that tells two maps apart, for the labels of their points and primes."""
+        return digest(self.parameters, self.degrees, self.coordinates)
+
+    def __hash__(self) -> int:
+        return hash(self.content)
+
+    def with_scale(self) -> "CoefficientMap":
+        """All coefficients times one more parameter: then equal functions have equal
+        coefficients, monic or not.
+        """
+        ring = symbols([*self.parameters, SCALE])
+
+        def lifted(polynomials: Sequence[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
+            """In the larger ring, times the new parameter."""
+            return tuple(renamed(p, ring, {}) * ring[SCALE] for p in polynomials)
+
+        return CoefficientMap(
+            (*self.parameters, SCALE), lifted(self.numerator), lifted(self.denominator)
+        )
+
+
+def coefficient_map(structure: Structure) -> CoefficientMap:
+    """The map of a chain in its own parameters; a dead time, a factor exp(-Td s), is no part of it.
+
+    >>> from disting.model.chain import Chain
+    >>> [str(a) for a in coefficient_map(Chain(1).structure).denominator]
+    ['m1']
+    """
+    names = tuple(p for p in structure.parameters if p != "Td")
+    return separated(names, *expanded(structure))
+
+
+def normalised(structure: Structure) -> CoefficientMap:
+    """The map of a chain in the unknowns of this module's text: monic and linear in each of them.
+
+    >>> from disting.model.chain import Chain
+    >>> m = normalised(Chain(2, damped=True).structure)
+    >>> m.parameters, [str(a) for a in m.denominator]
+    (('u1', 'e1', 'r1', 'g1'), ['u1*r1 + u1', 'e1*r1 + e1', '1'])
+    """
+    rows = rows_of(structure)
+    names = (*(name for row in rows for name in unknowns(row)), *["lag"] * structure.lag)
+    ring = symbols(["s", *names])
+    fractions = [receptance_of_row(row, ring) for row in rows]
+    num, den = reduce(lambda x, y: (x[0] * y[1] + y[0] * x[1], x[1] * y[1]), fractions)
+    if structure.lag:
+        den = den * (ring["s"] + ring["lag"])
+    num = num * ring["s"] ** structure.sensor_order
+    power = min(min(e[0] for e in p.monoms()) for p in (num, den))
+    return separated(names, num // ring["s"] ** power, den // ring["s"] ** power)
+
+
+def matched(given: CoefficientMap, other: CoefficientMap) -> tuple[CoefficientMap, CoefficientMap]:
+    """Both maps in a form in which equal transfer functions are equal coefficients, as many in
+    both, zeros included.
+
+    Of equally many poles all functions have their coefficients in one space, whatever the degrees
+    of the numerators. Raises InputError for denominators of unequal degrees.
+    """
+    if given.degrees[1] != other.degrees[1]:
+        raise InputError(
+            f"transfer functions of equally many poles are compared, not {given.degrees} and"
+            f" {other.degrees}"
+        )
+    top = max(given.degrees[0], other.degrees[0]) + 1
+    given, other = _padded(given, top), _padded(other, top)
+    if given.is_monic and other.is_monic:
+        return given, other
+    return given.with_scale(), other.with_scale()
+
+
+def _padded(model: CoefficientMap, count: int) -> CoefficientMap:
+    """The map with that many numerator coefficients; those left out are zero."""
+    zero = model.denominator[-1] - model.denominator[-1]
+    numerator = (*model.numerator, *[zero] * count)[:count]
+    return model if numerator == model.numerator else replace(model, numerator=numerator)
+
+
+def separated(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> CoefficientMap:
+    """The map of a fraction of polynomials in s, the first symbol, and the names."""
+    ring = symbols(names)
+    context = next(iter(ring.values())).context()
+    parts = [tuple(_without_s(c, context) for c in coefficients(p, "s")) for p in (num, den)]
+    return CoefficientMap(names, *parts)
+
+
+def _without_s(polynomial: fmpz_mpoly, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
+    return context.from_dict({e[1:]: int(c) for e, c in polynomial.to_dict().items()})
+
+
+def terms(polynomial: fmpz_mpoly) -> Terms:
+    """Exponents and coefficients of a polynomial."""
+    return tuple((tuple(map(int, e)), int(c)) for e, c in polynomial.to_dict().items())
+
+
+def unknowns(row: Row) -> tuple[str, ...]:
+    """Names of the unknowns of a row, numbered as in the chain.
+
+    >>> unknowns(Row(2, True, 1, 2, damped=True))
+    ('u0', 'e0', 'u1', 'e1', 'r1', 'g1')
+    """
+    first = row.before + 1
+    kinds = "ue" if row.damped else "u"
+    names = [
+        f"{kind}{i + row.before}"
+        for i in range(row.n_masses)
+        for kind in kinds * (i in row.joints) + "r" * (i > 0)
+    ]
+    return (*names, *(f"f{i + row.before}" for i in row.ground_dampers), f"g{first}")
+
+
+def receptance_of_row(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """Receptance (numerator, denominator) of a row; `ring` has s and the row's unknowns."""
+    first, last = row.before + 1, row.before + row.n_masses
+    s, zero, one = ring["s"], ring["s"] - ring["s"], ring["s"] ** 0
+    joint = {
+        i: ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)
+    } | {last: zero}
+    ratio = {i: ring.get(f"r{i}", one) for i in range(first - 1, last)}
+    diagonal = [
+        s * s + joint[i - 1] * ratio[i - 1] + joint[i] + ring.get(f"f{i}", zero) * s
+        for i in range(first, last + 1)
+    ]
+    squares = [joint[i] * joint[i] * ratio[i] for i in range(first, last)]
+    leading = minors(diagonal, squares, one)
+    trailing = minors(diagonal[::-1], squares[::-1], one)
+    a, b = row.ports
+    between = reduce(mul, (joint[i + row.before] for i in range(a, b)), ring[f"g{first}"])
+    return between * leading[a - 1] * trailing[row.n_masses - b], leading[-1]
+
+
+def receptance_map(row: Row) -> CoefficientMap:
+    """The receptance of a row as a map of its unknowns."""
+    names = unknowns(row)
+    return separated(names, *receptance_of_row(row, symbols(["s", *names])))
+
+
+def minors(
+    diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly
+) -> list[fmpz_mpoly]:
+    """1, d_1, d_1 d_2 - q_1, ..: the leading principal minors of a tridiagonal matrix."""
+    found = [one, diagonal[0]]
+    for d, q in zip(diagonal[1:], squares, strict=True):
+        found.append(d * found[-1] - q * found[-2])
+    return found

@@ -1,0 +1,139 @@
+"""Ball arithmetic for branches: what a ball proves, and roots as sharp as the coefficients allow.
+
+A ball holds a number that is not known exactly. It proves that a number is not zero by leaving
+zero out; it never proves that a number is zero. So a branch is killed by a ball, and never
+accepted by one: a survivor is consistent, no more. Balls that hold zero but are wide prove nothing
+either way and call for more bits.
+"""
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any
+
+from flint import acb, acb_poly, arb, ctx
+
+Ball = Any  # acb: flint has no usable types
+Poly = Any  # acb_poly
+
+# widest relative radius of a test ball that may pass as "consistent with zero"
+TOLERANCE = 2.0**-40
+# absolute widths tried where the first isolation is too coarse for Newton's method
+_ISOLATION = (2.0**-30, 2.0**-90)
+
+_ENCLOSED = 2.0**-40
+
+
+class Imprecise(Exception):
+    """A ball too wide to say anything: work again with more bits."""
+
+
+def vanishes(value: Ball, scale: Ball) -> bool:
+    """False: proven non-zero. True: consistent with zero to TOLERANCE relative to |scale|. Raises
+    Imprecise in between.
+
+    >>> vanishes(acb(1) - acb(1), acb(1)), vanishes(acb(2) ** -50, acb(1))
+    (True, False)
+    """
+    if not value.contains(0):
+        return False
+    if not bool(value.abs_upper() <= arb(TOLERANCE) * scale.abs_upper()):
+        raise Imprecise("a test ball is too wide")
+    return True
+
+
+def is_boundary(value: Ball) -> bool:
+    """Whether an element or a leading coefficient that must not be zero cannot be told from
+    zero.
+    """
+    return bool(value.contains(0))
+
+
+def poly(coefficients: list[Ball]) -> Poly:
+    """Polynomial from its coefficients, lowest first."""
+    return acb_poly(coefficients)
+
+
+def cut(p: Poly, degree: int) -> Poly:
+    """p without the coefficients above `degree`, which theory says are exactly zero.
+
+    >>> cut(poly([1, 2, 3]), 1).degree()
+    1
+    """
+    return acb_poly([p[i] for i in range(degree + 1)])
+
+
+def shifted(p: Poly, power: int) -> Poly:
+    """p times x**power; for a negative power the lowest coefficients, zero by theory, are
+    dropped.
+    """
+    if power >= 0:
+        return acb_poly([0] * power + p.coeffs())
+    return acb_poly(p.coeffs()[-power:])
+
+
+def product(roots: list[Ball]) -> Poly:
+    """Monic polynomial with the given roots."""
+    return acb_poly.from_roots(roots)
+
+
+def roots(p: Poly, degree: int) -> list[Ball]:
+    """Balls, each with exactly one root, as narrow as the coefficients allow.
+
+    Raises Imprecise if the leading coefficient or the isolation is not sure: multiple roots look
+    like that at any precision.
+    """
+    if degree == 0:
+        return []
+    if is_boundary(p[degree]):
+        raise Imprecise("a leading coefficient cannot be told from zero")
+    if degree == 1:
+        return [-p[0] / p[1]]
+    found = _isolated(p, None)
+    if not found:
+        raise Imprecise("roots could not be isolated")
+    slope = p.derivative()
+    for tolerance in _ISOLATION:
+        sharp = [_sharpened(p, slope, z) for z in found]
+        finer = [] if all(z is not None for z in sharp) else _isolated(p, tolerance)
+        if not finer:
+            break
+        found = finer
+    return [z if better is None else better for z, better in zip(found, sharp, strict=True)]
+
+
+def enclosed(p: Poly, degree: int) -> list[Ball]:
+    """Like `roots`, in a fraction of the time, but wide balls: enough to refute."""
+    found = [] if is_boundary(p[degree]) else _isolated(p, _ENCLOSED)
+    if not found:
+        raise Imprecise("roots could not be isolated")
+    return found
+
+
+def _isolated(p: Poly, tolerance: float | None) -> list[Ball]:
+    """Disjoint balls with one root each, no wider than the tolerance; nothing if that fails."""
+    try:
+        return list(p.roots(tol=tolerance))
+    except ValueError:
+        return []
+
+
+def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
+    """Newton's method on midpoints, then one interval Newton step on a small box inside z: a
+    proof that the root is there.
+    """
+    mid = z.mid()
+    for _ in range(int(ctx.prec).bit_length() + 1):
+        mid = (mid - p(mid) / slope(mid)).mid()
+    error = 4 * (p(mid) / slope(mid)).abs_upper() + mid.abs_upper() * arb(2) ** (4 - ctx.prec)
+    spread = arb(0, error.upper())
+    box = mid + acb(spread, spread)
+    steep = slope(box)
+    step = mid - p(mid) / steep
+    proven = not steep.contains(0) and z.contains(box) and box.contains(step)
+    return step if proven else None
+
+
+def splits(items: list[Ball], size: int) -> Iterator[tuple[list[Ball], list[Ball]]]:
+    """Every choice of `size` items, with the rest."""
+    for chosen in combinations(range(len(items)), size):
+        yield [items[i] for i in chosen], [z for i, z in enumerate(items) if i not in chosen]

@@ -1,0 +1,74 @@
+"""Force and sensor at one mass: the residues of 1/H are shared out between the two sides.
+
+H = N/D with D monic gives 1/H = m_a s^2 + W_L + W_R. The zeros of N belong to the left side or to
+the right one, q (a-1) of them to the left. The right side is free, W_R(0) = W_R'(0) = 0 (undamped
+W_R(0) = 0), which settles the polynomial part.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from disting.fibres.synthesis.ball import Ball, Poly, poly, product, roots, splits
+from disting.fibres.synthesis.branch_ends import Leaf, RowValues, combined
+from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
+
+
+@dataclass(frozen=True, slots=True)
+class Residue:
+    """Zero z of the numerator and the residue of 1/H there."""
+
+    at: Ball
+    value: Ball
+
+
+def collocated(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every row with this driving-point receptance."""
+    zeros = roots(data.numerator, row.numerator_degree)
+    for left, right in splits(zeros, row.q * (row.a - 1)):
+        yield from between(row, data, left, right)
+
+
+def between(row: Row, data: Receptance, left: list[Ball], right: list[Ball]) -> Iterator[Leaf]:
+    """Yield every row whose left side has the zeros `left`, its right side the zeros
+    `right`.
+    """
+    q, slope = row.q, data.numerator.derivative()
+    whole = data.denominator // data.numerator  # degree 2 (undamped 1), leading coefficient m_a
+    lefts, rights = (
+        [Residue(z, data.denominator(z) / slope(z)) for z in side] for side in (left, right)
+    )
+    low: list[Ball] = [
+        sum((r.value / r.at ** (i + 1) for r in rights), 0 * whole[0]) for i in range(q)
+    ]
+    w_right = Stiffness(
+        numerator=grounded_at_zero(over(rights, low), q),
+        denominator=product(right),
+        masses=row.n_masses - row.a,
+        wall=False,
+        q=q,
+    )
+    p_left = over(lefts, [whole[i] - low[i] for i in range(q)])
+    if not row.grounded:
+        p_left = grounded_at_zero(p_left, q)
+    w_left = Stiffness(
+        numerator=p_left, denominator=product(left), masses=row.a - 1, wall=row.grounded, q=q
+    )
+    mass = whole[q]
+
+    def join(a: RowValues, b: RowValues) -> RowValues:
+        """Left side, the mass between, right side."""
+        return RowValues(
+            (*a.masses[::-1], mass, *b.masses), (*a.springs[::-1], *b.springs), a.gauges + b.gauges
+        )
+
+    yield from combined(peel(w_left), lambda: peel(w_right), join)
+
+
+def over(residues: list[Residue], polynomial: list[Ball]) -> Poly:
+    """Numerator of (polynomial + sum of residue/(s - z)) over the product of all (s - z)."""
+    total = poly(polynomial) * product([r.at for r in residues])
+    for i, residue in enumerate(residues):
+        total = total + residue.value * product([r.at for j, r in enumerate(residues) if j != i])
+    return total

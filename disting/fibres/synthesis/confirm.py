@@ -1,0 +1,113 @@
+"""Existence proven for a square subsystem: one Krawczyk step with as many coefficient equations as
+parameters.
+
+With f(x) = coefficients(x) - given ones (independent rows chosen at the midpoint m), C near
+J(m)^-1 and a box X around m,
+
+    K = m - C f(m) + (1 - C J(X)) (X - m)   inside X     implies    f has exactly one zero in X
+
+(Krawczyk 1969; for complex boxes the mean value form holds, f being analytic and the box convex).
+The remaining equations are not proven by this: that they hold rests on their balls, which can be
+made as small as one likes but never zero.
+"""
+
+from collections.abc import Iterable
+
+from flint import acb, acb_mat, arb, ctx
+
+from disting.fibres.synthesis.ball import Ball
+from disting.fibres.synthesis.check import evaluated
+from disting.fibres.synthesis.result import Confirmation
+from disting.fibres.synthesis.target import Target
+from disting.model.chain import Chain
+
+Matrix = list[list[Ball]]
+
+
+def confirmation(chain: Chain, values: dict[str, Ball], target: Target) -> Confirmation:
+    """SUBSYSTEM if one Krawczyk step succeeds, BALLS otherwise."""
+    mid = {name: v.mid() for name, v in values.items()}
+    residual, jacobian = _system(chain, mid, target)
+    rows = _independent(
+        [[entry.mid() for entry in row] for row in jacobian], [v.abs_upper() for v in mid.values()]
+    )
+    if len(rows) < len(mid):
+        return Confirmation.BALLS
+    return _krawczyk(chain, values, target, rows, [residual[i] for i in rows])
+
+
+def _krawczyk(
+    chain: Chain, values: dict[str, Ball], target: Target, rows: list[int], residual: list[Ball]
+) -> Confirmation:
+    box = {name: _inflated(v) for name, v in values.items()}
+    mid = {name: v.mid() for name, v in values.items()}
+    _, jacobian = _system(chain, box, target)
+    wide = acb_mat([jacobian[i] for i in rows])
+    try:
+        inverse = wide.mid().inv().mid()
+    except ZeroDivisionError:
+        return Confirmation.BALLS
+    size = len(rows)
+    one = acb_mat([[int(i == j) for j in range(size)] for i in range(size)])
+    offset = acb_mat([[box[name] - mid[name]] for name in mid])
+    step = (one - inverse * wide) * offset - inverse * acb_mat([[r] for r in residual])
+    inside = all(offset[i, 0].contains_interior(step[i, 0]) for i in range(size))
+    return Confirmation.SUBSYSTEM if inside else Confirmation.BALLS
+
+
+def _inflated(value: Ball) -> Ball:
+    """Box around a ball: at least twice as wide, and wide enough for a Krawczyk step at the
+    present precision.
+    """
+    radius = 2 * value.rad() + value.abs_upper() * arb(2) ** (-ctx.prec // 3)
+    spread = arb(0, radius.upper())
+    return value.mid() + acb(spread, spread)
+
+
+def _system(chain: Chain, values: dict[str, Ball], target: Target) -> tuple[list[Ball], Matrix]:
+    """Residual and Jacobian of all coefficients, scaled by the given ones; rows that are zero
+    by theory are left out.
+    """
+    raw = evaluated(chain, values)
+    top = raw.den.degree()
+    residual: list[Ball] = []
+    jacobian: Matrix = []
+    pairs = (
+        (raw.num, raw.num_gradient, target.numerator),
+        (raw.den, raw.den_gradient, target.denominator),
+    )
+    for ours, gradient, given in pairs:
+        for i in range(given.degree() + 1):
+            if given[i] and not (ours is raw.den and i == top):
+                value = ours[i] / raw.den[top]
+                residual.append(value / acb(given[i]) - 1)
+                slopes = (
+                    (gradient[n][i] - value * raw.den_gradient[n][top]) / raw.den[top]
+                    for n in values
+                )
+                jacobian.append([slope / acb(given[i]) for slope in slopes])
+    return residual, jacobian
+
+
+def _independent(jacobian: Matrix, scales: Iterable[Ball]) -> list[int]:
+    """Rows chosen by elimination with complete pivoting on midpoints, parameters scaled to one:
+    no proof, a good choice.
+    """
+    work = [[entry * s for entry, s in zip(row, scales, strict=True)] for row in jacobian]
+    left = list(range(len(work)))
+    chosen: list[int] = []
+    for _ in range(len(work[0]) if work else 0):
+        pivot, column = max(
+            ((i, j) for i in left for j in range(len(work[i]))),
+            key=lambda ij: float(work[ij[0]][ij[1]].abs_upper()),
+        )
+        if not float(work[pivot][column].abs_upper()) > 1e-30:
+            return chosen
+        chosen.append(pivot)
+        left.remove(pivot)
+        for i in left:
+            factor = (work[i][column] / work[pivot][column]).mid()
+            work[i] = [(a - factor * b).mid() for a, b in zip(work[i], work[pivot], strict=True)]
+        if not left:
+            break
+    return sorted(chosen)

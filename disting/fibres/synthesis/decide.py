@@ -1,0 +1,253 @@
+"""Whether the models of one chain are models of another: one rational point, and its fibre.
+
+The images of two coefficient maps have irreducible closures V1 and V2. If their ranks are equal,
+V1 = V2 exactly if a generic point of one lies in the image of the other, in either direction; if
+the first rank is smaller, this says whether V1 lies inside V2.
+
+A rational point p0 is drawn at random. An empty fibre proves that this one model has no equivalent
+with non-zero elements, complex or not; that no generic model has one follows unless p0 lies on a
+proper subvariety, which has a small probability (Schwartz-Zippel) and a smaller one with every
+further seed. A fibre that is not empty is a proof only on the grounds named THEOREM, RENAMING or
+CONSTRUCTION; otherwise its members satisfy some equations only within their balls.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import ceil, log2
+
+from flint import fmpq
+
+from disting.algebra.sampling import about, residues
+from disting.errors import ContradictionError, InputError
+from disting.evidence.decision import FibreAt
+from disting.fibres.decision import Decision
+from disting.fibres.synthesis.construction import is_constructed, is_untested
+from disting.fibres.synthesis.duality import are_dual
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.methods import cost
+from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
+from disting.fibres.synthesis.target import target
+from disting.model.chain import Chain
+from disting.model.question import Membership
+from disting.model.row import rows_of
+from disting.model.symmetry import canonical
+
+# bits of an error bound that points are made long enough for; LEAST_SAFETY is what must be reached
+WANTED = 128
+LENGTH = 64  # coordinates have a multiple of so many bits
+DRAWS = 3  # special points are drawn again this often
+
+
+class Direction(StrEnum):
+    """Whose model was looked for in which chain."""
+
+    LEFT_IN_RIGHT = "left in right"
+    RIGHT_IN_LEFT = "right in left"
+
+
+class Grounds(StrEnum):
+    """What stands behind a finding.
+
+    REFUTED: every branch is refuted by a ball or a degree; proves that p0 has no equivalent.
+    THEOREM: duality, an exact map for all parameters. RENAMING: symmetry, likewise. CONSTRUCTION:
+    an undamped solution for p0 is proven to exist. SUBSYSTEM: as many equations as parameters have
+    a common solution near by (Krawczyk), the others hold within balls of relative size `width`.
+    BALLS: all equations hold within such balls. NONE: nothing is known.
+    """
+
+    REFUTED = "refuted"
+    THEOREM = "theorem"
+    RENAMING = "renaming"
+    CONSTRUCTION = "construction"
+    SUBSYSTEM = "subsystem"
+    BALLS = "balls"
+    NONE = "none"
+
+
+@dataclass(frozen=True, slots=True)
+class Exact:
+    """Finding of one fibre; `solutions` counts the listed ones (branches), of which so many are
+    real and positive.
+
+    `point` holds the rational parameters p0, so that the finding can be checked again alone;
+    `width` is the largest relative distance within which a listed solution is known to reproduce a
+    coefficient.
+    """
+
+    membership: Membership
+    direction: Direction
+    point: dict[str, fmpq]
+    status: Status
+    solutions: int
+    real: int
+    positive: int
+    precision_bits: int
+    width: float
+    grounds: Grounds
+    reason: str
+
+    def __bool__(self) -> bool:
+        raise TypeError("a finding is not true or false; look at its membership")
+
+    @property
+    def evidence(self) -> FibreAt:
+        """What can be checked again."""
+        return FibreAt(
+            left_given=self.direction is Direction.LEFT_IN_RIGHT,
+            point=tuple((name, str(value)) for name, value in self.point.items()),
+            grounds=self.grounds.value,
+            solutions=self.solutions,
+            real=self.real,
+            positive=self.positive,
+        )
+
+    def decision(self, safety: int) -> Decision[FibreAt]:
+        """What is proven of generic models but for an error bound of so many bits; UNKNOWN where
+        solutions are known within balls only.
+        """
+        if self.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION):
+            return Decision(self.membership, safety, self.evidence)
+        return Decision(Membership.UNKNOWN, reason=self.reason)
+
+
+def decide(left: Chain, right: Chain, seed: str = "disting") -> Exact:
+    """Finding for two chains of equal size and rank: the cheaper direction first, the other if
+    that leaves it unknown.
+    """
+    ways = sorted(
+        Direction, key=lambda way: _cost(right if way is Direction.LEFT_IN_RIGHT else left)
+    )
+    findings = (member(left, right, seed, way) for way in ways)
+    first = next(findings)
+    return first if first.membership is not Membership.UNKNOWN else _better(first, next(findings))
+
+
+def member(
+    left: Chain, right: Chain, seed: str = "disting", way: Direction = Direction.LEFT_IN_RIGHT
+) -> Exact:
+    """Finding for one direction: for chains of unequal rank it tells one-sided inclusion."""
+    given, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
+    _refuse(given, other)
+    for draw in range(DRAWS):
+        point = rational_point(
+            given, about(f"synthesis:{seed}:{draw}", given, other), point_bits(other)
+        )
+        found = fibre(other, target(given.structure, point), confirm=not is_untested(other))
+        if found.status is not Status.DEGENERATE:
+            break
+    return _finding(found, way, point, _grounds(given, other, point, found))
+
+
+def rational_point(chain: Chain, label: str, bits: int = 3 * LENGTH) -> dict[str, fmpq]:
+    """Random rational parameters determined by the label: numerators and denominators of 2^bits +
+    1 to 2^(bits + 1) - 1.
+
+    So values lie between 1/2 and 2, which keeps the balls narrow.
+    """
+    names, low = chain.parameters, 1 << bits
+    numbers = [low + r for r in residues(label, 2 * len(names), low)]
+    return {name: fmpq(a, b) for name, a, b in zip(names, numbers[::2], numbers[1::2], strict=True)}
+
+
+def point_bits(searched: Chain) -> int:
+    """Bits of the coordinates of a point whose fibre in `searched` is looked at: enough for an
+    error of 2^-WANTED.
+
+    >>> grounded = (Chain(n, damped=True, ground_dampers=tuple(range(1, n + 1))) for n in (3, 5, 8))
+    >>> [point_bits(chain) for chain in grounded]
+    [192, 256, 320]
+    """
+    return LENGTH * ceil((WANTED + _loss(searched)) / LENGTH)
+
+
+def safety_of_point(searched: Chain) -> int:
+    """Largest b with 2 DRAWS D^(n+1) / 2^B <= 2^-b: one rational point of B = `point_bits` bits
+    tells of generic ones.
+
+    n is the number of parameters of the chain that is searched, whatever the given one has; D =
+    max(3 N_B + 2, n + 1) bounds the degrees of equal coefficients and of the equation that no
+    element is zero.
+
+    Special points lie on a hypersurface of degree D^(n+1) at most (see
+    `disting.questions.same.exact`), which a random point meets with a probability of at most that
+    degree / 2^B: for any denominators it is one of the numerators, each of 2^B - 1 numbers
+    (Schwartz, Zippel). Up to DRAWS points are drawn, and either direction may have been tried.
+
+    >>> safety_of_point(Chain(8, damped=True))
+    144
+    """
+    return point_bits(searched) - _loss(searched)
+
+
+def _loss(searched: Chain) -> int:
+    """Bits of 2 DRAWS D^(n+1), and one for 2^B - 1."""
+    n = len(searched.parameters)
+    return ceil((n + 1) * log2(max(3 * searched.n_masses + 2, n + 1)) + log2(2 * DRAWS)) + 1
+
+
+def _refuse(given: Chain, other: Chain) -> None:
+    if given.n_masses != other.n_masses:
+        raise InputError(
+            f"chains of equal size are compared, not of {given.n_masses} and {other.n_masses}"
+            " masses"
+        )
+    if given.sensor != other.sensor or given.dead_time:
+        raise InputError("chains with the same sensor quantity and without dead time are compared")
+
+
+def _cost(chain: Chain) -> int:
+    """Rank of the dearest method that the chain needs; those without any last."""
+    return max(map(cost, rows_of(canonical(chain).chain.structure)))
+
+
+def _better(first: Exact, second: Exact) -> Exact:
+    return first if second.membership is Membership.UNKNOWN else second
+
+
+def _finding(found: Fibre, way: Direction, point: dict[str, fmpq], grounds: Grounds) -> Exact:
+    real, positive = (
+        [getattr(s, name) for s in found.solutions].count(Answer.YES)
+        for name in ("real", "positive")
+    )
+    width = max((s.width for s in found.solutions), default=0.0)
+    count, bits = len(found.solutions), found.precision_bits
+    return Exact(
+        membership=_MEANING[grounds],
+        direction=way,
+        point=point,
+        status=found.status,
+        solutions=count,
+        real=real,
+        positive=positive,
+        precision_bits=bits,
+        width=width,
+        grounds=grounds,
+        reason=found.reason,
+    )
+
+
+def _grounds(given: Chain, other: Chain, point: dict[str, fmpq], found: Fibre) -> Grounds:
+    """The strongest grounds there are; raises ContradictionError where an identity and an empty
+    fibre meet.
+    """
+    same, dual = canonical(given).chain == canonical(other).chain, are_dual(given, other)
+    if found.status is Status.EMPTY:
+        if same or dual:
+            raise ContradictionError(
+                f"an empty fibre between chains that are the same: {given} and {other}"
+            )
+        return Grounds.REFUTED
+    if same or dual:
+        return Grounds.RENAMING if same else Grounds.THEOREM
+    if not found.solutions:
+        return Grounds.NONE
+    if is_untested(other) or is_constructed(given, point, other):
+        return Grounds.CONSTRUCTION
+    confirmed = all(s.confirmation is Confirmation.SUBSYSTEM for s in found.solutions)
+    return Grounds.SUBSYSTEM if confirmed else Grounds.BALLS
+
+
+_MEANING = dict.fromkeys(Grounds, Membership.MEMBER) | {
+    Grounds.REFUTED: Membership.EXCLUDED,
+    Grounds.NONE: Membership.UNKNOWN,
+}

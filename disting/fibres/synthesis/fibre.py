@@ -1,0 +1,207 @@
+"""All parameter vectors of a chain that realise a given receptance exactly: inverse network
+synthesis in ball arithmetic.
+
+The receptance H of a chain with a gap is R + F: the grounded row between the minus ports, the free
+row between the plus ports. 1. every subset of the poles for R (`poles`);  2. every chain
+with receptance R and every chain with F (`methods`); 3. every pair is multiplied out and compared.
+Where a ball leaves out a zero that every solution has, a branch is refuted; if all are, no
+solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls
+double the precision; what stays undecided at the last one is a special point.
+
+Dampers to the ground: `friction`, `driving`, `end`, `inner`. A damper b_1 beside the damped spring
+from mass 1 to the ground is counted to it: only d_01 + b_1 is determined, a family of which half
+and half is listed. The pole of a lag 1/(1 + T1 s) is one of the poles of H, each is tried; without
+any damper it is the one that makes H even. A dead time is no rational function, and H exp(-Td s)
+determines both factors: it is left out on both sides.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+
+from flint import ctx
+
+from disting.fibres.synthesis.ball import Ball, Imprecise
+from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf, Reason, RowValues, combined
+from disting.fibres.synthesis.check import Checked, checked
+from disting.fibres.synthesis.family import shared
+from disting.fibres.synthesis.lag import lag_poles, lagged, without_lag
+from disting.fibres.synthesis.methods import synthesise
+from disting.fibres.synthesis.poles import Split, pole_splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.fibres.synthesis.result import Exclusions, Fibre, Solution, Status
+from disting.fibres.synthesis.solutions import listed
+from disting.fibres.synthesis.target import (
+    Target,
+    degrees_differ,
+    is_regular,
+    poles_at_zero,
+    rests_differently,
+)
+from disting.model.chain import Chain
+from disting.model.row import Row, grounded_and_free
+from disting.model.structure import Damper, GroundDamper, Mass, Spring
+from disting.model.symmetry import canonical
+
+PRECISIONS = (192, 384, 768, 1536, 3072, 5000)
+
+
+def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
+    """All parameter vectors of `chain` with this receptance. Completeness and emptiness are
+    proven, see `Status`.
+
+    `confirm`: look for a proof that each solution solves a square subsystem, which takes longer
+    than all the rest; without it solutions are told to hold within their balls.
+    """
+    if chain.dead_time:
+        return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")
+    form = canonical(chain)
+    found = _canonical_fibre(form.chain, target, confirm)
+    back = {here: given for given, here in form.renaming.items()}
+    return replace(found, solutions=tuple(_renamed(s, back, chain) for s in found.solutions))
+
+
+def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
+    if chain.damped and chain.gap and 1 in chain.ground_dampers:
+        single = replace(chain, ground_dampers=chain.ground_dampers[1:])
+        return shared(chain, _canonical_fibre(single, target, confirm))
+    if chain.lag and not chain.damped and not chain.ground_dampers:
+        found = without_lag(target)
+        if found is None:
+            return _without_lag_pole(chain, target)
+        return lagged(
+            chain, _canonical_fibre(replace(chain, lag=False), found[0], confirm), found[1]
+        )
+    ruled_out = _ruled_out(chain, target)
+    return _searched(chain, target, confirm) if ruled_out is None else ruled_out
+
+
+def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
+    """Of full degree, no pole cancels."""
+    if target.denominator.degree() > 2 * chain.n_masses:
+        return Fibre(Status.EMPTY, reason="no pole is that of a lag before an undamped chain")
+    return Fibre(Status.DEGENERATE, reason="missing poles")
+
+
+def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
+    """What the degrees and the multiplicities of the target alone say."""
+    grounded, free = grounded_and_free(chain.structure)
+    q, n, lag = _q(chain), chain.n_masses, int(chain.lag)
+    whole = free if grounded is None else None
+    if q == 1 and not target.is_even:
+        return Fibre(Status.EMPTY, reason="a damped receptance has no undamped chain")
+    folded = target.folded(q)
+    if degrees_differ(folded, q, n, whole, lag):
+        return Fibre(Status.EMPTY, reason="the degrees of numerator and denominator differ")
+    if folded.denominator.degree() == q * n + lag and rests_differently(folded, q, free):
+        return Fibre(Status.EMPTY, reason="the multiplicities of the pole at zero differ")
+    if not is_regular(folded, q, n, whole, lag) or (q == 2 and target.is_even):
+        return Fibre(Status.DEGENERATE, reason="multiple or missing poles or zeros")
+    return None
+
+
+def _searched(chain: Chain, target: Target, confirm: bool) -> Fibre:
+    """Every branch, with as many bits as it takes."""
+    for bits in PRECISIONS:
+        with ctx.workprec(bits):
+            try:
+                leaves = list(_solutions(chain, target))
+                return replace(_judged(chain, target, leaves, confirm), precision_bits=bits)
+            except Imprecise as failure:
+                reason = str(failure)
+    return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
+
+
+def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
+    """Every leaf, both rows multiplied out."""
+    folded = target.folded(_q(chain))
+    low = poles_at_zero(folded)
+    whole = replace(folded.balls, exact=None if chain.gap else folded.numerator)
+    for data, time in lag_poles(folded.balls, low) if chain.lag else [(whole, {})]:
+        for leaf in _leaves(chain, data, low):
+            yield _multiplied(chain, leaf, time, target) if isinstance(leaf, RowValues) else leaf
+
+
+def _multiplied(
+    chain: Chain, found: RowValues, time: dict[str, Ball], target: Target
+) -> Checked | Dead:
+    """The numbers checked; a member of a family that fails refutes nothing but itself."""
+    result = checked(chain, _named(found, chain) | time, found.gauges, target)
+    return BOUNDARY if found.gauges and isinstance(result, Dead) else result
+
+
+def _q(chain: Chain) -> int:
+    """2: all is done in s; 1: without any damper, in x = s^2."""
+    return 2 if chain.damped or chain.ground_dampers else 1
+
+
+def _leaves(chain: Chain, data: Receptance, low: int) -> Iterator[Leaf]:
+    grounded, free = grounded_and_free(chain.structure)
+    if grounded is None:
+        yield from synthesise(free, data.own(free, _q(chain)))
+        return
+    for split in pole_splits(data, grounded, free, low):
+        yield from [split] if isinstance(split, Dead) else _both(split, grounded, free, _q(chain))
+
+
+def _both(split: Split, grounded: Row, free: Row, q: int) -> Iterator[Leaf]:
+    """Every grounded row with every free one."""
+    return combined(
+        synthesise(grounded, split.grounded.own(grounded, q)),
+        lambda: synthesise(free, split.free.own(free, q)),
+        _joined,
+    )
+
+
+def _joined(a: RowValues, b: RowValues) -> RowValues:
+    return RowValues(
+        a.masses + b.masses,
+        a.springs + b.springs,
+        a.gauges + b.gauges,
+        a.all_dampers + b.all_dampers,
+    )
+
+
+def _named(found: RowValues, chain: Chain) -> dict[str, Ball]:
+    """Values by parameter name, in the structure's order."""
+    joints = [i for i in range(chain.n_masses) if i != chain.gap]
+    values = {Mass(i).parameter: m for i, m in enumerate(found.masses, 1)}
+    values |= {Spring(i).parameter: k[0] for i, k in zip(joints, found.springs, strict=True)}
+    if chain.damped:
+        values |= {Damper(i).parameter: k[1] for i, k in zip(joints, found.springs, strict=True)}
+    return values | {
+        GroundDamper(i).parameter: found.all_dampers[i - 1] for i in chain.ground_dampers
+    }
+
+
+def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solution:
+    """The solution in the parameters of the chain as given."""
+    values = {names[name]: value for name, value in solution.values.items()}
+    return replace(solution, values={name: values[name] for name in chain.parameters})
+
+
+def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], confirm: bool) -> Fibre:
+    """Status from what the branches ended in."""
+    count = Counter(leaf.reason for leaf in leaves if isinstance(leaf, Dead))
+    tests = Exclusions(count[Reason.NONZERO], count[Reason.BOUNDARY], count[Reason.OPEN])
+    found = [leaf for leaf in leaves if isinstance(leaf, Checked)]
+    solutions = listed(chain, found, target, complete=not tests.uncovered, confirm=confirm)
+    status, reason = _status(solutions, tests)
+    return Fibre(status, solutions, tests=tests, reason=reason)
+
+
+def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status, str]:
+    if tests.uncovered:
+        return (
+            Status.NOT_COVERED,
+            "a branch needs a method for non-collocated chains that is not provided",
+        )
+    if any(s.gauges for s in solutions):
+        return Status.INFINITE, "a family of solutions; one member per branch is listed"
+    if solutions:
+        return Status.COMPLETE, (
+            "all other branches are refuted" if not tests.boundary else "but for elements near zero"
+        )
+    if tests.boundary:
+        return Status.DEGENERATE, "an element cannot be told from zero"
+    return Status.EMPTY, "every branch is refuted"

@@ -1,0 +1,18 @@
+"""General parametric models: any rational transfer function with parameters, compared as chains
+are.
+"""
+
+from disting.evidence.general import Witnesses as Witnesses
+from disting.general.admissible import confirms as confirms
+from disting.general.alternatives import Alternatives as Alternatives
+from disting.general.alternatives import alternatives as alternatives
+from disting.general.compared import ComparedModel as ComparedModel
+from disting.general.equivalent import Equivalent as Equivalent
+from disting.general.fibre import Extent as Extent
+from disting.general.formulas import is_explicit as is_explicit
+from disting.general.formulas import is_without as is_without
+from disting.general.global_identifiability import GlobalIdentifiability as GlobalIdentifiability
+from disting.general.global_identifiability import global_identifiability as global_identifiability
+from disting.general.local_identifiability import LocalIdentifiability as LocalIdentifiability
+from disting.general.local_identifiability import local_identifiability as local_identifiability
+from disting.general.model import Model as Model

@@ -1,0 +1,202 @@
+"""Whether models that agree over complex parameters agree over real or positive ones: always,
+never or for some.
+
+What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of
+either model have an equivalent in the other one; DISTINGUISHABLE if those of one have none, and so
+no admissible parameters agree, but for thin sets; SOMETIMES if in an open set there is an
+equivalent, and in another one, of either model, there is none. All of it is proven. Points are
+drawn to be looked at only; what is said of them is said of all points around them (see `robust`).
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import islice
+
+from disting.algebra.certainty import Certainty
+from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.algebra.sampling import residues
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
+from disting.errors import ContradictionError
+from disting.evidence.decision import Theorem
+from disting.evidence.general import NoEquivalent, Point, Witnesses
+from disting.general.equivalent import spelled
+from disting.general.fibre import Extent, solved
+from disting.general.formulas import explicit, fit
+from disting.general.model import Model
+from disting.general.one_ports import same_one_ports
+from disting.general.target import fibre_equations, rational_values, target
+from disting.general.which_models import Way, way
+from disting.model.domain import Domain
+
+POINTS = 40  # of either model
+GUARDS = 4  # of either model, where no equivalents are to be found
+SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
+TOO_LARGE = "the search for all equivalents grew too large"
+
+Ways = tuple[Way | None, Way | None]
+Found = tuple[bool, Point, Point]
+"""Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
+
+
+def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> Finding:
+    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
+    return of_ways(left, right, (way(left, right, domain), way(right, left, domain)), domain, seed)
+
+
+def of_ways(left: Model, right: Model, ways: Ways, domain: Domain, seed: str) -> Finding:
+    """The finding from what is known each way; raises ContradictionError where that cannot all
+    be true.
+    """
+    for left_given, one in zip((True, False), ways, strict=True):
+        if one and one.never:
+            _refuse_equivalents(ways, domain, seed)
+            closed = tuple(dict.fromkeys(one.parted.search.closed))
+            return Finding(
+                ADMISSIBLE,
+                Outcome.FAILS,
+                Certainty.PROVEN,
+                evidence=NoEquivalent(domain.value, left_given, closed),
+            )
+    if all(one and one.covering for one in ways):
+        return _always(ways, domain)
+    if domain is Domain.POSITIVE and same_one_ports(left, right):
+        return Finding(
+            ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
+        )
+    having, lacking, shares = _seen(ways, domain, seed)
+    if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
+        raise ContradictionError(
+            f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
+        )
+    if having and lacking:
+        return Finding(
+            ADMISSIBLE,
+            Outcome.SOMETIMES,
+            Certainty.PROVEN,
+            evidence=_witnesses(ways, having, lacking, domain),
+        )
+    if not lacking and all(one and (one.covering or one.path()) for one in ways):
+        return _always(ways, domain)
+    note = (
+        f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
+        " others"
+    )
+    return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
+
+
+def confirms(evidence: Witnesses, left: Model, right: Model) -> bool:
+    """Whether both points are what they are said to be, and all parameters near them: the search
+    is done anew.
+
+    Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
+    """
+    domain = Domain(evidence.domain)
+    ways = {True: way(left, right, domain), False: way(right, left, domain)}
+    with_, without = ways[evidence.with_left_given], ways[evidence.without_left_given]
+    points_ = [
+        {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
+    ]
+    if any(x == 0 or (x < 0 and domain is Domain.POSITIVE) for p in points_ for x in p.values()):
+        return False
+    return bool(with_ and without and with_.having(points_[0]) and without.lacking(points_[1]))
+
+
+def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
+    """Yield random rational parameters of a domain, without end, determined by the seed and the
+    model.
+    """
+    label = f"{seed}:{model.parameters}:{model.numerator_terms}:{model.denominator_terms}"
+    n, k = len(model.parameters), 0
+    while True:
+        spread = SPREADS[k % len(SPREADS)]
+        tops, bottoms, signs = (
+            residues(f"{what}:{label}:{k}", n, below)
+            for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
+        )
+        values = (Fraction(p, q) for p, q in zip(tops, bottoms, strict=True))
+        signed = (
+            x if s == 1 or domain is Domain.POSITIVE else -x
+            for x, s in zip(values, signs, strict=True)
+        )
+        yield dict(zip(model.parameters, signed, strict=True))
+        k += 1
+
+
+def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:
+    """Raise ContradictionError if one model has equivalents although the other has none: they
+    would be equivalents of it.
+    """
+    for one in ways:
+        if one and (
+            one.covering
+            or one.path()
+            or any(map(one.having, islice(points(one.given, domain, seed), GUARDS)))
+        ):
+            raise ContradictionError(
+                f"{one.given.name} has equivalents in {one.other.name}, which has none in it"
+            )
+
+
+def _always(ways: Ways, domain: Domain) -> Finding:
+    known = [one for one in ways if one]
+    evidence = explicit(known, domain)
+    if not fit(evidence, known[0].given, known[0].other):
+        raise ContradictionError(
+            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer"
+            " function"
+        )
+    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
+
+
+def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | None, str]:
+    """A point with and one without an equivalent, of either model, and the shares of those with
+    one.
+    """
+    having, lacking, shares = list[Found](), list[Found](), list[str]()
+    for left_given, one in zip((True, False), ways, strict=True):
+        if one is None:
+            shares.append(
+                f"at no points of the {'left' if left_given else 'right'} model ({TOO_LARGE})"
+            )
+            continue
+        count, always = 0, bool(one.covering)
+        for values in islice(points(one.given, domain, seed), POINTS):
+            found = one.having(values)
+            count += bool(found)
+            if found:
+                having.append((left_given, _written(values), _rounded(one.other, found)))
+            elif not always and one.lacking(values):
+                lacking.append((left_given, _written(values), ()))
+            if having and lacking:
+                return having[0], lacking[0], ""
+        share = f"{count} of {POINTS} random" if one.looked_at else "no"
+        lost = one.not_looked_at
+        shares.append(f"at {share} points of {one.given.name}{lost and f' ({lost})'}")
+    return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
+
+
+def _witnesses(ways: Ways, having: Found, lacking: Found, domain: Domain) -> Witnesses:
+    one = ways[0 if lacking[0] else 1]
+    count = _count(one, lacking[1]) if one else -2
+    return Witnesses(domain.value, *having, *lacking[:2], count)
+
+
+def _count(one: Way, point: Point) -> int:
+    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
+    at once.
+    """
+    goal = target(one.given, rational_values(one.given, dict(point)))
+    try:
+        found = solved(fibre_equations(goal, one.other), one.other.parameters, "count", Bounds())
+    except TooLarge:
+        return -2
+    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(found.extent, len(found.equivalents))
+
+
+def _written(values: dict[str, Fraction]) -> Point:
+    return tuple((name, str(x)) for name, x in values.items())
+
+
+def _rounded(model: Model, values: tuple[float, ...]) -> Point:
+    return tuple((name, spelled(x)) for name, x in zip(model.parameters, values, strict=True))

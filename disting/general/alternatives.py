@@ -1,0 +1,141 @@
+"""All parameter vectors of one model with exactly the transfer function that another one has at
+given rational values.
+
+The equations of the fibre (see `target`) have no zero, finitely many or infinitely many, which a
+Groebner basis over Q tells without chance; what is said of them is proven (see `fibre`).
+Alternatives keep the order of the model: parameters at which its leading denominator coefficient
+is zero are none.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from disting.algebra.groebner.own_process import End, run_limited
+from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.conditions.finding import Outcome
+from disting.general.equivalent import Equivalent
+from disting.general.fibre import Extent, Fibre, solved
+from disting.general.model import Model
+from disting.general.target import fibre_equations, rational_values, target
+from disting.model.domain import Domain
+
+SECONDS = 30.0
+# milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time
+AT_ONCE = Bounds()
+AT_MOST = Bounds(2000, 5000, 100_000, 300)
+
+Values = tuple[tuple[str, Fraction], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Alternatives:
+    """Parameter vectors of `other` with the transfer function of `model` at `values`: all of them
+    if finitely many.
+
+    FAMILY: infinitely many over the complex numbers, `equivalents` some of them, `free` the
+    parameters that were fixed at random; `excluded`: domains without any. UNKNOWN: not decided,
+    for this `reason`. Everything else is proven.
+    """
+
+    model: str
+    other: str
+    values: Values
+    extent: Extent
+    equivalents: tuple[Equivalent, ...] = ()
+    free: tuple[str, ...] = ()
+    excluded: tuple[Domain, ...] = ()
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        raise TypeError("alternatives are not true or false; look at their extent")
+
+    def within(self, domain: Domain) -> tuple[Equivalent, ...]:
+        """Those that are real or positive, or all."""
+        admissible = {
+            Domain.COMPLEX: tuple(Domain),
+            Domain.REAL: (Domain.REAL, Domain.POSITIVE),
+        }.get(domain, (domain,))
+        return tuple(x for x in self.equivalents if x.domain in admissible)
+
+    def exist(self, domain: Domain) -> Outcome:
+        """Whether there are any in a domain: HOLDS, FAILS, or ABANDONED where it is not known."""
+        if self.within(domain) or (domain is Domain.COMPLEX and self.extent is Extent.FAMILY):
+            return Outcome.HOLDS
+        return (
+            Outcome.FAILS
+            if self.extent in (Extent.NONE, Extent.FINITE) or domain in self.excluded
+            else Outcome.ABANDONED
+        )
+
+    @property
+    def sentence(self) -> str:
+        """What was found, in words."""
+        at = ", ".join(f"{name} = {x}" for name, x in self.values)
+        match self.extent:
+            case Extent.NONE:
+                return (
+                    f"{self.other} has no parameters, real or complex, with the transfer function"
+                    f" of {self.model} at {at}."
+                )
+            case Extent.UNKNOWN:
+                return (
+                    f"Which parameters of {self.other} give {self.model} at {at} was not decided:"
+                    f" {self.reason}."
+                )
+            case Extent.FINITE:
+                many = (
+                    f"exactly {len(self.equivalents)} parameter"
+                    f" vector{'s' * (len(self.equivalents) > 1)}"
+                )
+            case Extent.FAMILY:
+                many = (
+                    f"infinitely many parameter vectors; {len(self.equivalents)} found with random"
+                    f" {', '.join(self.free)}"
+                )
+        return (
+            f"{self.other} has {many} with the transfer function of {self.model} at {at};"
+            f" {len(self.within(Domain.REAL))} of them real, {len(self.within(Domain.POSITIVE))}"
+            f" positive{self._none}."
+        )
+
+    @property
+    def _none(self) -> str:
+        return f" (none at all is {self.excluded[0]})" if self.excluded else ""
+
+
+def alternatives(
+    model: Model,
+    values: Mapping[str, object],
+    other: Model,
+    *,
+    seed: str = "disting",
+    seconds: float = SECONDS,
+) -> Alternatives:
+    """Alternatives to a model at rational values (numbers, texts such as "0.1", fractions), in the
+    parameters of `other`.
+
+    Gives up after so many seconds. Raises InputError for missing, foreign or inexact values and a
+    zero leading coefficient.
+
+    >>> a = Model.from_transfer_function("1", "(s + a)*(s + b)")
+    >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
+    ['a = 1/2, b = 1', 'a = 1, b = 1/2']
+    """
+    exact = rational_values(model, values)
+    equations = fibre_equations(target(model, exact), other)
+    try:
+        found = solved(equations, other.parameters, seed, AT_ONCE)
+    except TooLarge:
+        ended = run_limited(solved, (equations, other.parameters, seed, AT_MOST), seconds)
+        found = ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)
+    return Alternatives(
+        model=model.name,
+        other=other.name,
+        values=exact,
+        extent=found.extent,
+        equivalents=found.equivalents,
+        free=found.free,
+        excluded=found.excluded,
+        reason=found.reason,
+    )

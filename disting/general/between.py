@@ -1,0 +1,191 @@
+"""Unknowns that are roots: an equivalent for every p by the intermediate value theorem.
+
+In a case with one equation h = 0 some unknowns are chosen as fractions of the p, and for the last
+one, x, two points a, b of [0, oo] are sought between which h changes its sign for all p: the
+numerators of h(a) and h(b) have opposite signs, and all inequalities hold on the whole way x = (a
++ b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they have
+positive coefficients. So h has a root on the way. What is solved for is N/c, and inequalities lose
+even powers, so it is also asked that the `nonzero` polynomials of the case, among them these c, N
+and lead(q), have no common factor with h that contains x: then for generic p none of them is zero
+at any root of h (their resultant with h, a polynomial in the p, is not zero), and all other
+unknowns are positive there. What is tried: 0, oo, 1, single p, sums and quotients of products of a
+few of them, and the roots of linear inequalities.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations, combinations_with_replacement, islice
+from math import prod
+
+from flint import fmpz_mpoly
+
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.sampling import residues
+from disting.general.cases import Case, numbered, placed
+from disting.general.orthant import Orthant
+
+CHOICES = 12  # fractions that are tried for the unknown that is chosen
+TRIALS = 6  # points at which signs are looked at in rounded numbers first
+QUOTIENTS = 4  # parameters up to which p_i p_j/p_k are tried
+
+End = tuple[fmpz_mpoly, fmpz_mpoly]
+"""A point of [0, oo] by numerator and denominator."""
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """An equivalent for every generic p: `values`, x among them being a root of `equation`
+    between `low` and `high`.
+    """
+
+    equation: fmpz_mpoly
+    at: int
+    low: End
+    high: End
+    values: tuple[RationalFunction, ...]
+
+
+def path(ring: Orthant, case: Case) -> Path | None:
+    """A path in a case of one equation, if one of those tried is one."""
+    free = ring.occurring((*case.equations, *case.positive))
+    if len(case.equations) != 1 or len(free) > 2:
+        return None
+    if len(free) == 1:
+        return _root(ring, case, free[0])
+    for at in free:
+        for num, den in islice(_candidates(ring), CHOICES):
+            chosen = _chosen(ring, case, at, RationalFunction(num, den))
+            found = _root(ring, chosen, next(i for i in free if i != at)) if chosen else None
+            if found:
+                return found
+    return None
+
+
+def odd_path(ring: Orthant, case: Case) -> Path | None:
+    """Over the real numbers: a root of an equation of odd degree in its only unknown, whose
+    leading coefficient is not zero.
+    """
+    free = ring.occurring((*case.equations, *case.positive))
+    if len(case.equations) != 1 or len(free) != 1 or case.equations[0].degrees()[free[0]] % 2 == 0:
+        return None
+    one, zero = ring.number(1), ring.number(0)
+    return _known(ring, case, free[0], (-one, zero), (one, zero))
+
+
+def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:
+    found = placed(ring, case, at, value)
+    return found if isinstance(found, Case) and ring.occurring(found.equations) else None
+
+
+def _root(ring: Orthant, case: Case, at: int) -> Path | None:
+    for low, high in _promising(ring, case, at):
+        signs = [_seen(ring, ring.put(case.equations[0], at, *end)[0]) for end in (low, high)]
+        if signs[0] * signs[1] < 0 and all(
+            _holds_between(ring, g, at, low, high) for g in case.positive
+        ):
+            return _known(ring, case, at, low, high)
+    return None
+
+
+def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | None:
+    """The path, unless a polynomial that must not be zero has a common root with the equation
+    for all p.
+    """
+    whole, equation = numbered(ring, case), case.equations[0]
+    if any(c.gcd(equation).degrees()[at] for c in whole.nonzero):
+        return None
+    values = dict(whole.solved) | {at: RationalFunction(ring.generators[at], ring.number(1))}
+    return Path(equation, at, low, high, tuple(values[i] for i in ring.unknowns))
+
+
+def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:
+    """The sign of a polynomial if all its factors show theirs."""
+    sign, factors = (0, ()) if polynomial.is_zero() else ring.parts(polynomial, odd=True)
+    return 0 if factors else sign
+
+
+def _promising(ring: Orthant, case: Case, at: int) -> Iterator[tuple[End, End]]:
+    """Pairs of ends between which the signs are right at some points, in rounded numbers: what
+    is left out is not proven.
+    """
+    ends = list(_ends(ring, case, at))
+    at_ends = [
+        _numbers(ring, [ring.put(g, at, *end)[0] for g in (*case.equations, *case.positive)])
+        for end in ends
+    ]
+    kept = [
+        i
+        for i, rows in enumerate(at_ends)
+        if abs(sum(rows[0])) == TRIALS and all(min(r, default=0) >= 0 for r in rows[1:])
+    ]
+    for i, j in combinations(kept, 2):
+        if at_ends[i][0] != at_ends[j][0]:
+            yield ends[i], ends[j]
+
+
+def _numbers(ring: Orthant, polynomials: list[fmpz_mpoly]) -> list[list[int]]:
+    """Signs of polynomials in the p at a few points; only as many as agree with the first."""
+    found = []
+    for polynomial in polynomials:
+        terms = [(int(c), tuple(map(int, e))) for e, c in polynomial.to_dict().items()]
+        signs: list[int] = []
+        for k in range(TRIALS):
+            point = [x / 7 for x in residues(f"path:{k}", ring.n_given, 71)]
+            value = sum(c * prod(x**a for x, a in zip(point, e, strict=False)) for c, e in terms)
+            signs.append((value > 0) - (value < 0))
+            if signs[0] != signs[-1] or not signs[-1]:
+                break
+        found.append(signs)
+    return found
+
+
+def _holds_between(ring: Orthant, polynomial: fmpz_mpoly, at: int, low: End, high: End) -> bool:
+    t = ring.generators[ring.path]
+    value = ring.put(polynomial, at, low[0] + high[0] * t, low[1] + high[1] * t)[0]
+    return ring.sign(value) > 0
+
+
+def _ends(ring: Orthant, case: Case, at: int) -> Iterator[End]:
+    zero, one = ring.number(0), ring.number(1)
+    yield from ((zero, one), (one, zero))
+    for g in case.positive:
+        if g.degrees()[at] == 1:
+            rest, factor = ring.coefficients(g, at)
+            root = RationalFunction(-rest, factor)
+            if ring.sign(root.num) > 0 and ring.sign(root.den) > 0:
+                yield root.num, root.den
+    yield from _candidates(ring)
+
+
+def _candidates(ring: Orthant) -> Iterator[End]:
+    """Positive fractions of the p, simple ones first."""
+    p, one = ring.generators[: ring.n_given], ring.number(1)
+    yield from ((x, one) for x in p)
+    yield one, one
+    yield from ((x + y, one) for x, y in combinations(p, 2))
+    yield from (
+        (sum(c, ring.number(0)), one) for k in range(3, len(p) + 1) for c in combinations(p, k)
+    )
+    yield from ((x, y) for x in p for y in p if x != y)
+    if len(p) <= QUOTIENTS:
+        for x, y in combinations_with_replacement(p, 2):
+            yield from ((x * y, z) for z in p if z not in (x, y))
+            yield from ((x * y, z + w) for z, w in combinations(p, 2))
+
+
+def without_equations(ring: Orthant, case: Case) -> Case | None:
+    """A case whose inequalities all hold by a choice of its unknowns as fractions of the p, if
+    one that is tried does.
+    """
+    free = ring.occurring(case.positive)
+    if not free:
+        return None if case.positive else case
+    if case.equations or len(free) > 2:
+        return None
+    for num, den in _candidates(ring):
+        value = RationalFunction(num, den)
+        chosen = placed(ring, case, free[0], value)
+        found = without_equations(ring, chosen) if isinstance(chosen, Case) else None
+        if found:
+            return found
+    return None

@@ -1,0 +1,318 @@
+"""All admissible equivalents of a generic given model, case by case: unknowns solved for one after
+the other, exactly.
+
+EQUATIONS. Let given and searched model have the same degrees m in the numerator and n in the
+denominator, and let p be such that N1(p), D1(p) are coprime and lead D1(p) is not zero; both hold
+outside of the zeros of a polynomial in p that is not zero. Then N2(q)/D2(q) = N1(p)/D1(p) with
+lead D2(q) != 0 is the same as equality of all coefficients over the leading one: D1(p) divides
+N1(p) D2(q), so D2(q), which has the same degree, so D2(q) is a number times D1(p), and N2(q) the
+same number times N1(p). The other direction is plain. For m = n the numerators are replaced by N -
+G(oo) D, G(oo) = b_n/a_n, from which they follow. So invariants u(q)/v(q) = u(p)/v(p) are to be
+equal, fractions in lowest terms, whose denominators divide powers of the leading coefficients and
+are not zero where these are not: u(q) v(p) = u(p) v(q).
+
+CASES. A case is a set of equations, of inequalities g > 0 and of unknowns that are solved for, q_j
+= N/c. It starts with all equations and, over positive numbers, with nothing else: q > 0 is asked
+of each unknown when it is solved for. Each step replaces one case by others which together have
+the same admissible solutions:
+
+* A factor of an equation that has one sign is not zero: it is left out. A factor in the p alone is
+  not zero where p is generic: it is left out and listed in `generic`. An equation without any
+  factor left closes the case.
+* Of an equation with several factors one is zero: one case for each.
+* An equation c q_j + N = 0, c and N free of q_j: if c has one sign or contains the p alone (then
+  it is listed), q_j = -N/c. Else one case with c = N = 0 and one with q_j = -N/c, where c is not
+  zero. All other polynomials are multiplied by powers of c to be polynomials again, by even ones
+  for inequalities unless c is positive. Over positive numbers -N/c > 0 is one more inequality.
+* The case with q_j = -N/c holds only where c is not zero, nor N over positive numbers. Neither of
+  it follows from the other equations, which were multiplied by c, nor from the inequalities, which
+  lose even powers. So the irreducible factors of c (and N) that contain unknowns are kept as
+  `nonzero`, and all that is solved for later is put into them. If one of them becomes 0, or is an
+  equation of the case, but for a constant factor, no solution is in the case: it is closed. The
+  first of them are the factors of lead(q). All denominators of the solved values divide products
+  of these c and of polynomials in the p, so none of them becomes 0 in a case that is open.
+* Two different irreducible equations in one and the same unknown and the p: they have no common
+  factor over the field of fractions of the p, so their resultant is a polynomial in the p that is
+  not zero. It is listed, and the case is closed.
+* Of an inequality factors of one sign are left out, and even powers. These are positive or zero,
+  so no solution is lost; what is gained are points at which g >= 0 is an equation, or at which a
+  denominator is zero. An inequality that is seen to fail closes the case.
+
+So every admissible equivalent of a p at which no `generic` polynomial vanishes belongs to a case;
+and a point of a case gives an equivalent if no `nonzero` polynomial, and so no denominator, no
+lead(q) and none of the values required to be positive, is zero there.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+
+from flint import fmpz_mpoly
+
+from disting.algebra.rational_function import RationalFunction
+from disting.general.model import Model
+from disting.general.orthant import Orthant, TooMuch
+from disting.model.domain import Domain
+
+CASES = 300  # that are opened before the search is given up
+RESULTANTS = 24  # sum of total degrees: resultants stay a matter of milliseconds
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Equations left over (irreducible, in no unknown linear), polynomials that are positive,
+    unknowns that are solved for.
+
+    `nonzero`: irreducible polynomials with unknowns that are not zero.
+    """
+
+    equations: tuple[fmpz_mpoly, ...] = ()
+    positive: tuple[fmpz_mpoly, ...] = ()
+    solved: tuple[tuple[int, RationalFunction], ...] = ()
+    nonzero: tuple[fmpz_mpoly, ...] = ()
+
+
+@dataclass(slots=True)
+class Search:
+    """The cases found so far, the polynomials in the p that do not vanish, and why other cases
+    are closed.
+    """
+
+    ring: Orthant
+    order: tuple[int, ...]
+    cases: list[Case] = field(default_factory=list)
+    generic: list[fmpz_mpoly] = field(default_factory=list)
+    closed: list[str] = field(default_factory=list)
+    opened: int = 0
+
+
+def searched(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -> Search:
+    """All cases of the equivalents of `given` in `other`, unknowns solved for in this order of
+    preference; raises TooMuch.
+
+    Both models have the same degrees.
+    """
+    start = Case(
+        tuple(ring.equations(given, other)), nonzero=unknown_factors(ring, [ring.lead(other)])
+    )
+    search = cases_of(ring, start, order)
+    search.generic.append(ring.lifted(given.denominator_terms[-1], 0))
+    return search
+
+
+def cases_of(ring: Orthant, case: Case, order: tuple[int, ...]) -> Search:
+    """All cases that one case leads to; raises TooMuch."""
+    search = Search(ring, order)
+    _open(search, case)
+    return search
+
+
+def _open(search: Search, case: Case) -> None:
+    search.opened += 1
+    if search.opened > CASES:
+        raise TooMuch(f"more than {CASES} cases")
+    found = _factored(search, case.equations)
+    if found is None:
+        return
+    several = next((f for f in found if len(f) > 1), None)
+    if several:
+        others = tuple(search.ring.product(f) for f in found if f is not several)
+        for factor in several:
+            _open(search, replace(case, equations=(factor, *others)))
+        return
+    plain = tuple(f[0] for f in found)
+    void = next((c for c in case.nonzero if c in plain or -c in plain), None)
+    if void is not None:
+        search.closed.append(f"{void} != 0")
+        return
+    if _excluded(search, plain):
+        return
+    step = _linear(search, plain)
+    if step is None:
+        search.cases.append(replace(case, equations=plain))
+    else:
+        _solve(search, replace(case, equations=plain), *step)
+
+
+def _factored(
+    search: Search, equations: tuple[fmpz_mpoly, ...]
+) -> list[tuple[fmpz_mpoly, ...]] | None:
+    """Factors of each equation that may vanish, those of few factors first; None if one
+    equation has none.
+    """
+    found: list[tuple[fmpz_mpoly, ...]] = []
+    for equation in equations:
+        if equation.is_zero():
+            continue
+        _, factors = search.ring.parts(equation, odd=False)
+        kept = tuple(f for f in factors if search.ring.occurring([f]))
+        search.generic += [f for f in factors if f not in kept]
+        if not kept:
+            search.closed.append(str(equation))
+            return None
+        found.append(kept)
+    found.sort(key=lambda factors: (len(factors), sum(map(len, factors))))
+    least: list[tuple[fmpz_mpoly, ...]] = []
+    for factors in found:
+        if not any(all(f in factors for f in fewer) for fewer in least):
+            least.append(factors)
+    return least
+
+
+def _excluded(search: Search, equations: tuple[fmpz_mpoly, ...]) -> bool:
+    """Whether two of the equations contain one unknown only and the same: its common roots are
+    those of their resultant.
+    """
+    alone = [(e, u[0]) for e in equations if len(u := search.ring.occurring([e])) == 1]
+    for (first, at), (second, there) in combinations(alone, 2):
+        if at == there and first.total_degree() + second.total_degree() <= RESULTANTS:
+            search.generic.append(first.resultant(second, at))
+            search.closed.append(f"both {first} and {second}")
+            return True
+    return False
+
+
+def _linear(
+    search: Search, equations: tuple[fmpz_mpoly, ...]
+) -> tuple[int, int, fmpz_mpoly, fmpz_mpoly, int] | None:
+    """The easiest of the equations c q + N = 0: its number, the position of q, c, N and how
+    hard it is.
+    """
+    ring, found = search.ring, []
+    for number, equation in enumerate(equations):
+        degrees = equation.degrees()
+        for rank, at in enumerate(search.order):
+            if degrees[at] == 1:
+                rest, factor = ring.coefficients(equation, at)
+                alone = not ring.occurring([factor])
+                hard = (0 if alone else 1) if ring.sign(factor) else 2 if alone else 3
+                found.append(
+                    ((hard, rank, len(factor), len(rest)), (number, at, factor, rest, hard))
+                )
+    return min(found, key=lambda x: x[0])[1] if found else None
+
+
+def _solve(
+    search: Search,
+    case: Case,
+    number: int,
+    at: int,
+    factor: fmpz_mpoly,
+    rest: fmpz_mpoly,
+    hard: int,
+) -> None:
+    """Both cases of one linear equation, the one with factor 0 first."""
+    ring, positive = search.ring, search.ring.domain is Domain.POSITIVE
+    others = (*case.equations[:number], *case.equations[number + 1 :])
+    if hard == 3:
+        _open(search, replace(case, equations=(*others, factor, rest)))
+    elif hard == 2:
+        search.generic.append(factor)
+    nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
+    asked = (*case.positive, ring.generators[at]) if positive else case.positive
+    found = placed(
+        ring,
+        Case(others, asked, case.solved, (*case.nonzero, *nonzero)),
+        at,
+        RationalFunction(-rest, factor),
+    )
+    if isinstance(found, Case):
+        _open(search, found)
+    else:
+        search.closed.append(found)
+
+
+def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:
+    """A case with one unknown replaced by a fraction whose denominator is not zero; else what
+    would have to hold and fails.
+    """
+    put = [ring.put(c, at, by.num, by.den)[0] for c in case.nonzero]
+    void = next((c for c, found in zip(case.nonzero, put, strict=True) if found.is_zero()), None)
+    if void is not None:
+        return f"{void} != 0"
+    positive, failing = inequalities(ring, (put_positive(ring, g, at, by) for g in case.positive))
+    if failing is not None:
+        return f"{failing} > 0"
+    equations = tuple(ring.put(e, at, by.num, by.den)[0] for e in case.equations)
+    solved = tuple((i, put_ratio(ring, value, at, by)) for i, value in case.solved)
+    return Case(equations, positive, (*solved, (at, by)), unknown_factors(ring, put))
+
+
+def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
+    """The distinct irreducible factors that contain unknowns."""
+    every = [
+        f for polynomial in polynomials for f, _ in polynomial.factor()[1] if ring.occurring([f])
+    ]
+    return tuple(f for i, f in enumerate(every) if f not in every[:i])
+
+
+def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalFunction]) -> Case:
+    """A case with an unknown of no equation and no inequality replaced by the first of values(1),
+    values(2), .. that may be.
+
+    These are different fractions. A polynomial of degree d in the unknown is zero at d of them at
+    most, if it is not zero.
+    """
+    numbers = range(1, 2 + sum(int(c.degrees()[at]) for c in case.nonzero))
+    return next(c for k in numbers if isinstance(c := placed(ring, case, at, values(k)), Case))
+
+
+def numbered(ring: Orthant, case: Case) -> Case:
+    """A case whose unknowns of no equation and no inequality are numbers at which no `nonzero`
+    polynomial is zero.
+    """
+    left = ring.occurring((*case.equations, *case.positive))
+    for at in ring.unknowns:
+        if at not in left and at not in dict(case.solved):
+            case = chosen(
+                ring, case, at, lambda k: RationalFunction(ring.number(k), ring.number(1))
+            )
+    return case
+
+
+def put_positive(
+    ring: Orthant, polynomial: fmpz_mpoly, at: int, by: RationalFunction
+) -> fmpz_mpoly:
+    """A polynomial with the sign of the value where one variable is replaced by a fraction."""
+    found, degree = ring.put(polynomial, at, by.num, by.den)
+    return found * by.den if degree % 2 and ring.sign(by.den) <= 0 else found
+
+
+def inequalities(
+    ring: Orthant, polynomials: Iterable[fmpz_mpoly]
+) -> tuple[tuple[fmpz_mpoly, ...], fmpz_mpoly | None]:
+    """The inequalities that are not seen to hold, shortened, and one that fails or contradicts
+    another, if there is one.
+    """
+    kept: list[fmpz_mpoly] = []
+    for polynomial in polynomials:
+        shorter = shortened(ring, polynomial)
+        if shorter is None or any(x == -shorter or ring.sign(x + shorter) < 0 for x in kept):
+            return (), polynomial
+        if not shorter.is_one() and shorter not in kept:
+            kept.append(shorter)
+    return tuple(kept), None
+
+
+def shortened(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
+    """What has to be positive for a polynomial to be, 1 where it always is; None where it never
+    is.
+    """
+    if polynomial.is_zero():
+        return None
+    sign, factors = ring.parts(polynomial, odd=True)
+    if not factors:
+        return ring.number(1) if sign > 0 else None
+    return sign * ring.product(factors)
+
+
+def put_ratio(
+    ring: Orthant, value: RationalFunction, at: int, by: RationalFunction
+) -> RationalFunction:
+    """A fraction with one variable replaced by another fraction."""
+    (top, above), (bottom, below) = (
+        ring.put(side, at, by.num, by.den) for side in (value.num, value.den)
+    )
+    return RationalFunction(
+        top * by.den ** max(below - above, 0), bottom * by.den ** max(above - below, 0)
+    )

@@ -1,0 +1,153 @@
+"""Equivalents as formulas: written down as evidence, and put into the transfer function again."""
+
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+
+from disting.algebra.rational_function import RationalFunction
+from disting.evidence.general import Explicit, Formula, NoEquivalent
+from disting.general.between import End, Path
+from disting.general.expansion import Expansion
+from disting.general.expression import tree
+from disting.general.model import Model, Terms
+from disting.general.sections import Section
+from disting.general.spelled import polynomial_text, text_of
+from disting.general.trees import names as symbols_of
+from disting.general.which_models import Way, way
+from disting.model.domain import Domain
+
+
+def explicit(ways: list[Way], domain: Domain) -> Explicit:
+    """The evidence of two ways in which all generic parameters have an equivalent: the left
+    model's first.
+    """
+    formulas: list[Formula] = []
+    for left_given, one in zip((True, False), ways, strict=True):
+        if one.covering:
+            formulas += [_of_section(left_given, one, section) for section in one.covering]
+        elif found := one.path():
+            formulas.append(_of_path(left_given, one, found))
+    return Explicit(domain.value, tuple(formulas))
+
+
+def is_explicit(evidence: Explicit, left: Model, right: Model) -> bool:
+    """Whether every formula gives the same transfer function, and the ways found anew cover all
+    parameters.
+    """
+    domain = Domain(evidence.domain)
+    ways = [way(left, right, domain), way(right, left, domain)]
+    known = all(one and (one.covering or one.path()) for one in ways)
+    return (
+        known and {f[0] for f in evidence.formulas} == {True, False} and fit(evidence, left, right)
+    )
+
+
+def fit(evidence: Explicit, left: Model, right: Model) -> bool:
+    """Whether every formula gives the same transfer function, as put into both models anew."""
+    sides = {True: (left, right), False: (right, left)}
+    return all(_fits(f, *sides[f[0]], Domain(evidence.domain)) for f in evidence.formulas)
+
+
+def is_without(evidence: NoEquivalent, left: Model, right: Model) -> bool:
+    """Whether the cases found anew are all closed."""
+    given, other = (left, right) if evidence.left_given else (right, left)
+    one = way(given, other, Domain(evidence.domain))
+    return bool(one and one.never)
+
+
+def _of_section(left_given: bool, one: Way, section: Section) -> Formula:
+    names = _names(one)
+    values = tuple(
+        (q, text_of(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True)
+    )
+    return left_given, tuple(polynomial_text(g, names) for g in section.where), values, ()
+
+
+def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
+    names = _names(one)
+    root = names[found.at] = next(n for n in ("x", "root", "x_") if n not in one.given.parameters)
+    values = tuple(
+        (q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True)
+    )
+    ends = [_end_text(end, names) for end in (found.low, found.high)]
+    return left_given, (), values, (root, polynomial_text(found.equation, names), *ends)
+
+
+def _end_text(end: End, names: list[str]) -> str:
+    if end[1].is_zero():
+        return "infinity" if end[0].is_one() else "-infinity"
+    return text_of(RationalFunction(*end), names)
+
+
+def _names(one: Way) -> list[str]:
+    """Of p, q and t: parameters of the given model as they are called, unknowns with names that
+    do not occur.
+    """
+    return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
+
+
+def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
+    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and
+    what must not be zero is not.
+
+    That is lead(q), all denominators and, over positive numbers, the values: none is zero or has a
+    root in common with the equation for all p.
+    """
+    _, _, values, root = formula
+    names = [*root[:1], *given.parameters]
+    ring = dict(zip(names, _ring(names), strict=True))
+    expansion = Expansion(ring, next(iter(ring.values())) ** 0)
+    one = expansion.one
+    trees = [tree(text) for _, text in values]
+    if (
+        tuple(name for name, _ in values) != other.parameters
+        or not {n for t in trees for n in symbols_of(t)} <= ring.keys()
+    ):
+        return False
+    point = [expansion.value(t) for t in trees]
+    here = [
+        value_of(c, [RationalFunction(ring[n], one) for n in given.parameters], one)
+        for c in _every(given)
+    ]
+    there = [value_of(c, point, one) for c in _every(other)]
+    equation = expansion.value(tree(root[1])).num if root else one - one
+    rests = [b * here[-1] - a * there[-1] for a, b in zip(here, there, strict=True)]
+    sides = [
+        side
+        for v in (*point, there[-1])
+        for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))
+    ]
+    return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(
+        _is_multiple(r.num, equation) for r in rests
+    )
+
+
+def value_of(terms: Terms, point: list[RationalFunction], one: fmpz_mpoly) -> RationalFunction:
+    """A polynomial at fractions."""
+    total = RationalFunction(one - one, one)
+    for exponents, number in terms:
+        term = RationalFunction(one * number, one)
+        for x, e in zip(point, exponents, strict=True):
+            term = term * x**e if e else term
+        total = total + term
+    return total
+
+
+def _ring(names: list[str]) -> tuple[fmpz_mpoly, ...]:
+    return tuple(fmpz_mpoly_ctx.get(tuple(names), Ordering.lex).gens())
+
+
+def _is_multiple(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
+    """Whether a polynomial vanishes where an irreducible one does (0: only zero does)."""
+    return bool(polynomial.is_zero()) or (
+        not of.is_zero() and not of.is_constant() and bool(of.gcd(polynomial) in (of, -of))
+    )
+
+
+def _is_apart(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
+    """Whether a polynomial is not zero, nor at any root of another one, for generic values of
+    all symbols but the first.
+    """
+    return not polynomial.is_zero() and (of.is_zero() or not polynomial.gcd(of).degrees()[0])
+
+
+def _every(model: Model) -> tuple[Terms, ...]:
+    return (*model.numerator_terms, *model.denominator_terms)

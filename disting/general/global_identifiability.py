@@ -1,0 +1,221 @@
+"""How many parameter vectors of a model have one generic transfer function, and what it determines.
+
+The equivalents of a model in itself (see `cases`, over the complex numbers) are written down as
+fractions of its parameters p, or by the roots of one irreducible polynomial of degree d over the
+field of fractions of the p, where they are d vectors. A parameter is globally identifiable if it
+is p_j in all of them. Two vectors of different fractions of the p differ for generic p; so do
+those of roots of different irreducible polynomials for one unknown, and those of one polynomial
+whose values differ at its roots: cases that differ in no value modulo the polynomial are one.
+Cases in which roots of different unknowns are left may overlap, so that the number is not known.
+
+Identifiable combinations: the coefficients of the monic transfer function are determined by it;
+together they determine all that is. Of them, and of parameters that are globally identifiable, as
+many independent ones as the rank are listed, the shortest first.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import islice, permutations
+
+from flint import fmpz_mpoly, nmod_mat
+
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.sampling import prime, residues
+from disting.general.cases import Case, Search, searched
+from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
+from disting.general.model import Model
+from disting.general.orthant import Orthant, TooMuch
+from disting.general.samples import evaluated
+from disting.general.spelled import text_of
+from disting.model.domain import Domain
+from disting.model.settings import Settings
+
+ORDERS = 24  # in which unknowns are solved for
+SETTINGS = Settings()
+
+
+@dataclass(frozen=True, slots=True)
+class GlobalIdentifiability:
+    """`count` of complex parameter vectors with one generic transfer function: None if infinite or
+    not known.
+
+    `unique`: parameters with one value in all of them, proven. `combinations`: independent
+    functions that the transfer function determines, as many as `local.rank`; `local` has the rank
+    and the locally identifiable parameters with their error bound.
+    """
+
+    local: LocalIdentifiability
+    count: int | None
+    is_infinite: bool
+    unique: tuple[str, ...]
+    combinations: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """The finding in plain English."""
+        n, rank = len(self.local.parameters), self.local.rank
+        if rank < n:
+            return f"{n} parameters, only {rank} determinable: {', '.join(self.combinations)}."
+        if self.count == 1:
+            return f"All {n} parameters are globally identifiable."
+        many = (
+            f"{self.count} sets of them fit"
+            if self.count
+            else "how many sets of them fit is not known"
+        )
+        some = f"; globally identifiable are {', '.join(self.unique)}" if self.unique else ""
+        return f"All {n} parameters are locally identifiable, {many}{some}."
+
+
+def global_identifiability(model: Model, settings: Settings = SETTINGS) -> GlobalIdentifiability:
+    """How many parameter vectors fit, and what is determined.
+
+    >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
+    >>> found.count, found.unique, found.combinations
+    (2, ('c',), ('c', 'a*b', 'a + b'))
+    """
+    local = local_identifiability(model, settings)
+    ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
+    search = _best(ring, model)
+    vectors = [v for case in search.cases if (v := _vector(ring, model, case))] if search else []
+    count, infinite = _counted(ring, search.cases if search else (), vectors)
+    unique = tuple(
+        name
+        for i, name in enumerate(model.parameters)
+        if vectors and _is_unique(ring, vectors, i, search)
+    )
+    return GlobalIdentifiability(
+        local=local,
+        count=count,
+        is_infinite=infinite,
+        unique=unique,
+        combinations=_combinations(ring, model, local.rank, unique),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Vector:
+    """Values of all unknowns, None for those that are free; the equation of a root among them,
+    and its position.
+    """
+
+    values: tuple[RationalFunction | None, ...]
+    equation: fmpz_mpoly | None
+    at: int
+
+
+def _best(ring: Orthant, model: Model) -> Search | None:
+    """The search with the fewest equations left."""
+    found: list[Search] = []
+    for order in islice(permutations(ring.unknowns), ORDERS):
+        try:
+            found.append(searched(ring, model, model, order))
+        except TooMuch:
+            continue
+        if not any(case.equations for case in found[-1].cases):
+            break
+    return min(
+        found, key=lambda s: sum(len(ring.occurring(c.equations)) for c in s.cases), default=None
+    )
+
+
+def _vector(ring: Orthant, model: Model, case: Case) -> _Vector | None:
+    """The vector of a case, None if the leading coefficient or a denominator vanishes there."""
+    solved = dict(case.solved)
+    equation = case.equations[0] if case.equations else None
+    lead = ring.lead(model)
+    for i, value in case.solved:
+        lead = ring.put(lead, i, value.num, value.den)[0]
+    for polynomial in (lead, *(v.den for v in solved.values())):
+        if polynomial.is_zero() or (equation is not None and (polynomial % equation).is_zero()):
+            return None
+    left = ring.occurring(case.equations)
+    return _Vector(tuple(solved.get(i) for i in ring.unknowns), equation, left[0] if left else -1)
+
+
+def _counted(
+    ring: Orthant, cases: Sequence[Case], vectors: Sequence[_Vector]
+) -> tuple[int | None, bool]:
+    """Number of vectors, and whether there are infinitely many."""
+    missing = [sum(v is None for v in x.values) for x in vectors]
+    equations = [len(c.equations) for c in cases]
+    if any(
+        m > (x.equation is not None) and max(equations) <= 1
+        for m, x in zip(missing, vectors, strict=True)
+    ):
+        return None, True
+    if not vectors or max(equations) > 1 or len({x.at for x in vectors if x.at >= 0}) > 1:
+        return None, False
+    if any(len(ring.occurring([x.equation])) > 1 for x in vectors if x.equation is not None):
+        return None, False
+    different = [x for i, x in enumerate(vectors) if not any(_same(x, y) for y in vectors[:i])]
+    return (
+        sum(1 if x.equation is None else int(x.equation.degrees()[x.at]) for x in different),
+        False,
+    )
+
+
+def _same(first: _Vector, second: _Vector) -> bool:
+    """Whether two cases have the same vectors: one equation, but for its sign, and values that are
+    equal at all its roots.
+
+    The equation h is irreducible, so what vanishes at one of its roots is divisible by it and
+    vanishes at all of them.
+    """
+    h, k = first.equation, second.equation
+    if h is None or k is None:
+        return h is None and k is None and first.values == second.values
+    if h not in (k, -k):
+        return False
+    pairs = [(v, w) for v, w in zip(first.values, second.values, strict=True) if v and w]
+    return all(((v.num * w.den - w.num * v.den) % h).is_zero() for v, w in pairs)
+
+
+def _is_unique(ring: Orthant, vectors: Sequence[_Vector], at: int, search: Search | None) -> bool:
+    """Whether an unknown is p in all cases; all of them are looked at, so cases that were left
+    out make it no less true.
+    """
+    p = RationalFunction(ring.generators[at], ring.number(1))
+    return search is not None and all(x.values[at] == p for x in vectors)
+
+
+def _combinations(
+    ring: Orthant, model: Model, rank: int, unique: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Independent ones, by their gradients modulo a prime: what is independent there is so
+    everywhere else.
+    """
+    one = ring.number(1)
+    singles = [
+        RationalFunction(ring.generators[i], one)
+        for i, name in enumerate(model.parameters)
+        if name in unique
+    ]
+    candidates = [
+        *singles,
+        *sorted(ring.monic(model), key=lambda r: (len(r.num) + len(r.den), r.num.total_degree())),
+    ]
+    modulus = prime(f"combinations:{model.numerator_terms}:{model.denominator_terms}")
+    point = residues(f"combinations:{model.parameters}", ring.path + 1, modulus)
+    chosen, rows = list[str](), list[list[int]]()
+    for candidate in candidates:
+        row = _gradient(candidate, point, modulus)[: len(model.parameters)]
+        entries = [x for r in (*rows, row) for x in r]
+        if len(chosen) < rank and nmod_mat(len(rows) + 1, len(row), entries, modulus).rank() > len(
+            rows
+        ):
+            chosen.append(
+                text_of(candidate, [*model.parameters, *(f"q{i}'" for i in ring.unknowns), "t'"])
+            )
+            rows.append(row)
+    return tuple(chosen)
+
+
+def _gradient(ratio: RationalFunction, point: list[int], modulus: int) -> list[int]:
+    """Gradient of num/den times den^2."""
+    sides = [
+        [(tuple(map(int, e)), int(c)) for e, c in side.to_dict().items()]
+        for side in (ratio.num, ratio.den)
+    ]
+    (top, above), (bottom, below) = (evaluated(tuple(side), point, modulus) for side in sides)
+    return [(a * bottom - b * top) % modulus for a, b in zip(above, below, strict=True)]

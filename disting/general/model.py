@@ -1,0 +1,203 @@
+"""Parametric models with one input and one output: rational transfer functions whose coefficients
+depend on parameters.
+
+    G(s) = C (s I - A)^-1 B + D = sum b_i(p) s^i / sum a_i(p) s^i
+
+Entries are rational functions of the parameters; their denominators are cleared. G is brought to
+lowest terms over Z[s, p] exactly: what is common for all parameters (such as a mode that is not
+controllable or not observable) is cancelled. Then G has one form but for the sign, which is fixed,
+and its coefficients say exactly which of them vanish or are constant.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+
+from disting.algebra.notation import printed, quotient
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import renamed, symbols
+from disting.behaviour.expanded import expanded
+from disting.errors import InputError, shown
+from disting.general.entries import polynomial, refuse_namesakes, state_space
+from disting.general.expansion import Expansion
+from disting.general.expression import tree
+from disting.general.response import response
+from disting.general.trees import LONGEST_NUMBER, Tree, names
+from disting.model.chain import Chain
+
+MOST_SYMBOLS = 300
+Terms = tuple[tuple[tuple[int, ...], int], ...]
+"""A polynomial in the parameters: exponents and coefficient of each term, in falling
+lexicographic order.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A transfer function in lowest terms, made by `from_state_space`, `from_transfer_function` or
+    `from_chain`.
+
+    `parameters` by name; `numerator_terms` and `denominator_terms` hold the coefficients of s^0,
+    s^1, .. Immutable and hashable; two models are equal if their parameters and coefficients are,
+    whatever they are called.
+
+    >>> str(Model.from_transfer_function(["k"], ["m", "d", "k"]))
+    'G(s) = k/(k + d*s + m*s**2)'
+    """
+
+    parameters: tuple[str, ...]
+    numerator_terms: tuple[Terms, ...]
+    denominator_terms: tuple[Terms, ...]
+    name: str = field(default="model", compare=False)
+
+    @staticmethod
+    def from_state_space(
+        a: object, b: object, c: object, d: object = 0, *, s: object = "s", name: str = "model"
+    ) -> "Model":
+        """Model x' = A x + B u, y = C x + D u with A (n x n), B (n x 1), C (1 x n), D (1 x 1).
+
+        Matrices are SymPy or NumPy ones or nested lists; B and C may be flat lists, D a single
+        entry. Entries are exact numbers, texts such as "k12/m1" or SymPy expressions; parameters
+        are their symbols, sorted by name, whatever is assumed of them. `s` is the frequency
+        variable and must not be among them. Raises InputError.
+
+        >>> from sympy import Matrix, symbols
+        >>> k, m = symbols("k m")
+        >>> a, b, c = Matrix([[0, 1], [-k / m, 0]]), Matrix([0, 1 / m]), Matrix([[1, 0]])
+        >>> str(Model.from_state_space(a, b, c))
+        'G(s) = 1/(k + m*s**2)'
+        """
+        space = state_space(a, b, c, d)
+        refuse_namesakes(a, b, c, d, s)
+        parameters, variable = _parameters(space.entries), _variable(s)
+        if variable in parameters:
+            raise InputError(
+                f"the matrices contain the frequency variable {variable}; name another one with"
+                " s=.."
+            )
+        ring = symbols([variable, *parameters])
+        return _model(
+            response(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters, name
+        )
+
+    @staticmethod
+    def from_transfer_function(
+        num: object, den: object = 1, *, s: object = "s", name: str = "model"
+    ) -> "Model":
+        """Model num/den: lists of coefficients, the highest power first (as in scipy and
+        python-control), or expressions in s.
+
+        An expression may be all of G(s). Entries as in `from_state_space`. Raises InputError, also
+        for a numerator of higher degree than the denominator.
+
+        >>> Model.from_transfer_function("k*s", "(s + p)*(s + q)*k").denominator
+        (p*q, p + q, 1)
+        """
+        variable = _variable(s)
+        top, bottom = (polynomial(side, variable) for side in (num, den))
+        refuse_namesakes(num, den, s)
+        parameters = tuple(name for name in _parameters([top, bottom]) if name != variable)
+        ring = symbols([variable, *parameters])
+        expansion = Expansion(ring, ring[variable] ** 0)
+        denominator = expansion.value(bottom)
+        if denominator.num.is_zero():
+            raise InputError("the denominator of the transfer function is zero")
+        return _model(expansion.quotient(expansion.value(top), denominator), parameters, name)
+
+    @staticmethod
+    def from_chain(chain: Chain, *, name: str = "") -> "Model":
+        """The model of a chain in its own parameters, sorted; raises InputError for a dead time,
+        which is no rational function.
+
+        >>> str(Model.from_chain(Chain(1)))
+        'G(s) = 1/m1'
+        """
+        if chain.dead_time:
+            raise InputError("a dead time exp(-Td s) is no rational function of s")
+        parameters = tuple(sorted(chain.parameters))
+        ring = symbols(["s", *parameters])
+        num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
+        return _model(RationalFunction(num, den), parameters, name or str(chain))
+
+    @property
+    def numerator(self) -> tuple[fmpz_mpoly, ...]:
+        """Polynomials b_0, b_1, .. in the parameters."""
+        return self._polynomials(self.numerator_terms)
+
+    @property
+    def denominator(self) -> tuple[fmpz_mpoly, ...]:
+        """Polynomials a_0, a_1, .. in the parameters."""
+        return self._polynomials(self.denominator_terms)
+
+    @property
+    def n_states(self) -> int:
+        """Order: the degree of the denominator in lowest terms, the number of states of a
+        minimal realisation.
+        """
+        return len(self.denominator_terms) - 1
+
+    @property
+    def content(self) -> tuple[object, ...]:
+        """All that tells two models apart: their names do not."""
+        return self.parameters, self.numerator_terms, self.denominator_terms
+
+    @property
+    def degrees(self) -> tuple[int, int]:
+        """Degrees in s of numerator and denominator."""
+        return len(self.numerator_terms) - 1, self.n_states
+
+    def __str__(self) -> str:
+        return f"G(s) = {printed(quotient(self.numerator, self.denominator, evaluate=False))}"
+
+    def _polynomials(self, coefficients: tuple[Terms, ...]) -> tuple[fmpz_mpoly, ...]:
+        context = fmpz_mpoly_ctx.get(self.parameters, Ordering.lex)
+        return tuple(context.from_dict(dict(terms)) for terms in coefficients)
+
+
+def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
+    """The model of a transfer function in the ring of s and the parameters, s first."""
+    if ratio.num.is_zero():
+        raise InputError("the transfer function is zero: the output does not depend on the input")
+    if not parameters:
+        raise InputError("a parametric model has at least one parameter")
+    top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))
+    if any(
+        abs(number).bit_length() > LONGEST_NUMBER
+        for terms in (*top, *bottom)
+        for _, number in terms
+    ):
+        raise InputError(f"numbers of a model have {LONGEST_NUMBER} bits at most in lowest terms")
+    if len(top) > len(bottom):
+        raise InputError(
+            f"the transfer function is not proper: degree {len(top) - 1} over degree"
+            f" {len(bottom) - 1}"
+        )
+    return Model(parameters, top, bottom, name)
+
+
+def _coefficients(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
+    """Coefficients of the powers 0, 1, .. of the first generator."""
+    parts: list[list[tuple[tuple[int, ...], int]]] = [
+        [] for _ in range(int(polynomial.degrees()[0]) + 1)
+    ]
+    for powers, number in polynomial.to_dict().items():
+        parts[powers[0]].append((tuple(map(int, powers[1:])), int(number)))
+    return tuple(tuple(sorted(part, reverse=True)) for part in parts)
+
+
+def _parameters(entries: Iterable[Tree]) -> tuple[str, ...]:
+    found = tuple(sorted({name for entry in entries for name in names(entry)}))
+    if len(found) > MOST_SYMBOLS:
+        raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(found)}")
+    foreign = [name for name in found if not (name.isascii() and name.isprintable() and name)]
+    if foreign:
+        raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
+    return found
+
+
+def _variable(s: object) -> str:
+    name = tree(s)
+    if not isinstance(name, str):
+        raise InputError(f"the frequency variable is a symbol or its name, not {shown(s)}")
+    return name

@@ -1,0 +1,200 @@
+"""Polynomials in the parameters p of a given model and the unknowns q of a searched one, and the
+signs that are seen at once.
+
+Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere.
+Over real numbers the same is said of one in which all exponents are even, coefficients have one
+sign and some term contains no unknown: it has this sign for all q and all p without zeros. Over
+complex numbers only constants have a sign, which then says that they are not zero. Polynomials in
+the p alone that are not zero vanish on no open set; they are passed over and listed by whoever
+rests on that.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, reduce
+from operator import mul
+from typing import Any
+
+from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+
+from disting.algebra.rational_function import RationalFunction
+from disting.general.model import Model, Terms
+from disting.model.domain import Domain
+
+Parts = tuple[int, tuple[fmpz_mpoly, ...]]
+"""A sign and distinct irreducible factors whose signs are not seen: their product has the sign
+of a polynomial, or is zero.
+"""
+
+
+class TooMuch(Exception):
+    """More cases or terms than the bounds allow."""
+
+
+@dataclass(frozen=True)
+class Orthant:
+    """The ring Z[p, q, t] with its admissible values; t is a path's parameter, positive like
+    the rest (see `between`).
+    """
+
+    n_given: int
+    n_unknown: int
+    domain: Domain
+    terms: int = 400  # of one polynomial: factoring stays a matter of milliseconds
+    degree: int = 40
+
+    @cached_property
+    def context(self) -> fmpz_mpoly_ctx:
+        """FLINT's ring."""
+        names = (
+            [f"p{i}" for i in range(self.n_given)]
+            + [f"q{i}" for i in range(self.n_unknown)]
+            + ["t"]
+        )
+        return fmpz_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
+
+    @cached_property
+    def generators(self) -> tuple[fmpz_mpoly, ...]:
+        """p, q and t."""
+        return tuple(self.context.gens())
+
+    @property
+    def unknowns(self) -> range:
+        """Positions of the q."""
+        return range(self.n_given, self.n_given + self.n_unknown)
+
+    @property
+    def path(self) -> int:
+        """Position of t."""
+        return self.n_given + self.n_unknown
+
+    def number(self, value: int) -> fmpz_mpoly:
+        """A constant."""
+        return self.context.constant(value)
+
+    def lifted(self, terms: Terms, first: int) -> fmpz_mpoly:
+        """A polynomial whose variables become those from position `first`."""
+        size = self.path + 1
+        return self.context.from_dict(
+            {(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms}
+        )
+
+    def equations(self, given: Model, other: Model) -> list[fmpz_mpoly]:
+        """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for
+        generic p (see `cases`).
+        """
+        here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
+        return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
+
+    def monic(self, model: Model) -> list[RationalFunction]:
+        """All coefficients over the leading one, in the p."""
+        sides = [self.lifted(c, 0) for c in (*model.numerator_terms, *model.denominator_terms)]
+        return [RationalFunction(c, sides[-1]) for c in sides[:-1]]
+
+    def _invariants(self, model: Model, first: int) -> list[RationalFunction]:
+        """Coefficients of G over the leading one, the numerator without the multiple of the
+        denominator that G is at s = oo.
+        """
+        top, bottom = (
+            [self.lifted(c, first) for c in side]
+            for side in (model.numerator_terms, model.denominator_terms)
+        )
+        lead = bottom[-1]
+        monic = [RationalFunction(c, lead) for c in bottom[:-1]]
+        if len(top) < len(bottom):
+            return [*(RationalFunction(c, lead) for c in top), *monic]
+        rest = [b * lead - top[-1] * a for a, b in zip(bottom[:-1], top[:-1], strict=True)]
+        return [
+            RationalFunction(top[-1], lead),
+            *(RationalFunction(c, lead * lead) for c in rest),
+            *monic,
+        ]
+
+    def lead(self, other: Model) -> fmpz_mpoly:
+        """Leading denominator coefficient of the searched model."""
+        return self.lifted(other.denominator_terms[-1], self.n_given)
+
+    def occurring(self, polynomials: Iterable[fmpz_mpoly]) -> list[int]:
+        """Positions of the unknowns that occur in any of the polynomials."""
+        degrees = [p.degrees() for p in polynomials]
+        return [i for i in self.unknowns if any(d[i] for d in degrees)]
+
+    def sign(self, polynomial: fmpz_mpoly) -> int:
+        """1 or -1 where it has this sign for all admissible values (see above), 0 where that is
+        not seen.
+        """
+        if self.domain is Domain.COMPLEX and not polynomial.is_constant():
+            return 0
+        terms = polynomial.to_dict()
+        signs = {1 if c > 0 else -1 for c in terms.values()}
+        if len(signs) != 1:
+            return 0
+        if self.domain is Domain.REAL:
+            even = all(e % 2 == 0 for exponents in terms for e in exponents)
+            if not even or all(any(exponents[i] for i in self.unknowns) for exponents in terms):
+                return 0
+        return signs.pop()
+
+    def parts(self, polynomial: fmpz_mpoly, odd: bool) -> Parts:
+        """Sign and factors; `odd`: without factors of even multiplicity, which are not
+        negative. Raises TooMuch.
+        """
+        if len(polynomial) > self.terms or polynomial.total_degree() > self.degree:
+            raise TooMuch(
+                f"a polynomial of {len(polynomial)} terms and degree {polynomial.total_degree()}"
+            )
+        number, factors = polynomial.factor()
+        sign, kept = 1 if number > 0 else -1, []
+        for factor, power in factors:
+            seen = self.sign(factor)
+            if seen:
+                sign *= seen if power % 2 else 1
+            elif power % 2 or not odd:
+                kept.append(factor)
+        return sign, tuple(kept)
+
+    def product(self, factors: Iterable[fmpz_mpoly]) -> fmpz_mpoly:
+        """Product, 1 of none."""
+        return reduce(mul, factors, self.number(1))
+
+    def coefficients(self, polynomial: fmpz_mpoly, at: int) -> list[fmpz_mpoly]:
+        """Coefficients of the powers 0, 1, .. of one variable."""
+        parts: dict[int, dict[tuple[int, ...], Any]] = {}
+        for exponents, number in polynomial.to_dict().items():
+            power = int(exponents[at])
+            parts.setdefault(power, {})[(*exponents[:at], 0, *exponents[at + 1 :])] = number
+        return [self.context.from_dict(parts.get(k, {})) for k in range(max(parts, default=0) + 1)]
+
+    def put(
+        self, polynomial: fmpz_mpoly, at: int, num: fmpz_mpoly, den: fmpz_mpoly
+    ) -> tuple[fmpz_mpoly, int]:
+        """den^d times the value at num/den of one variable, and the degree d in this variable."""
+        coefficients = self.coefficients(polynomial, at)
+        degree = len(coefficients) - 1
+        if len(polynomial) * len(num) ** min(degree, 2) > 100 * self.terms:
+            raise TooMuch(
+                f"a fraction of {len(num)} terms put into a polynomial of {len(polynomial)}"
+            )
+        total, power = self.number(0), self.number(1)
+        for c in reversed(coefficients):
+            total, power = total * num + c * power, power * den
+        return total, degree
+
+
+def value_at(polynomial: fmpz_mpoly, point: dict[int, Fraction]) -> Fraction:
+    """Value of a polynomial all of whose variables are given.
+
+    >>> ring = Orthant(1, 1, Domain.POSITIVE)
+    >>> p, q, _ = ring.generators
+    >>> value_at(p * q**2 - 1, {0: Fraction(2), 1: Fraction(1, 2)})
+    Fraction(-1, 2)
+    """
+    total = Fraction(0)
+    for exponents, number in polynomial.to_dict().items():
+        term = Fraction(int(number))
+        for i, e in enumerate(exponents):
+            if e:
+                term *= point[i] ** int(e)
+        total += term
+    return total

@@ -1,0 +1,140 @@
+"""The fibre of one model over the transfer function of another at rational parameters, as
+polynomial equations over Q.
+
+With the target N/D in lowest terms (D monic) and the searched model N2(q)/D2(q), the transfer
+functions are the same exactly if N2(q) D - N D2(q) = 0 as a polynomial in s and D2(q) is not zero.
+These equations are linear in the coefficients of N2 and D2 and are brought to reduced row echelon
+form first. One more unknown t with t lead(D2(q)) = 1 keeps the order of the searched model.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+
+from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
+
+from disting.algebra.groebner.rational import Polynomial
+from disting.errors import InputError, listed, shown
+from disting.general.expansion import Expansion
+from disting.general.expression import tree
+from disting.general.model import Model, Terms
+from disting.general.trees import names
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Coefficients of s^0, s^1, .. of numerator and denominator: coprime, the leading one of
+    the denominator is 1.
+    """
+
+    numerator: tuple[Fraction, ...]
+    denominator: tuple[Fraction, ...]
+
+
+def rational_values(model: Model, values: Mapping[str, object]) -> tuple[tuple[str, Fraction], ...]:
+    """One exact number for each parameter, in the model's order; raises InputError for missing,
+    foreign and inexact ones.
+
+    >>> rational_values(Model.from_transfer_function("k", "s + k"), {"k": "0.1"})
+    (('k', Fraction(1, 10)),)
+    """
+    missing = [name for name in model.parameters if name not in values]
+    foreign = [str(name) for name in values if name not in model.parameters]
+    if missing or foreign:
+        said = [
+            f"{what} {listed(which)}"
+            for what, which in (("no value for", missing), ("no parameter", foreign))
+            if which
+        ]
+        raise InputError(f"{model.name}: {'; '.join(said)}")
+    return tuple((name, _number(name, values[name])) for name in model.parameters)
+
+
+def target(model: Model, values: Sequence[tuple[str, Fraction]]) -> Target:
+    """The transfer function at these values; raises InputError where its leading denominator
+    coefficient vanishes.
+    """
+    point = [x for _, x in values]
+    num, den = (
+        fmpq_poly([_fmpq(_at(c, point)) for c in side])
+        for side in (model.numerator_terms, model.denominator_terms)
+    )
+    if den.degree() < model.n_states:
+        raise InputError(
+            f"{model.name}: the leading denominator coefficient is zero at these values"
+        )
+    common = num.gcd(den)
+    num, den = num // common, den // common
+    lead = den.leading_coefficient()
+    return Target(*(tuple(fraction(c / lead) for c in side.coeffs()) for side in (num, den)))
+
+
+def fibre_equations(goal: Target, other: Model) -> tuple[Polynomial, ...]:
+    """The equations of this module's text, in t and the parameters of `other`."""
+    coefficients = (*other.numerator_terms, *other.denominator_terms)
+    rows, rank = _conditions(goal, len(other.numerator_terms), len(other.denominator_terms)).rref()
+    table = [[rows[i, j] for j in range(len(coefficients))] for i in range(rank)]
+    inverse: Polynomial = {(1, *e): c for e, c in coefficients[-1]}
+    inverse[(0,) * (len(other.parameters) + 1)] = -1
+    return (*(combined for row in table if (combined := _combined(row, coefficients))), inverse)
+
+
+def fraction(number: fmpq) -> Fraction:
+    """A rational number of FLINT as one of Python."""
+    return Fraction(int(number.p), int(number.q))
+
+
+def _fmpq(number: Fraction) -> fmpq:
+    return fmpq(number.numerator, number.denominator)
+
+
+def _number(name: str, entry: object) -> Fraction:
+    written = tree(entry)
+    if any(names(written)):
+        raise InputError(f"the value of {name} is a number, not {shown(entry)}")
+    found = Expansion({}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1)).value(written)
+    return Fraction(
+        int(found.num.leading_coefficient()) if not found.num.is_zero() else 0,
+        int(found.den.leading_coefficient()),
+    )
+
+
+def _at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
+    total = Fraction(0)
+    for exponents, number in terms:
+        term = Fraction(number)
+        for x, e in zip(point, exponents, strict=True):
+            term *= x**e
+        total += term
+    return total
+
+
+def _conditions(goal: Target, above: int, below: int) -> fmpq_mat:
+    """Rows: the coefficients of N2 D - N D2; columns: those of N2, then those of D2, whose
+    leading one comes last.
+    """
+    height = max(above + len(goal.denominator), below + len(goal.numerator)) - 1
+    shifts = [(goal.denominator, i, 1) for i in range(above)] + [
+        (goal.numerator, i, -1) for i in range(below)
+    ]
+    table = [
+        [
+            _fmpq(sign * side[k - i]) if 0 <= k - i < len(side) else fmpq(0)
+            for side, i, sign in shifts
+        ]
+        for k in range(height)
+    ]
+    return fmpq_mat(table)
+
+
+def _combined(row: Sequence[fmpq], coefficients: Sequence[Terms]) -> Polynomial:
+    """A combination of coefficients, cleared of denominators."""
+    parts = [fraction(factor) for factor in row]
+    total: dict[tuple[int, ...], Fraction] = {}
+    for factor, terms in zip(parts, coefficients, strict=True):
+        if factor:
+            for exponents, number in terms:
+                total[(0, *exponents)] = total.get((0, *exponents), Fraction(0)) + factor * number
+    common = lcm(*(number.denominator for number in total.values()))
+    return {e: int(c * common) for e, c in total.items() if c}

@@ -1,0 +1,143 @@
+"""Which given models have an admissible equivalent in another one: all, none, or some; each with
+its proof.
+
+ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`).
+NEVER: no case is left (`cases`). Points with and without equivalents in open sets around them are
+looked for with `robust`.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice, permutations
+
+from disting.general.between import Path, odd_path, path, without_equations
+from disting.general.cases import Case, searched
+from disting.general.model import Model
+from disting.general.orthant import Orthant, TooMuch
+from disting.general.robust import Parted, Point, having, lacking, searched_cases
+from disting.general.sections import Section, cover, held, sections
+from disting.model.domain import Domain
+
+ORDERS = 24  # in which unknowns are solved for
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The equivalents of `given` in `other`; `covering`: sections such that every generic p
+    lies in one.
+    """
+
+    given: Model
+    other: Model
+    parted: Parted
+    covering: tuple[Section, ...]
+
+    @property
+    def never(self) -> bool:
+        """Whether no case is left."""
+        return not self.parted.sections and not self.parted.others
+
+    def path(self) -> Path | None:
+        """A root that gives an equivalent for every generic p, if one that is tried does before
+        a polynomial is too large.
+        """
+        ring = self.parted.search.ring
+        tried = odd_path if ring.domain is Domain.REAL else path
+        try:
+            return next((p for case in self.parted.others if (p := tried(ring, case))), None)
+        except TooMuch:
+            return None
+
+    @property
+    def looked_at(self) -> int:
+        """In how many cases of the search equivalents of a point are looked for."""
+        return searched_cases(self.parted)
+
+    @property
+    def not_looked_at(self) -> str:
+        """Why an equivalent of a point may be missed, or "" if it is looked for in all cases."""
+        cases = len(self.parted.sections) + len(self.parted.others)
+        return (
+            ""
+            if self.looked_at == cases
+            else f"{cases - self.looked_at} of {cases} cases have too many unknowns to look"
+        )
+
+    def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
+        """An equivalent (rounded) of a point around which all have some, as far as is seen."""
+        return having(self.parted, self._point(values))
+
+    def lacking(self, values: dict[str, Fraction]) -> bool:
+        """Whether no point around this one has an equivalent, as far as is seen."""
+        return lacking(self.parted, self._point(values))
+
+    def _point(self, values: dict[str, Fraction]) -> Point:
+        return {i: values[name] for i, name in enumerate(self.given.parameters)}
+
+
+def way(given: Model, other: Model, domain: Domain) -> Way | None:
+    """What is known one way, or None if the search grew too large. Both models have the same
+    degrees.
+
+    Unknowns are solved for in several orders, until all cases are sections; else the order with
+    the fewest other cases is kept.
+    """
+    ring, best = Orthant(len(given.parameters), len(other.parameters), domain), list[Parted]()
+    for order in islice(permutations(ring.unknowns), ORDERS):
+        try:
+            found = _parted(ring, given, other, order)
+        except TooMuch:
+            continue
+        best = sorted([*best, found], key=_left)[:1]
+        if not best[0].others:
+            break
+    return Way(given, other, best[0], _covering(best[0])) if best else None
+
+
+def _left(parted: Parted) -> tuple[int, int]:
+    ring = parted.search.ring
+    return len(parted.others), sum(
+        len(ring.occurring((*c.equations, *c.positive))) for c in parted.others
+    )
+
+
+def _parted(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -> Parted:
+    search = searched(ring, given, other, order)
+    found, others = list[Section](), list[Case]()
+    for case in search.cases:
+        if case.equations:
+            others.append(case)
+        else:
+            parts, left = sections(search, case)
+            found += parts
+            others += left
+    return Parted(search, tuple(found), tuple(others), ring.lead(other))
+
+
+def _covering(parted: Parted) -> tuple[Section, ...]:
+    """Sections that cover all generic p, none if these do not or a polynomial is too large to tell.
+
+    At a section lead(q) and, over positive numbers, the values are not zero for generic p (see
+    `nonzero` in `cases`); it is looked at once more.
+    """
+    ring = parted.search.ring
+    asked = [
+        parted.lead,
+        *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE),
+    ]
+    try:
+        every = (*parted.sections, *_by_choice(parted))
+        good = [s for s in every if not any(held(ring, g, s).is_zero() for g in asked)]
+        return next(((s,) for s in good if not s.where), tuple(good)) if cover(ring, good) else ()
+    except TooMuch:
+        return ()
+
+
+def _by_choice(parted: Parted) -> Iterator[Section]:
+    """Sections for all p from cases that could not be written as sections wholly."""
+    ring = parted.search.ring
+    for case in parted.others:
+        found = without_equations(ring, case) if not case.equations else None
+        if found:
+            yield from sections(parted.search, found)[0]

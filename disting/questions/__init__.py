@@ -1,0 +1,3 @@
+"""What is asked of chains beyond the conditions: same behaviour, inclusion, positive parameters,
+identifiability.
+"""

@@ -1,0 +1,22 @@
+"""Structural identifiability of one chain: which of its parameters an experiment can determine,
+and how many sets of them fit.
+
+Distinguishability compares two structures; this compares one with itself (E. Walter, L. Pronzato
+1997, chapter 2). A fibre of the coefficient map at a rational point counts the parameter vectors
+with one behaviour; the row space of its Jacobian tells which functions of the parameters are
+determined at all.
+"""
+
+from disting.questions.identifiability.analysis import IDENTIFIABILITY as IDENTIFIABILITY
+from disting.questions.identifiability.analysis import as_given as as_given
+from disting.questions.identifiability.analysis import identifiabilities as identifiabilities
+from disting.questions.identifiability.analysis import identifiability as identifiability
+from disting.questions.identifiability.answer import Identifiability as Identifiability
+from disting.questions.identifiability.check import confirms as confirms
+from disting.questions.identifiability.formula import Formula as Formula
+from disting.questions.identifiability.parts import Alternative as Alternative
+from disting.questions.identifiability.parts import Combination as Combination
+from disting.questions.identifiability.parts import Level as Level
+from disting.questions.identifiability.parts import Origin as Origin
+from disting.questions.identifiability.parts import Renaming as Renaming
+from disting.questions.identifiability.parts import Scaling as Scaling

@@ -1,0 +1,174 @@
+"""What is said about one chain: how many parameters can be determined, how many sets of them
+fit, what can be determined.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from disting.algebra.certainty import Certainty, Grade
+from disting.fibres.synthesis.result import Answer
+from disting.questions.identifiability.as_json import decoded
+from disting.questions.identifiability.parts import (
+    Alternative,
+    Combination,
+    Level,
+    Renaming,
+    Scaling,
+)
+
+NUMBERS = (
+    "no",
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Identifiability:
+    """Identifiability of one chain.
+
+    `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the
+    number of complex parameter vectors with one generic behaviour (`most` None: infinite or not
+    known). `count_grade`: grade of "at most `most`", and of "exactly" where both agree.
+    `alternatives`: those listed at the random point `point` (name, fraction), the point itself
+    first. `singles`: the locally identifiable parameters. `basis`: `rank` independent locally
+    identifiable combinations, the most readable found. That both are identifiable, and that no
+    other parameter is, is wrong with a probability of at most 2**-safety (0: proven). `scalings`
+    and `renamings`: symmetries; `self_dual`: see Origin.DUALITY.
+    """
+
+    parameters: tuple[str, ...]
+    rank: int
+    rank_grade: Grade
+    level: Level
+    level_grade: Grade
+    least: int
+    most: int | None
+    count_grade: Grade
+    alternatives: tuple[Alternative, ...]
+    singles: tuple[Combination, ...]
+    basis: tuple[Combination, ...]
+    safety: int
+    scalings: tuple[Scaling, ...]
+    renamings: tuple[Renaming, ...]
+    self_dual: bool
+    point: tuple[tuple[str, str], ...]
+    reason: str = ""
+
+    def __post_init__(self) -> None:
+        if self.most is not None and self.least > self.most:
+            raise ValueError("the least number of solutions is larger than the most")
+        if (self.level is Level.NOT) != (self.rank < len(self.parameters)):
+            raise ValueError(
+                "a chain is not identifiable exactly if its rank is smaller than the number of its"
+                " parameters"
+            )
+
+    @property
+    def sentence(self) -> str:
+        """The finding in plain English."""
+        return _sentence(self)
+
+    @property
+    def combinations(self) -> tuple[str, ...]:
+        """The basis as text: k01/m1."""
+        return tuple(c.text for c in self.basis)
+
+    @property
+    def real(self) -> int:
+        """How many of the parameter vectors listed at the random point are real."""
+        return sum(a.real is Answer.YES for a in self.alternatives)
+
+    @property
+    def positive(self) -> int:
+        """How many of them are positive."""
+        return sum(a.positive is Answer.YES for a in self.alternatives)
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        return asdict(self)
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "Identifiability":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        return Identifiability(**decoded(data))
+
+    def __bool__(self) -> bool:
+        raise TypeError("identifiability is not true or false; look at its level")
+
+
+def _sentence(found: Identifiability) -> str:
+    """One sentence: how many parameters are determinable, and what else has the same behaviour."""
+    many = len(found.parameters)
+    head = f"{many} parameter{'s' * (many > 1)}"
+    if found.level is Level.NOT:
+        return f"{head}, only {found.rank} determinable: {_listed(found.basis)}."
+    return f"{head}, all determinable; {_rest(found)}."
+
+
+def _number(count: int) -> str:
+    """A small number as a word.
+
+    >>> _number(2), _number(13)
+    ('two', '13')
+    """
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
+
+
+def _listed(basis: tuple[Combination, ...]) -> str:
+    """Formulas, then the coefficients that are only named."""
+    formulas = [c.text for c in basis if not c.is_named]
+    named = sorted(c.name for c in basis if c.is_named)
+    what = "transfer-function coefficient" + "s" * (len(named) > 1)
+    return ", ".join([*formulas, f"{what} {', '.join(named)}"] if named else formulas)
+
+
+def _rest(found: Identifiability) -> str:
+    if found.level is Level.GLOBAL:
+        return "no other non-zero parameters, real or complex, give the same behaviour"
+    if found.level is Level.UNKNOWN:
+        return (
+            "finitely many parameter vectors give the same behaviour, how many is not known"
+            f" ({found.reason})"
+        )
+    return f"{_count(found)} give the same behaviour{_known(found)}{_point(found)}"
+
+
+def _count(found: Identifiability) -> str:
+    """How many vectors, complex ones included unless all are positive."""
+    if found.most is None:
+        return f"at least {_number(found.least)} positive parameter vectors"
+    if found.most > found.least:
+        return f"{_number(found.most)} parameter vectors (not all proven to exist)"
+    kind = (
+        "positive"
+        if all(a.certainty is Certainty.THEOREM for a in found.alternatives)
+        else "complex"
+    )
+    return f"{_number(found.most)} {kind} parameter vectors"
+
+
+def _known(found: Identifiability) -> str:
+    exchanges = [f"exchanging {r.text} changes nothing" for r in found.renamings]
+    dual = ["each is the dual (mirror image at the gap) of another"] * found.self_dual
+    return f": {' and '.join([*exchanges, *dual])}" if exchanges or dual else ""
+
+
+def _point(found: Identifiability) -> str:
+    """Real and positive ones, which depend on the point, unless theorems name all."""
+    if found.most is None or all(a.certainty is Certainty.THEOREM for a in found.alternatives):
+        return ""
+    return (
+        f"; with random values {_number(found.real)} of them real, {_number(found.positive)}"
+        " positive"
+    )

@@ -1,0 +1,74 @@
+"""Checks a finding again from what it says alone: fresh points, the stored point, exact
+identities; no search for formulas.
+"""
+
+from dataclasses import replace
+
+from disting.algebra.quotient import matrix
+from disting.behaviour.expanded import is_renaming
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.target import fraction, target
+from disting.model.chain import Chain
+from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability.formula import monomial
+from disting.questions.identifiability.solutions import MOST_LISTED, foster_count
+from disting.questions.identifiability.tangent import Tangent, proof_tangents
+
+POINTS = 3
+
+
+def confirms(found: Identifiability, chain: Chain, seed: str = "verify") -> bool:
+    """Whether the ranks, the combinations, the symmetries and the number of solutions are true of
+    the chain.
+
+    >>> from disting.questions.identifiability.analysis import identifiability
+    >>> confirms(identifiability(Chain(3, meas_plus=2)), Chain(3, meas_plus=2))
+    True
+    """
+    fresh = proof_tangents(chain.structure, seed, POINTS)
+    ranks = found.parameters == chain.parameters and max(
+        t.rank for t in fresh
+    ) == found.rank == len(found.basis)
+    return (
+        ranks
+        and all(_seen(found, t) for t in fresh)
+        and _renamed(found, chain)
+        and _counted(found, chain)
+    )
+
+
+def _seen(found: Identifiability, at: Tangent) -> bool:
+    """The combinations lie in the row space and are independent; of the parameters, only those
+    listed lie in it.
+    """
+    slopes = [c.formula.gradient(at.values, at.modulus) for c in found.basis]
+    units = {name: [int(name == other) for other in at.values] for name in at.values}
+    singles = {monomial(**{name: 1}) for name, unit in units.items() if at.sees(unit)}
+    independent = matrix(slopes, len(at.values), at.modulus).rank() == found.rank
+    return (
+        all(map(at.sees, slopes)) and independent and singles == {c.formula for c in found.singles}
+    )
+
+
+def _renamed(found: Identifiability, chain: Chain) -> bool:
+    """Every renaming is an identity of formulas."""
+    plain = {name: name for name in chain.parameters}
+    return all(
+        is_renaming(chain.structure, chain.structure, plain | dict(r.moved))
+        for r in found.renamings
+    )
+
+
+def _counted(found: Identifiability, chain: Chain) -> bool:
+    """As many solutions at the stored point as are listed, or as a theorem says; nothing to
+    check where they are not all.
+    """
+    if found.most is None or found.most > MOST_LISTED:
+        return found.most is None or found.most == found.least == foster_count(chain)
+    plain = replace(chain, dead_time=False, damped=chain.damped and chain.n_masses > 1)
+    point = {name: fraction(value) for name, value in found.point}
+    return (
+        len(fibre(plain, target(plain.structure, point)).solutions)
+        == found.most
+        == len(found.alternatives)
+    )

@@ -1,0 +1,131 @@
+"""What a finding on identifiability is made of."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.algebra.certainty import Certainty
+from disting.fibres.synthesis.result import Answer
+from disting.questions.identifiability.formula import Formula
+
+MOST_TERMS = 6  # of a coefficient that is written out; longer ones are named
+
+
+class Level(StrEnum):
+    """Structural identifiability over non-zero complex parameters, for generic values.
+
+    GLOBAL: one parameter vector has this behaviour. LOCAL: several, but finitely many. NOT:
+    infinitely many. UNKNOWN: finitely many; whether more than one is not known.
+    """
+
+    GLOBAL = "global"
+    LOCAL = "local"
+    NOT = "not identifiable"
+    UNKNOWN = "unknown"
+
+
+class Origin(StrEnum):
+    """Where a parameter vector with the same behaviour comes from.
+
+    GIVEN: the random point itself. SYMMETRY: a renaming by reciprocity or reflection. DUALITY: the
+    duality theorem (the mirror image at the gap). OTHER: found by inverse synthesis.
+    """
+
+    GIVEN = "given"
+    SYMMETRY = "symmetry"
+    DUALITY = "duality"
+    OTHER = "other"
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """One parameter vector with the behaviour of the random point; `real` and `positive` are said
+    of this point.
+
+    `certainty` that it exists: THEOREM for all parameters, PROVEN at this point, NUMERICAL: all
+    equations hold within small balls. `note`: the symmetries behind it.
+    """
+
+    origin: Origin
+    real: Answer
+    positive: Answer
+    certainty: Certainty
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Renaming:
+    """A symmetry of the structure onto itself: after these exchanges (old, new) the behaviour
+    is the same. A theorem.
+    """
+
+    moved: tuple[tuple[str, str], ...]
+    symmetries: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """The exchanges: m1 <-> m3."""
+        pairs = {tuple(sorted(pair)) for pair in self.moved}
+        return ", ".join(f"{a} ↔ {b}" for a, b in sorted(pairs))
+
+
+@dataclass(frozen=True, slots=True)
+class Scaling:
+    """p_i -> t^w_i p_i leaves the behaviour as it is, for every t; `weights` lists the w_i that
+    are not zero. Proven.
+    """
+
+    weights: tuple[tuple[str, int], ...]
+
+    @property
+    def text(self) -> str:
+        """For people: m1, k01 times t."""
+        if len(self.weights) == 1:
+            return f"{self.weights[0][0]} has no influence"
+        groups: dict[int, list[str]] = {}
+        for name, weight in self.weights:
+            groups.setdefault(weight, []).append(name)
+        return ", ".join(
+            f"{', '.join(names)} {_scaled(weight)}" for weight, names in groups.items()
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Combination:
+    """An identifiable function of the parameters; `name` is set for a transfer-function
+    coefficient such as a2.
+
+    `unique`: whether it has one value for all parameters with the same behaviour (it has finitely
+    many in any case), with the `certainty` of this; UNKNOWN where they could not be listed.
+    """
+
+    formula: Formula
+    name: str
+    unique: Answer
+    certainty: Certainty
+
+    @property
+    def text(self) -> str:
+        """The formula, or which coefficient it is where that is too long to read (a ground
+        damper may be called b1 too).
+        """
+        return f"coefficient {self.name}" if self.is_named else self.formula.text
+
+    @property
+    def latex(self) -> str:
+        """The same in LaTeX, without dollar signs."""
+        return (
+            rf"\text{{coefficient }} {self.name[0]}_{{{self.name[1:]}}}"
+            if self.is_named
+            else self.formula.latex
+        )
+
+    @property
+    def is_named(self) -> bool:
+        """Whether it is a coefficient whose formula is too long to read."""
+        return bool(self.name) and len(self.formula.terms) > MOST_TERMS
+
+
+def _scaled(weight: int) -> str:
+    """What happens to a parameter of this weight."""
+    power = "t" if abs(weight) == 1 else f"t^{abs(weight)}"
+    return f"times {power}" if weight > 0 else f"divided by {power}"

@@ -1,0 +1,27 @@
+"""One-sided inclusion: whether the models of one chain are models, or limits of models, of another
+one of larger rank.
+
+`decide` compares chains of one size and sends those of different sizes to `across_sizes`;
+`finding` holds what is found and its text form, `confirmation` checks it again.
+"""
+
+from disting.questions.inclusion.confirmation import confirms as confirms
+from disting.questions.inclusion.decide import CLOSURE as CLOSURE
+from disting.questions.inclusion.decide import IDEALS as IDEALS
+from disting.questions.inclusion.decide import IMAGE as IMAGE
+from disting.questions.inclusion.decide import asked_closure as asked_closure
+from disting.questions.inclusion.decide import asked_image as asked_image
+from disting.questions.inclusion.decide import by_rank as by_rank
+from disting.questions.inclusion.decide import implied_image as implied_image
+from disting.questions.inclusion.decide import inclusions as inclusions
+from disting.questions.inclusion.decide import joined as joined
+from disting.questions.inclusion.decide import needs_ideals as needs_ideals
+from disting.questions.inclusion.decide import quick_closure as quick_closure
+from disting.questions.inclusion.decide import turned as turned
+from disting.questions.inclusion.finding import ONE_SIDED as ONE_SIDED
+from disting.questions.inclusion.finding import Inclusion as Inclusion
+from disting.questions.inclusion.finding import InclusionFinding as InclusionFinding
+from disting.questions.inclusion.finding import Inclusions as Inclusions
+from disting.questions.inclusion.finding import Sense as Sense
+from disting.questions.inclusion.finding import inclusions_from_dict as inclusions_from_dict
+from disting.questions.inclusion.finding import inclusions_to_dict as inclusions_to_dict

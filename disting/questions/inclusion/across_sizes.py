@@ -1,0 +1,192 @@
+"""Inclusion of a chain in one with more masses: whether its models are limits of models of the
+larger kind.
+
+The smaller model has fewer poles, but it may lie in the closure of the larger one, where poles and
+zeros cancel. What settles a pair first is kept:
+
+1. Degrees: a limit has no more zeros and poles than the models that it is a limit of. Refuted.
+2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is
+   computed. Proven.
+3. `meeting`: dimensions that add up, for the whole or for a row after such limits. Proven.
+4. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted,
+   with the rank's error bound.
+5. `pole_sharing`: models of the smaller kind that are no limits. Refuted; this costs more.
+6. `limit_fibre`: the smaller models among what limits of rows lead to. Found with an error bound.
+
+The larger chain, with more poles, never lies in the smaller one: its generic model does not have
+as few.
+"""
+
+from collections.abc import Iterator
+from dataclasses import astuple
+from functools import lru_cache
+from itertools import permutations, product
+
+from disting.algebra.certainty import Certainty
+from disting.algebra.sampling import about
+from disting.behaviour.powers import degrees
+from disting.behaviour.sample import Representation
+from disting.evidence.across_sizes import (
+    Limit,
+    LimitFibre,
+    Meeting,
+    PoleSharing,
+    RowLimit,
+    TooLarge,
+)
+from disting.evidence.conditions import Counts
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.model.row import Row, canonical_rows
+from disting.model.settings import Settings
+from disting.model.symmetry import canonical
+from disting.questions.inclusion.finding import Inclusion, InclusionFinding
+from disting.questions.inclusion.limit_fibre import contained
+from disting.questions.inclusion.limits import follows, reached
+from disting.questions.inclusion.meeting import room
+from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
+from disting.questions.inclusion.profiles import ordered
+from disting.questions.inclusion.side import ChainSide
+from disting.questions.same.exact import rational_part, theorem
+
+REMEMBERED = 1024  # chains whose twins are kept
+
+
+def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
+    """Inclusion of chains of different sizes, of one sensor and dead time; None where
+    `by_computing` is to be asked.
+    """
+    left_is_larger = left.chain.n_masses > right.chain.n_masses
+    small, large = (right, left) if left_is_larger else (left, right)
+    one, other = small.canonical.chain, large.canonical.chain
+    found = included(one, other, left_is_larger)
+    if found is not None:
+        inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
+        return InclusionFinding(inside, Certainty.PROVEN, evidence=found)
+    if not fewer_poles(one, other):
+        return InclusionFinding(
+            Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles"
+        )
+    return refuted(small, large, left_is_larger)
+
+
+def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    """What takes longer, for a chain with fewer masses on the left: its poles against
+    inclusion, a fibre of limits for it.
+    """
+    label = about(f"{settings.seed}:poles", small, large)
+    points = excluding_points(small, large, label) if fewer_poles(small, large) else ()
+    if points:
+        safety = exclusion_safety(large) if len(points) > 1 else 0
+        grade = Certainty.BOUNDED if safety else Certainty.PROVEN
+        return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
+    found = contained(small, large, settings.seed)
+    if found is None:
+        return InclusionFinding(
+            Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
+        )
+    solved = found.solved
+    evidence = LimitFibre(
+        left_is_larger=False,
+        steps=found.steps,
+        small_given=solved.left_given,
+        labels=solved.labels,
+        solutions=solved.solutions,
+    )
+    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, found.safety, evidence)
+
+
+def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
+    """What shows that the smaller chain is a limit of the larger one; None if nothing."""
+    if exceeds(small, large):
+        return None
+    limits = next(row_limits(small, large, counting=False), None)
+    if limits is not None:
+        return Limit(left_is_larger, limits)
+    whole = room(rational_part(small), rational_part(large))
+    if whole.suffices:
+        return Meeting(left_is_larger, *astuple(whole))
+    return next(_indirect(small, large, left_is_larger), None)
+
+
+def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limit]:
+    """Limits with a count of dimensions, and limits of chains that a theorem says to be the
+    same.
+    """
+    for limits in row_limits(small, large, counting=True):
+        yield Limit(left_is_larger, limits)
+    for one, other in product(twins(small), twins(large)):
+        for limits in row_limits(one, other, counting=False):
+            yield Limit(left_is_larger, limits, tuple(one.indices), tuple(other.indices))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def twins(chain: Chain) -> tuple[Chain, ...]:
+    """The canonical chains that a theorem says to be the same, itself included; itself alone if
+    it is in no family.
+    """
+    if chain.ground_dampers or chain.lag or chain.dead_time:
+        return (chain,)
+    members = Family(chain.n_masses, chain.damped, chain.sensor)
+    return tuple(dict.fromkeys(canonical(c).chain for c in members if theorem(chain, c)))
+
+
+def row_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[RowLimit, ...]]:
+    """Yield the ways to make the rows of the smaller chain from different rows of the larger one.
+
+    `counting`: not by limits of elements alone, but also by a count of dimensions after them.
+    """
+    if small.lag != large.lag:
+        return
+    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
+    for chosen in permutations(given, len(wanted)):
+        pairs = list(zip(chosen, wanted, strict=True))
+        found = [_row_limit(a, given[a], b, wanted[b], counting) for a, b in pairs]
+        if all(limit is not None for limit in found):
+            yield tuple(limit for limit in found if limit is not None)
+
+
+def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
+    """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
+    nothing.
+    """
+    one, other = small.canonical.chain, large.canonical.chain
+    if exceeds(one, other):
+        counts = Counts(*ordered(degrees_of(one), degrees_of(other), not left_is_larger))
+        return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
+    if small.rank >= large.rank:
+        ranks = TooLarge(*ordered(small.rank, large.rank, not left_is_larger))
+        safety = large.profile(Representation.TF, 0).safety
+        return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, safety, ranks)
+    return None
+
+
+def exceeds(small: Chain, large: Chain) -> bool:
+    """More zeros or more poles than any limit of the larger chain has."""
+    return any(
+        here > there for here, there in zip(degrees_of(small), degrees_of(large), strict=True)
+    )
+
+
+def fewer_poles(small: Chain, large: Chain) -> bool:
+    """Whether the larger chain cannot lie in the smaller one."""
+    return degrees_of(small)[1] < degrees_of(large)[1]
+
+
+def degrees_of(chain: Chain) -> tuple[int, int]:
+    """Degrees of numerator and denominator, without a dead time."""
+    return degrees(rational_part(chain))
+
+
+def _row_limit(given: str, row: Row, wanted: str, target: Row, counting: bool) -> RowLimit | None:
+    """A way from one row to the other, each of its limits an identity; limits of elements alone
+    first.
+    """
+    ways = reached(row)
+    if target in ways and target in follows(row, ways[target]):
+        return RowLimit(given, wanted, ways[target])
+    for below, steps in ways.items() if counting else ():
+        found = room(target.structure, below.structure)
+        if found.suffices and below in follows(row, steps):
+            return RowLimit(given, wanted, steps, tuple(map(int, astuple(found))))
+    return None

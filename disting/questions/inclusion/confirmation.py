@@ -1,0 +1,147 @@
+"""Checks the evidence of an inclusion again, from itself alone."""
+
+from dataclasses import replace
+from math import comb
+
+from disting.behaviour.profile import samples
+from disting.behaviour.sample import Representation
+from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
+from disting.evidence.conditions import Counts, FreeChoice, Labels
+from disting.evidence.decision import FibreAt
+from disting.evidence.ideals import ByRows, Refuted, Solved
+from disting.evidence.kinds import InclusionEvidence
+from disting.evidence.limits import (
+    FullImage,
+    LargerProjection,
+    Outside,
+    RelativeDegrees,
+    RowsInside,
+)
+from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
+from disting.model.chain import Chain, Sensor
+from disting.model.question import Membership
+from disting.model.structure import Structure
+from disting.questions.inclusion.across_sizes_confirmation import confirms_across_sizes
+from disting.questions.inclusion.closures import confirms_rows
+from disting.questions.inclusion.profiles import degrees_refute, ordered
+from disting.questions.inclusion.side import ChainSide
+from disting.questions.same.exact import rational_part
+from disting.questions.same.verify import POINTS, Witness
+
+PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
+
+
+def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> bool:
+    """Whether the evidence is true of the two chains, at fresh points, and speaks of the model of
+    the smaller rank.
+
+    A fibre is computed again. The ranks of the two models are taken from their profiles.
+    """
+    a, b = left.canonical.chain, right.canonical.chain
+    left_is_smaller, fresh = left.rank < right.rank, Witness("inclusion")
+    match evidence:
+        case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre():
+            return a.n_masses != b.n_masses and confirms_across_sizes(evidence, left, right)
+        case Counts() if a.n_masses != b.n_masses:
+            return confirms_across_sizes(evidence, left, right)
+        case Counts():
+            small, large = ordered(evidence.left, evidence.right, left_is_smaller)
+            return degrees_refute(small, large) and fresh.confirms(evidence, "tf", a, b)
+        case LargerProjection():
+            here, there = ordered(evidence.left, evidence.right, left_is_smaller)
+            return here > there and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
+        case FullImage():
+            larger = a if evidence.left_is_larger else b
+            free = FreeChoice(evidence.rank, evidence.free)
+            same = evidence.left_is_larger != left_is_smaller and _same_elsewhere(
+                evidence.free, a, b
+            )
+            return same and fresh.confirms(free, "tf", larger, larger)
+        case RelativeDegrees():
+            larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
+            here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
+            return evidence.left_is_larger != left_is_smaller and _fall_apart(
+                smaller, larger, here, there
+            )
+        case Outside() | RowsInside():
+            given, other = (a, b) if left_is_smaller else (b, a)
+            return evidence.left_given == left_is_smaller and confirms_rows(evidence, given, other)
+        case ByRows():
+            pair = (rational_part(a), rational_part(b))
+            return evidence.left_given == left_is_smaller and confirms_by_rows(evidence, *pair)
+        case FibreAt():
+            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
+        case Solved():
+            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
+        case Refuted():
+            told = evidence.left_given == left_is_smaller and not evidence.tangent
+            return told and (
+                _refuted_again(a, b, evidence)
+                if _is_large(evidence, a, b)
+                else fresh.confirms(evidence, "tf", a, b)
+            )
+
+
+def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:
+    """Whether plain elimination has too many monomials to bear."""
+    unknowns = max(len(coefficient_map(rational_part(c)).parameters) for c in (a, b))
+    return comb(unknowns + 1 + evidence.degree, evidence.degree) > PLAIN_MONOMIALS
+
+
+def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
+    """Whether the decision is the same at fresh points and primes."""
+    coordinates = normalised if evidence.is_normalised else coefficient_map
+    given, other = (
+        coordinates(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a))
+    )
+    again = decide(
+        given,
+        other,
+        equal_rank=False,
+        seed="verify",
+        limits=Limits(seconds=600, entries=10**9, safety=1),
+    )
+    return again.membership is Membership.EXCLUDED
+
+
+def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
+    """Ranks of named invariants of both chains at fresh points; None if they have different
+    numbers of poles.
+    """
+    seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
+    here, there = (
+        max(s.rank(tuple(i for i, x in enumerate(s.labels) if x in rows)) for s in each)
+        for each in seen
+    )
+    poles = {sum(x[0] == "a" for x in each[0].labels) for each in seen}
+    return (here, there) if len(poles) == 1 else None
+
+
+def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
+    """Whether all invariants but the free ones have the same values in both chains at fresh
+    points, absent ones zero.
+    """
+    seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
+    values = [[dict(zip(s.labels, s.values, strict=True)) for s in each] for each in seen]
+    poles = {sum(x[0] == "a" for x in each[0]) for each in values}
+    labels = {*values[0][0], *values[1][0]} - set(free)
+    return len(poles) == 1 and all(
+        x.get(n, 0) == y.get(n, 0) for x, y in zip(*values, strict=True) for n in labels
+    )
+
+
+def _fall_apart(small: Chain, large: Chain, here: int, there: int) -> bool:
+    """Whether, written out, the first one's relative degree is `here` at least, the second one's
+    always `there`, smaller.
+
+    That is so if both leading coefficients are products of elements.
+    """
+    one, other = (coefficient_map(_receptance(c)) for c in (small, large))
+    (low, poles), (top, others) = one.degrees, other.degrees
+    products = len(other.numerator[top]) == 1 == len(other.denominator[-1])
+    return products and poles - low >= here > there == others - top
+
+
+def _receptance(chain: Chain) -> Structure:
+    """The structure with a sensor of position, without dead time."""
+    return replace(chain, sensor=Sensor.POSITION, dead_time=False).structure

@@ -1,0 +1,241 @@
+"""One-sided inclusion of chains of unequal rank, in both senses (see `finding`): the order in
+which statements are sought.
+
+V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is
+impossible. What is found first is kept. Chains of different sizes are compared in `across_sizes`:
+there CLOSURE is asked alone. For chains of one size:
+
+1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
+2. CLOSURE by rows: `closures` proves or refutes it; small ideals of both rows
+   (`disting.fibres.ideals.by_two_rows`) prove it.
+3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
+   the rows refute it without any chance; one fibre by the synthesis refutes or proves it
+   (`image`), and with it CLOSURE is proven; a small ideal refutes it.
+4. Where neither is known: the rows, then the whole model, as ideals of fibres, with the bounds of
+   `disting.fibres.ideals.bounds`. An empty fibre refutes IMAGE, a solution, whose elements may be
+   zero, proves CLOSURE.
+"""
+
+from dataclasses import replace
+
+from disting.algebra.certainty import Certainty
+from disting.behaviour.sample import Representation
+from disting.evidence.across_sizes import LimitFibre, PoleSharing
+from disting.evidence.decision import FibreAt
+from disting.evidence.ideals import ByRows, Refuted, Solved
+from disting.evidence.kinds import InclusionEvidence
+from disting.evidence.limits import Outside, RelativeDegrees, RowsInside
+from disting.fibres.ideals import (
+    Limits,
+    coefficient_map,
+    decide_by_rows,
+    included_by_rows,
+    normalised,
+)
+from disting.fibres.ideals import decide as decide_ideal
+from disting.model.chain import Chain
+from disting.model.question import Membership, Question
+from disting.model.settings import Settings
+from disting.questions.inclusion.across_sizes import by_computing, by_sizes
+from disting.questions.inclusion.closures import of_closure
+from disting.questions.inclusion.finding import (
+    Inclusion,
+    InclusionFinding,
+    Inclusions,
+    inclusion_from_json,
+    inclusion_to_json,
+    inclusions_from_json,
+    inclusions_to_json,
+)
+from disting.questions.inclusion.image import of_image
+from disting.questions.inclusion.profiles import by_profiles
+from disting.questions.inclusion.side import ChainSide
+from disting.questions.same.exact import rational_part
+
+# of one ideal; less than for a verdict
+INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)
+# of the ideal of one row, tried for every pair
+CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)
+ROW_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one row
+NOT_ASKED = "of chains of different sizes only limits are asked for"
+
+
+def inclusions(left: ChainSide, right: ChainSide) -> Inclusions:
+    """Both statements on two chains of unequal rank: what is cheap first, then what the
+    answerer has to compute.
+    """
+    if left.rank == right.rank:
+        raise ValueError("of equal rank: equal or neither, as the verdict says")
+    closure = quick_closure(left, right)
+    if closure is None:
+        closure = asked_closure(left, right)
+    image = implied_image(left, right, closure)
+    if image is None:
+        image = asked_image(left, right)
+    return joined(left, right, image, closure)
+
+
+def by_rank(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
+    """The canonical forms of both, the smaller rank first."""
+    first, second = (left, right) if left.rank < right.rank else (right, left)
+    return first.canonical.chain, second.canonical.chain
+
+
+def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
+    """What profiles, or for chains of different sizes counts and limits, tell of CLOSURE; None
+    if nothing.
+    """
+    one, other = left.chain, right.chain
+    if (one.sensor, one.dead_time) != (other.sensor, other.dead_time):
+        return InclusionFinding(
+            Inclusion.UNKNOWN, reason="models of one sensor and dead time are compared"
+        )
+    if one.n_masses != other.n_masses:
+        return by_sizes(left, right)
+    small, large = (left, right) if left.rank < right.rank else (right, left)
+    profiles = (s.profile(Representation.TF, 0) for s in (small, large))
+    return by_profiles(*profiles, left_is_smaller=left.rank < right.rank)
+
+
+def implied_image(
+    left: ChainSide, right: ChainSide, closure: InclusionFinding
+) -> InclusionFinding | None:
+    """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
+    if closure.inclusion is Inclusion.NEITHER:
+        return closure
+    if left.chain.n_masses != right.chain.n_masses:
+        return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)
+    compared = (left.chain.sensor, left.chain.dead_time) == (
+        right.chain.sensor,
+        right.chain.dead_time,
+    )
+    return None if compared else closure
+
+
+def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
+    """Whether nothing at all is known of two chains that are compared in both senses."""
+    return (
+        not image.is_known
+        and not closure.is_known
+        and image.reason != NOT_ASKED
+        and image != closure
+    )
+
+
+def joined(
+    left: ChainSide, right: ChainSide, image: InclusionFinding, closure: InclusionFinding
+) -> Inclusions:
+    """Both statements: by ideals where nothing is known; equivalents are limits."""
+    if needs_ideals(image, closure):
+        found = left.answerer(IDEALS, by_rank(left, right), left.settings)
+        image, closure = (
+            f if left.rank < right.rank else turned(f) for f in (found.image, found.closure)
+        )
+    follows = not closure.is_known and image.is_known and image.inclusion is not Inclusion.NEITHER
+    return Inclusions(image, image if follows else closure)
+
+
+def turned(found: InclusionFinding) -> InclusionFinding:
+    """The finding on the pair in the other order; for findings whose left model is the smaller
+    one.
+    """
+    return replace(found, inclusion=found.inclusion.turned, evidence=_turned(found.evidence))
+
+
+def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    """CLOSURE of the model of the smaller rank in the other, by rows; by more for chains of
+    different sizes.
+    """
+    if small.n_masses != large.n_masses:
+        return by_computing(small, large, settings)
+    told = of_closure(small, large, settings.seed)
+    if told is not None:
+        evidence, safety = told
+        inclusion = (
+            Inclusion.LEFT_IN_RIGHT if isinstance(evidence, RowsInside) else Inclusion.NEITHER
+        )
+        return InclusionFinding(
+            inclusion, Certainty.BOUNDED if safety else Certainty.PROVEN, safety, evidence
+        )
+    closed = included_by_rows(
+        rational_part(small), rational_part(large), settings.seed, CLOSURE_LIMITS
+    )
+    if closed.evidence is None:
+        return InclusionFinding(
+            Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known"
+        )
+    return InclusionFinding(
+        Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, closed.safety, closed.evidence
+    )
+
+
+def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
+    """The model of the smaller rank searched in the other by ideals: by rows, then as a whole."""
+    structures = (rational_part(small), rational_part(large))
+    found = decide_by_rows(*structures, settings.seed, ROW_LIMITS)
+    if found.evidence is not None:
+        return _read(found.membership, found.safety, found.evidence)
+    reason = ""
+    for coordinates in (normalised, coefficient_map):
+        whole = decide_ideal(
+            *map(coordinates, structures),
+            equal_rank=False,
+            seed=settings.seed,
+            limits=INCLUSION_LIMITS,
+        )
+        if whole.evidence is not None and whole.safety >= INCLUSION_LIMITS.safety:
+            evidence = replace(whole.evidence, is_normalised=coordinates is normalised)
+            return _read(whole.membership, whole.safety, evidence)
+        reason = whole.reason
+    unknown = InclusionFinding(
+        Inclusion.UNKNOWN, reason=f"the ideal of the fibre does not tell ({reason})"
+    )
+    return Inclusions(unknown, unknown)
+
+
+def asked_closure(left: ChainSide, right: ChainSide) -> InclusionFinding:
+    """CLOSURE as the answerer computes it."""
+    return _asked(CLOSURE, left, right)
+
+
+def asked_image(left: ChainSide, right: ChainSide) -> InclusionFinding:
+    """IMAGE as the answerer computes it."""
+    return _asked(IMAGE, left, right)
+
+
+def _asked(
+    question: Question[InclusionFinding], left: ChainSide, right: ChainSide
+) -> InclusionFinding:
+    answer = left.answerer(question, by_rank(left, right), left.settings)
+    return answer if left.rank < right.rank else turned(answer)
+
+
+def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> Inclusions:
+    """What the fibre of an ideal says: a solution of limits, none of equivalents."""
+    grade = Certainty.BOUNDED if safety else Certainty.PROVEN
+    if membership is Membership.MEMBER:
+        zeros = InclusionFinding(
+            Inclusion.UNKNOWN, reason="elements of the solutions found may be zero"
+        )
+        return Inclusions(zeros, InclusionFinding(Inclusion.LEFT_IN_RIGHT, grade, safety, evidence))
+    limits = InclusionFinding(
+        Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known"
+    )
+    return Inclusions(InclusionFinding(Inclusion.NEITHER, grade, safety, evidence), limits)
+
+
+def _turned(evidence: InclusionEvidence | None) -> InclusionEvidence | None:
+    match evidence:
+        case FibreAt() | Solved() | Refuted() | ByRows() | Outside() | RowsInside():
+            return replace(evidence, left_given=not evidence.left_given)
+        case PoleSharing() | LimitFibre():
+            return replace(evidence, left_is_larger=not evidence.left_is_larger)
+        case RelativeDegrees():
+            return RelativeDegrees(not evidence.left_is_larger, evidence.right, evidence.left)
+        case _:
+            return evidence
+
+
+CLOSURE = Question("closures", closure_of, inclusion_to_json, inclusion_from_json)
+IMAGE = Question("images", of_image, inclusion_to_json, inclusion_from_json)
+IDEALS = Question("inclusions by ideals", by_ideals, inclusions_to_json, inclusions_from_json)

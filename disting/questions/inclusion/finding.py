@@ -1,0 +1,237 @@
+"""What is found about one-sided inclusion: two statements on a pair, each with evidence of its
+own, and their text form.
+
+IMAGE: generic models of one chain have an equivalent in the other with elements that are neither
+zero nor infinite. CLOSURE: they are limits of models of the other, whose elements may tend to zero
+or grow without bound. IMAGE implies CLOSURE, and what is no limit has no equivalent.
+"""
+
+import json
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.algebra.certainty import Certainty, shortfall
+from disting.evidence.kinds import (
+    InclusionEvidence,
+    excludes_equivalents,
+    excludes_limits,
+    inclusion_evidence_from,
+    tells_equivalents,
+    tells_limits,
+)
+from disting.evidence.plain import to_dict
+
+
+class Inclusion(StrEnum):
+    """Whose generic models have equivalents on the other side, or are limits of models there."""
+
+    EQUAL = "equal"
+    LEFT_IN_RIGHT = "left-in-right"
+    RIGHT_IN_LEFT = "right-in-left"
+    NEITHER = "neither"
+    UNKNOWN = "unknown"
+
+    @property
+    def turned(self) -> "Inclusion":
+        """For the pair in the other order."""
+        turned = {
+            Inclusion.LEFT_IN_RIGHT: Inclusion.RIGHT_IN_LEFT,
+            Inclusion.RIGHT_IN_LEFT: Inclusion.LEFT_IN_RIGHT,
+        }
+        return turned.get(self, self)
+
+
+class Sense(StrEnum):
+    """What is asked: equivalents with finite elements other than zero, or limits."""
+
+    IMAGE = "image"
+    CLOSURE = "closure"
+
+
+ONE_SIDED = (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
+
+
+@dataclass(frozen=True, slots=True)
+class InclusionFinding:
+    """One statement with its evidence; `reason` says why it is unknown.
+
+    A bound that does not reach 2**-LEAST_SAFETY leaves it unknown.
+    """
+
+    inclusion: Inclusion
+    certainty: Certainty | None = None
+    safety: int = 0
+    evidence: InclusionEvidence | None = None
+    reason: str = ""
+
+    def __post_init__(self) -> None:
+        if (
+            len(
+                {
+                    self.inclusion is not Inclusion.UNKNOWN,
+                    self.evidence is not None,
+                    self.certainty is not None,
+                }
+            )
+            > 1
+        ):
+            raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
+        lacking = shortfall(self.certainty, self.safety)
+        if lacking:
+            given_up = {
+                "inclusion": Inclusion.UNKNOWN,
+                "certainty": None,
+                "safety": 0,
+                "evidence": None,
+                "reason": lacking,
+            }
+            for name, value in given_up.items():
+                object.__setattr__(self, name, value)
+
+    def __bool__(self) -> bool:
+        raise TypeError("a finding is not true or false; look at its inclusion")
+
+    @property
+    def is_known(self) -> bool:
+        """Whether something was found."""
+        return self.inclusion is not Inclusion.UNKNOWN
+
+
+@dataclass(frozen=True, slots=True)
+class Inclusions:
+    """Both statements on a pair of unequal rank; raises ValueError where evidence does not
+    prove what is said.
+    """
+
+    image: InclusionFinding
+    closure: InclusionFinding
+
+    def __post_init__(self) -> None:
+        image, closure = self.image, self.closure
+        proofs = (
+            (image, tells_equivalents, excludes_equivalents),
+            (closure, tells_limits, excludes_limits),
+        )
+        for found, tells, excludes in proofs:
+            holds = excludes if found.inclusion is Inclusion.NEITHER else tells
+            if found.evidence is not None and not holds(found.evidence):
+                raise ValueError(
+                    f"evidence of kind {found.evidence.kind} does not prove {found.inclusion} in"
+                    " this sense"
+                )
+        if image.inclusion in ONE_SIDED and closure.inclusion is not image.inclusion:
+            raise ValueError("equivalents are limits")
+        if closure.inclusion is Inclusion.NEITHER and image.inclusion is not Inclusion.NEITHER:
+            raise ValueError("what is no limit has no equivalent")
+
+    def __bool__(self) -> bool:
+        raise TypeError("inclusions are not true or false; look at image and closure")
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both statements in words an engineer understands.
+
+        >>> untried = InclusionFinding(Inclusion.UNKNOWN, reason="not tried")
+        >>> Inclusions(untried, untried).sentence("A1", "A2")
+        'Whether A1 and A2 are limits of one another is not known.'
+        """
+        inside = {Inclusion.LEFT_IN_RIGHT: (left, right), Inclusion.RIGHT_IN_LEFT: (right, left)}
+        image, closure = self.image.inclusion, self.closure.inclusion
+        if closure in inside:
+            small, large = inside[closure]
+            return f"Every generic {small} is {_AS_LIMIT[image].format(large=large)}."
+        if closure is Inclusion.NEITHER:
+            return (
+                f"No generic {left} is a model {right} or a limit of such models, nor the reverse."
+            )
+        if image is Inclusion.NEITHER:
+            return (
+                f"No finite element values of {left} reproduce a generic {right}, nor the reverse;"
+                f" {_LIMITS_NOT_KNOWN}."
+            )
+        return f"Whether {left} and {right} are limits of one another is not known."
+
+
+_LIMITS_NOT_KNOWN = "whether limits do (elements going to zero or infinity) is not known"
+_AS_LIMIT = {
+    Inclusion.LEFT_IN_RIGHT: (
+        "a model {large} with finite element values (complex ones allowed), not the reverse"
+    ),
+    Inclusion.RIGHT_IN_LEFT: (
+        "a model {large} with finite element values (complex ones allowed), not the reverse"
+    ),
+    Inclusion.NEITHER: (
+        "a limit of models {large} (elements going to zero or infinity), but has no finite element"
+        " values there"
+    ),
+    Inclusion.UNKNOWN: (
+        "a limit of models {large} (elements may go to zero or infinity), not the reverse; "
+        "whether finite element values do is not known"
+    ),
+}
+
+
+def inclusion_to_dict(found: InclusionFinding) -> dict[str, object]:
+    """Plain data, ready for JSON."""
+    certainty = found.certainty.value if found.certainty else ""
+    head = {"inclusion": found.inclusion.value, "certainty": certainty, "safety": found.safety}
+    return head | {
+        "evidence": to_dict(found.evidence) if found.evidence else {},
+        "reason": found.reason,
+    }
+
+
+def inclusion_from_dict(data: dict[str, object]) -> InclusionFinding:
+    """Inverse of `inclusion_to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+    plain, certainty = data["evidence"], data["certainty"]
+    evidence = inclusion_evidence_from(plain) if isinstance(plain, dict) and plain else None
+    grade = Certainty(str(certainty)) if certainty else None
+    return InclusionFinding(
+        inclusion=Inclusion(str(data["inclusion"])),
+        certainty=grade,
+        safety=int(str(data["safety"])),
+        evidence=evidence,
+        reason=str(data["reason"]),
+    )
+
+
+def inclusions_to_dict(found: Inclusions) -> dict[str, object]:
+    """Plain data: `closure`, and `image` where it has another finding (what is no limit has no
+    equivalent either).
+    """
+    same = (
+        {} if found.image == found.closure else {Sense.IMAGE.value: inclusion_to_dict(found.image)}
+    )
+    return {Sense.CLOSURE.value: inclusion_to_dict(found.closure), **same}
+
+
+def inclusions_from_dict(data: dict[str, object]) -> Inclusions:
+    """Inverse of `inclusions_to_dict`; raises KeyError, TypeError or ValueError for what is
+    none.
+    """
+    closure, image = (
+        data[Sense.CLOSURE.value],
+        data.get(Sense.IMAGE.value, data[Sense.CLOSURE.value]),
+    )
+    if not isinstance(closure, dict) or not isinstance(image, dict):
+        raise TypeError("both statements are dictionaries")
+    return Inclusions(inclusion_from_dict(image), inclusion_from_dict(closure))
+
+
+def inclusion_to_json(found: InclusionFinding) -> str:
+    """A finding as text."""
+    return json.dumps(inclusion_to_dict(found))
+
+
+def inclusion_from_json(text: str) -> InclusionFinding:
+    """A finding from its text."""
+    return inclusion_from_dict(json.loads(text))
+
+
+def inclusions_to_json(found: Inclusions) -> str:
+    """Both statements as text."""
+    return json.dumps(inclusions_to_dict(found))
+
+
+def inclusions_from_json(text: str) -> Inclusions:
+    """Both statements from their text."""
+    return inclusions_from_dict(json.loads(text))

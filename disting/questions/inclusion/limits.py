@@ -1,0 +1,180 @@
+"""Limits of a row of masses in which one element vanishes or grows without bound.
+
+An element with parameter w enters A(s) as w v v^T times a power of s, so numerator and denominator
+of the receptance are affine in w: N/D = (N_0 + w N_1)/(D_0 + w D_1). For w without bound the limit
+is N_1/D_1, for w = 0 it is N_0/D_0:
+
+| element | limit | what remains |
+|---|---|---|
+| spring (its damper 0) | ∞ | its masses, with their ground dampers, are one; or one with the wall |
+| spring with its damper | 0 | the row with both ports |
+| mass | ∞ | it is a wall; the row with both ports hangs on it |
+| damper to the ground | 0 | the row without it |
+
+So every row that results is, for all values of its parameters, a limit of rows of the larger kind;
+step by step also after several limits. What is no row with one wall at most, or has the ports in
+two rows, is left out.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from disting.algebra.symbols import coefficients, symbols
+from disting.behaviour.transfer import plain_receptance
+from disting.model.row import Row
+from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring
+
+INFINITE, ZERO = "∞", "0"
+REMEMBERED = 1024  # rows whose limits, and limits whose identities, are kept
+Step = tuple[str, str]
+"""An element of the canonical form at hand, and what it tends to: INFINITE or ZERO (a spring
+together with its damper).
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Specialised:
+    """One limit of a row: the element, what it tends to, the `row` that results, and what becomes
+    of the nodes 0, 1, ...
+
+    `nodes[i]` is the number of node i in the new row, 0 the wall, or None if it drops out.
+    """
+
+    element: Element
+    limit: str
+    row: Row
+    nodes: tuple[int | None, ...]
+
+    @property
+    def step(self) -> Step:
+        """The element by name, and its limit."""
+        return self.element.parameter, self.limit
+
+
+def specialised(row: Row) -> Iterator[Specialised]:
+    """Yield every row that one limit of one element leads to.
+
+    >>> sorted(s.step for s in specialised(Row(2, False, 1, 1)))
+    [('k12', '0'), ('k12', '∞'), ('m2', '∞')]
+    """
+    n = row.n_masses
+    for k in row.joints:
+        yield from _made(row, Spring(k), INFINITE, [max(i - (i > k), 0) for i in range(n + 1)])
+        yield from _made(row, Spring(k), ZERO, [i if i <= k else None for i in range(n + 1)])
+        yield from _made(row, Spring(k), ZERO, [i - k if i > k else None for i in range(n + 1)])
+    for k in range(1, n + 1):
+        yield from _made(row, Mass(k), INFINITE, [i - k if i >= k else None for i in range(n + 1)])
+        if not row.grounded:
+            yield from _made(
+                row, Mass(k), INFINITE, [k - i if 0 < i <= k else None for i in range(n + 1)]
+            )
+    for k in row.ground_dampers:
+        yield from _made(row, GroundDamper(k), ZERO, list(range(n + 1)))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def reached(row: Row) -> dict[Row, tuple[Step, ...]]:
+    """All canonical rows that limits of a canonical row lead to, itself included, each with a
+    shortest way there.
+    """
+    found: dict[Row, tuple[Step, ...]] = {row: ()}
+    level = [row]
+    while level:
+        ends = [
+            (s.row.canonical, (*found[here], s.step)) for here in level for s in specialised(here)
+        ]
+        level = []
+        for below, steps in ends:
+            if below not in found:
+                found[below] = steps
+                level.append(below)
+    return found
+
+
+def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
+    """The canonical rows that these steps lead to, each limit proven as an identity."""
+    rows = {row}
+    for step in steps:
+        ends = [(here, s) for here in rows for s in specialised(here) if s.step == step]
+        rows = {s.row.canonical for here, s in ends if is_limit(here, s)}
+    return rows
+
+
+@lru_cache(maxsize=REMEMBERED)
+def is_limit(row: Row, s: Specialised) -> bool:
+    """N_1/D_1 or N_0/D_0 against the new row's transfer function: an identity of polynomials in s
+    and all parameters.
+
+    >>> all(is_limit(row, s) for row in (Row(2, False, 1, 1),) for s in specialised(row))
+    True
+    """
+    moved = _moved(row, s)
+    if moved is None:
+        return False
+    ring = symbols(["s", *row.structure.parameters])
+    zero = ring["s"] - ring["s"]
+    values = ring | dict.fromkeys(
+        {Damper(s.element.at).parameter} & ring.keys() if s.element.kind == "k" else (), zero
+    )
+    num, den = _written(row, values)
+    num, den = (_part(p, s.element.parameter, s.limit) for p in (num, den))
+    new = {name: sum((values[old] for old in olds), zero) for name, olds in moved.items()}
+    small_num, small_den = _written(s.row, new | {"s": ring["s"]})
+    return not den.is_zero() and (num * small_den - small_num * den).is_zero()
+
+
+def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> Iterator[Specialised]:
+    """The row of the nodes that are left; none if a port is lost, or if nothing is left."""
+    a, b = nodes[row.a] or 0, nodes[row.b] or 0
+    if not (a and b):
+        return
+    grounded = any(0 in (nodes[k], nodes[k + 1]) and nodes[k] != nodes[k + 1] for k in row.joints)
+    left = {nodes[i] for i in row.ground_dampers if limit != ZERO or element != GroundDamper(i)}
+    dampers = tuple(sorted(i for i in left if i))
+    n_masses = max(i for i in nodes if i is not None)
+    yield Specialised(
+        element,
+        limit,
+        Row(n_masses, grounded, min(a, b), max(a, b), row.damped, dampers),
+        tuple(nodes),
+    )
+
+
+def _written(row: Row, values: dict[str, Any]) -> tuple[Any, Any]:
+    """Numerator and denominator of the receptance for these elements and s of a ring."""
+    return plain_receptance(row.structure, values, values["s"], values["s"] ** 0)
+
+
+def _part(polynomial: Any, name: str, limit: str) -> Any:
+    """P_1 (for INFINITE) or P_0 of P_0 + w P_1, w the parameter of this name."""
+    parts = coefficients(polynomial, name)
+    if limit == ZERO:
+        return parts[0]
+    return parts[1] if len(parts) > 1 else parts[0] - parts[0]
+
+
+def _moved(row: Row, s: Specialised) -> dict[str, list[str]] | None:
+    """Parameters of the new row, and those given that add up to each: what comes together is
+    added, what drops out left out.
+
+    So each is a sum of given parameters of its own and takes all values; None if one would be of
+    no given parameter.
+    """
+    found: dict[str, list[str]] = {name: [] for name in s.row.structure.parameters}
+    for e in row.structure.elements:
+        name = _name(e, s.nodes)
+        is_gone = e == s.element or (s.element.kind == "k" and e == Damper(s.element.at))
+        if name in found and not is_gone:
+            found[name].append(e.parameter)
+    return found if all(found.values()) else None
+
+
+def _name(e: Element, nodes: tuple[int | None, ...]) -> str:
+    """Name of an element after the limit; "" if it drops out."""
+    ends = [nodes[e.at]] if e.kind in "mb" else [nodes[e.at], nodes[e.at + 1]]
+    left = [i for i in ends if i is not None]
+    if len(left) < len(ends) or left == [0] or (len(left) == 2 and left[0] == left[1]):
+        return ""
+    return e._replace(at=min(left)).parameter

@@ -1,0 +1,127 @@
+"""What the profiles of two models settle about inclusion, and the relative degrees of their
+receptances.
+
+Degrees: with masses other than zero no special value raises the number of poles or lowers the
+relative degree. Projections: of equally many poles, the coefficients are regular functions of the
+parameters, and V1 in V2 gives rank1(S) <= rank2(S) for every set S of them. Relative degrees: the
+receptance of a row whose ports are l masses apart falls as s^-(2 + l) with dampers and as s^-(2 +
+2 l) without, its leading coefficient a product of springs or dampers and inverse masses. Of two
+rows the slower one leads; only if both fall alike special values cancel. Dampers to the ground
+change nothing of that, a lag adds 1.
+"""
+
+from typing import TypeVar
+
+from disting.algebra.certainty import Certainty
+from disting.algebra.matroid import Matroid, rank_in
+from disting.behaviour.profile import Profile
+from disting.evidence.conditions import Counts, Labels
+from disting.evidence.limits import FullImage, LargerProjection, RelativeDegrees
+from disting.model.chain import Chain
+from disting.model.row import rows_of
+from disting.questions.inclusion.finding import Inclusion, InclusionFinding
+
+T = TypeVar("T")
+
+
+def by_profiles(
+    small: Profile, large: Profile, *, left_is_smaller: bool
+) -> InclusionFinding | None:
+    """What degrees, ranks of projections and a full image settle; None if nothing."""
+    if degrees_refute(small.degrees, large.degrees):
+        counts = Counts(*ordered(small.degrees, large.degrees, left_is_smaller))
+        return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
+    if small.degrees[1] != large.degrees[1]:
+        return None
+    safety = min(small.safety, large.safety) - 1
+    rows = _larger_rows(small, large)
+    if rows is not None:
+        ranks = ordered(_rank(small, rows), _rank(large, rows), left_is_smaller)
+        return InclusionFinding(
+            Inclusion.NEITHER, Certainty.BOUNDED, safety, LargerProjection(rows, *ranks)
+        )
+    if (
+        large.rank == len(large.form)
+        and small.form <= large.form
+        and _constants_agree(small, large)
+    ):
+        free = tuple(x for x in large.labels if x in large.form)
+        evidence = FullImage(not left_is_smaller, large.rank, free)
+        return InclusionFinding(inside(left_is_smaller), Certainty.BOUNDED, safety, evidence)
+    return None
+
+
+def degrees_refute(small: tuple[int, int], large: tuple[int, int]) -> bool:
+    """More poles, or a smaller relative degree, than any model of the larger rank has."""
+    return small[1] > large[1] or small[1] - small[0] < large[1] - large[0]
+
+
+def _larger_rows(small: Profile, large: Profile) -> Labels | None:
+    """The smallest recorded dependent set of the larger model that is of larger rank in the
+    smaller one.
+    """
+    if not (isinstance(small.matroid, Matroid) and isinstance(large.matroid, Matroid)):
+        return None
+    constant = tuple(x for x in small.labels if x in small.form - large.form)
+    if constant:
+        return constant
+    named = (
+        (tuple(large.labels[i] for i in rows), rank) for rows, rank in large.matroid.dependences()
+    )
+    return min(
+        (rows for rows, rank in named if _rank(small, rows) > rank),
+        key=lambda x: (len(x), x),
+        default=None,
+    )
+
+
+def _rank(profile: Profile, rows: Labels) -> int:
+    """Rank of named invariants; those that the model lacks are zero."""
+    assert isinstance(profile.matroid, Matroid)
+    return rank_in(
+        profile.matroid, tuple(i for i, label in enumerate(profile.labels) if label in rows)
+    )
+
+
+def _constants_agree(small: Profile, large: Profile) -> bool:
+    """Whether what is constant in the larger model is the same constant in the smaller one;
+    what one lacks is zero.
+    """
+    values = dict(zip(small.labels, small.constants, strict=True))
+    rows = zip(large.labels, large.free, large.constants, strict=True)
+    return all(
+        free or (value != "" and values.get(label, "0") == value) for label, free, value in rows
+    )
+
+
+def by_relative_degrees(small: Chain, large: Chain) -> InclusionFinding | None:
+    """A receptance of the left model that always falls faster than any of the larger right one;
+    None if it need not.
+    """
+    falls = row_falls(large)
+    here, there = min(row_falls(small)), min(falls)
+    if small.damped != large.damped or here <= there or (len(falls) == 2 and falls[0] == falls[1]):
+        return None
+    evidence = RelativeDegrees(False, here, there)
+    return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=evidence)
+
+
+def row_falls(chain: Chain) -> tuple[int, ...]:
+    """Relative degrees of the receptances of the free and, with a gap, of the grounded row, one
+    more with a lag.
+
+    >>> row_falls(Chain(4, 2, 1, 3, 1, 4, damped=True))
+    (3, 2)
+    """
+    rows = reversed(rows_of(chain.structure))
+    return tuple(row.relative_degree + chain.lag for row in rows)
+
+
+def inside(left_is_smaller: bool) -> Inclusion:
+    """Inclusion of the model of the smaller rank."""
+    return Inclusion.LEFT_IN_RIGHT if left_is_smaller else Inclusion.RIGHT_IN_LEFT
+
+
+def ordered(small: T, large: T, left_is_smaller: bool) -> tuple[T, T]:
+    """Both in the pair's order."""
+    return (small, large) if left_is_smaller else (large, small)

@@ -1,0 +1,75 @@
+"""Models of a chain modulo a prime at which all poles lie in the prime field, as functions of t
+= s, or of s^2 undamped.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+from disting.algebra.quotient import constant, variable
+from disting.algebra.sampling import prime, residues
+from disting.behaviour.powers import degrees
+from disting.behaviour.sample import quotient
+from disting.model.chain import Chain, Sensor
+
+ATTEMPTS = 1000  # points tried until one is found
+REMEMBERED = 256
+Polynomial = Any
+
+
+@dataclass(frozen=True, slots=True)
+class Split:
+    """A model n/(t^z d') modulo a prime: n, the linear factors of d', and the parameters in
+    their order.
+    """
+
+    n: Polynomial
+    factors: tuple[Polynomial, ...]
+    point: tuple[int, ...]
+
+
+@lru_cache(maxsize=REMEMBERED)
+def split_model(chain: Chain, label: str) -> Split | None:
+    """The first point of a sequence at which all poles lie in the prime field and are distinct."""
+    modulus, count = prime(label), len(accelerated(chain).parameters)
+    points = (tuple(residues(f"{label}:{k}:{chain}", count, modulus)) for k in range(ATTEMPTS))
+    return next(
+        (found for point in points if (found := model_at(chain, point, modulus)) is not None), None
+    )
+
+
+def model_at(chain: Chain, point: tuple[int, ...], modulus: int) -> Split | None:
+    """The model at a point; None where poles coincide, lie elsewhere, or are fewer than they
+    should be.
+    """
+    q = quotient(accelerated(chain).structure, list(point), modulus)
+    n, d = (_in_steps(p, step_of(chain), modulus) for p in (q.num, q.den))
+    factors = tuple(f for f, _ in d.factor()[1])
+    distinct = len(factors) == d.degree() == poles_of(chain) and all(int(f[0]) for f in factors)
+    return Split(n, factors, point) if distinct and int(n[0]) else None
+
+
+def accelerated(chain: Chain) -> Chain:
+    """With a sensor of acceleration, whose transfer function is n/d'; without dead time."""
+    return replace(chain, sensor=Sensor.ACCELERATION, dead_time=False)
+
+
+def _in_steps(polynomial: Polynomial, step: int, modulus: int) -> Polynomial:
+    """The polynomial in s as one in s^step."""
+    return polynomial_of([int(c) for c in polynomial.coeffs()[::step]], modulus)
+
+
+def polynomial_of(coefficients: list[int], modulus: int) -> Polynomial:
+    """The polynomial in t with these coefficients, the constant first."""
+    t = variable(modulus)
+    return sum((t**i * c for i, c in enumerate(coefficients)), constant(0, modulus))
+
+
+def poles_of(chain: Chain) -> int:
+    """Number of poles other than 0, as a function of t."""
+    return degrees(accelerated(chain).structure)[1] // step_of(chain)
+
+
+def step_of(chain: Chain) -> int:
+    """1 for t = s, 2 for t = s^2."""
+    return 1 if chain.damped else 2

@@ -1,0 +1,110 @@
+"""Checks evidence on positive equivalents again, from itself and the two chains alone."""
+
+from disting.algebra.certainty import Certainty
+from disting.evidence.decision import Theorem
+from disting.evidence.positive import (
+    BoxMap,
+    EmptyFibre,
+    Excluded,
+    Interlacing,
+    Points,
+    PositiveEvidence,
+    PositiveFinding,
+    Share,
+    Values,
+)
+from disting.fibres.synthesis.decide import safety_of_point
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.target import target
+from disting.model.chain import Chain
+from disting.questions.positive.obstacles import (
+    Obstacle,
+    obstacle,
+    only_rows_sum_to_zero,
+    swap_fails,
+)
+from disting.questions.positive.points import equivalent, read
+from disting.questions.positive.shares import refuse, row_words, theorem, without_dead_time
+
+
+def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
+    """Whether the evidence is true of the two chains; statements about ranges are confirmed by
+    `confirms_within`.
+    """
+    refuse(given, other)
+    given, other = without_dead_time(given), without_dead_time(other)
+    match evidence:
+        case Theorem():
+            return evidence.name != "" and theorem(given, other) == evidence.name
+        case Excluded():
+            return _excluded(evidence, given, other)
+        case EmptyFibre():
+            return _is_of(evidence.point, given) and _is_empty(evidence.point, given, other)
+        case Interlacing():
+            return _interlaced(evidence, given, other)
+        case Points():
+            return _answers(evidence.with_one, given, other, Answer.YES) and _answers(
+                evidence.without, given, other, Answer.NO
+            )
+        case BoxMap():
+            return False
+
+
+def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
+    """Whether the finding's evidence is true of the two chains and shows its share, as surely
+    as it says.
+    """
+    evidence = finding.evidence
+    if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
+        return False
+    bounded = finding.safety <= safety_of_point(without_dead_time(other))
+    return bounded and confirms(evidence, given, other)
+
+
+def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
+    """Share that evidence of this kind shows, and how surely."""
+    match evidence:
+        case Theorem() | BoxMap():
+            return Share.ALWAYS, Certainty.THEOREM
+        case Excluded():
+            return Share.NEVER, Certainty.PROVEN if evidence.point else Certainty.THEOREM
+        case EmptyFibre():
+            return Share.NEVER, Certainty.BOUNDED
+        case Interlacing():
+            return (
+                Share.SOMETIMES if any(p.lacking for p in evidence.parts) else Share.ALWAYS
+            ), Certainty.THEOREM
+        case Points():
+            return Share.SOMETIMES, Certainty.PROVEN
+
+
+def _excluded(evidence: Excluded, given: Chain, other: Chain) -> bool:
+    if evidence.name != Obstacle.SWAPPED:
+        return obstacle(given, other) == evidence.name
+    fails = _is_of(evidence.point, given) and swap_fails(given, other)
+    return fails and only_rows_sum_to_zero(given, read(evidence.point), 2 * other.gap)
+
+
+def _is_empty(point: Values, given: Chain, other: Chain) -> bool:
+    return fibre(other, target(given.structure, read(point))).status is Status.EMPTY
+
+
+def _interlaced(evidence: Interlacing, given: Chain, other: Chain) -> bool:
+    """The rows again; points, where there are any, are looked at again."""
+    same = not given.damped and evidence.parts == row_words(given, other) != ()
+    points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))
+    return same and all(
+        not values or _answers(values, given, other, answer) for values, answer in points
+    )
+
+
+def _answers(values: Values, given: Chain, other: Chain, answer: Answer) -> bool:
+    return _is_of(values, given) and equivalent(given, read(values), other) is answer
+
+
+def _is_of(values: Values, given: Chain) -> bool:
+    """Whether these are all parameters, positive."""
+    return sorted(name for name, _ in values) == sorted(given.parameters) and all(
+        v > 0 for v in read(values).values()
+    )

@@ -1,0 +1,215 @@
+"""Whether all, some or no positive models of one chain have a positive equivalent in another one.
+
+Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality,
+Foster (ALWAYS); decay, residues, own poles, signs, swapped rows (NEVER, see `obstacles`); the
+arrangement of poles and zeros of each row (ALWAYS or SOMETIMES, see `words`). Then a rational
+point without any equivalent (NEVER, but for a probability that is bounded). Then random points:
+one with a positive equivalent and one without (SOMETIMES).
+
+ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic
+subset. SOMETIMES speaks of two open sets. A word is the same for all models near one where balls
+tell it (see `witness`), so points of undamped models testify however short they are; damped ones,
+whose solutions are listed, are never called SOMETIMES by points.
+
+Foster: undamped, both chains with force and sensor at one place. H = sum r_j/(x + l_j) with l_j >=
+0, r_j > 0. Any g of the non-zero poles serve for the grounded row R, the others for F. For a row
+R = sum r_j/(x + l_j) with n poles the n - 1 zeros -z_i separate the poles, so 1/R = m x + c - sum
+t_i/(x + z_i) with m, t_i > 0. Any a - 1 of the zeros serve for the left side, the others for the
+right side, W = sum t_i x/(z_i (x + z_i)), plus 1/R(0) >= 0 on the left (0 at a free end, as it
+must be). One step of Cauer's continued fraction takes a spring and a mass off W: 1/W = 1/k + F', k
+> 0 the limit of W for x to infinity, and F' is of the same form with one zero less; by recursion
+all masses and springs are positive. So every choice gives one positive model: C(N-1, g) C(g-1,
+a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from disting.algebra.certainty import Certainty
+from disting.algebra.sampling import about
+from disting.errors import InputError
+from disting.evidence.decision import Theorem
+from disting.evidence.positive import (
+    Empirical,
+    EmptyFibre,
+    Excluded,
+    Interlacing,
+    Points,
+    PositiveEvidence,
+    PositiveFinding,
+    RowWords,
+    Share,
+)
+from disting.fibres.synthesis.decide import member, point_bits, rational_point, safety_of_point
+from disting.fibres.synthesis.duality import are_dual
+from disting.fibres.synthesis.result import Answer
+from disting.model.chain import Chain
+from disting.model.question import Membership
+from disting.model.row import Row
+from disting.model.settings import Settings
+from disting.model.symmetry import canonical
+from disting.questions.positive.obstacles import (
+    Obstacle,
+    distances,
+    obstacle,
+    only_rows_sum_to_zero,
+    rows,
+    swap_fails,
+)
+from disting.questions.positive.points import equivalent, random_point, spelled
+from disting.questions.positive.undamped_rows import Words, words
+
+TRIES = 100  # random points of undamped models, 1 ms each
+DAMPED_TRIES = 10
+
+
+def positive_finding(
+    given: Chain, other: Chain, settings: Settings | None = None
+) -> PositiveFinding:
+    """Share of the positive models of `given` that have a positive equivalent in `other`.
+
+    Raises InputError for chains of different size, damping, sensor quantity or dead time.
+
+    >>> positive_finding(Chain(4, meas_plus=2), Chain(4, act_plus=2, meas_plus=3)).share.value
+    'always'
+    >>> positive_finding(Chain(4, act_plus=2, meas_plus=3), Chain(4, meas_plus=2)).share.value
+    'sometimes'
+    """
+    refuse(given, other)
+    given, other = without_dead_time(given), without_dead_time(other)
+    seed = (settings or Settings()).seed
+    named = theorem(given, other)
+    if named:
+        return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Theorem(named))
+    if not all(is_plain(c) for c in (given, other)):
+        return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
+    against = obstacle(given, other)
+    if against:
+        return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
+    compared = () if given.damped else row_words(given, other)
+    return _by_words(given, other, compared, seed) if compared else _by_points(given, other, seed)
+
+
+def refuse(given: Chain, other: Chain) -> None:
+    """Raise InputError for chains that cannot be compared here."""
+    kinds = [(c.n_masses, c.damped, c.sensor, c.dead_time) for c in (given, other)]
+    if kinds[0] != kinds[1]:
+        raise InputError("chains of one size, damping, sensor quantity and dead time are compared")
+
+
+def without_dead_time(chain: Chain) -> Chain:
+    """The rational part. Dead times of equal behaviours are equal (see `questions.same.exact`), so
+    the rational parts decide.
+    """
+    return replace(chain, dead_time=False)
+
+
+def is_plain(chain: Chain) -> bool:
+    """Neither ground dampers nor lag nor dead time."""
+    return not (chain.ground_dampers or chain.lag or chain.dead_time)
+
+
+def theorem(given: Chain, other: Chain) -> str:
+    """Name of the theorem by which both are the same over positive parameters, "" if there is none.
+
+    >>> theorem(Chain(3), Chain(3, 0, 0, 2, 0, 2))
+    'Foster'
+    """
+    here, there = (canonical(c).chain for c in _without_common_factors(given, other))
+    if here == there:
+        return "symmetry"
+    foster = not given.damped and all(is_plain(c) and c.collocated for c in (here, there))
+    return "Foster" if foster else "duality" if are_dual(here, there) else ""
+
+
+def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
+    """Both without the lag and the dead time that both have: equivalents inherit T1 and Td."""
+    lag, dead_time = given.lag and other.lag, given.dead_time and other.dead_time
+    first, second = (
+        replace(c, lag=c.lag and not lag, dead_time=c.dead_time and not dead_time)
+        for c in (given, other)
+    )
+    return first, second
+
+
+def row_words(given: Chain, other: Chain) -> tuple[RowWords, ...]:
+    """What each row of undamped `other` lacks; () where the rows do not correspond or what
+    they lack is not known.
+    """
+    if given.gap != other.gap or distances(given) != distances(other):
+        return ()
+    pairs = list(zip(rows(given), rows(other), strict=True))
+    found = tuple(_lacking(a, b) for a, b in pairs)
+    known = any(p.lacking for p in found) or all(_contained(a, b) for a, b in pairs)
+    return found if known else ()
+
+
+def _lacking(given: Row, other: Row) -> RowWords:
+    ports = (given.a, given.b), (other.a, other.b)
+    lacking = (
+        () if _contained(given, other) else tuple(sorted(_words(given).lower - _words(other).upper))
+    )
+    return RowWords(given.name, given.n_masses, *ports, lacking)
+
+
+def _contained(given: Row, other: Row) -> bool:
+    """Whether every positive row of the one type is the same as one of the other; mirrored
+    ports count as equal (`words`).
+    """
+    sides = [sorted((s.a - 1, s.n_masses - s.b)) for s in (given, other)]
+    return given.distance == 0 or sides[0] == sides[1] or _words(given).upper <= _words(other).lower
+
+
+def _words(row: Row) -> Words:
+    return words(row.n_masses, row.a, row.b)
+
+
+def _by_words(
+    given: Chain, other: Chain, compared: tuple[RowWords, ...], seed: str
+) -> PositiveFinding:
+    if not any(p.lacking for p in compared):
+        return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Interlacing(compared))
+    first, empirical = _sampled(given, other, seed, TRIES)
+    evidence = Interlacing(compared, first.get(Answer.YES, ()), first.get(Answer.NO, ()))
+    return PositiveFinding(
+        Share.SOMETIMES, Certainty.THEOREM, evidence=evidence, empirical=empirical
+    )
+
+
+def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
+    """The swap, an empty fibre, then random points."""
+    for share in _never(given, other, seed):
+        return share
+    first, empirical = _sampled(given, other, seed, DAMPED_TRIES if given.damped else TRIES)
+    if Answer.YES in first and Answer.NO in first:
+        evidence: PositiveEvidence = Points(first[Answer.YES], first[Answer.NO])
+        return PositiveFinding(
+            Share.SOMETIMES, Certainty.PROVEN, evidence=evidence, empirical=empirical
+        )
+    return PositiveFinding(
+        Share.UNKNOWN, empirical=empirical, reason="no theorem applies; random points are no proof"
+    )
+
+
+def _never(given: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
+    """Proofs that there is no equivalent, found at one rational point."""
+    point = rational_point(given, about(f"positivity:{seed}", given, other), point_bits(other))
+    if swap_fails(given, other) and only_rows_sum_to_zero(given, point, 2 * other.gap):
+        yield PositiveFinding(
+            Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point))
+        )
+    found = member(given, other, seed)
+    if found.membership is Membership.EXCLUDED:
+        yield PositiveFinding(
+            Share.NEVER, Certainty.BOUNDED, safety_of_point(other), EmptyFibre(spelled(found.point))
+        )
+
+
+def _sampled(
+    given: Chain, other: Chain, seed: str, tries: int
+) -> tuple[dict[Answer, tuple[tuple[str, str], ...]], Empirical]:
+    """The first point of each answer, and how many had which."""
+    points = [random_point(given, f"{seed}:{k}") for k in range(tries)]
+    answers = [equivalent(given, point, other) for point in points]
+    first = {answer: spelled(points[answers.index(answer)]) for answer in answers}
+    return first, Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))

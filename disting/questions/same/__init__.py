@@ -1,0 +1,3 @@
+"""Whether two chains of equal rank show the same behaviour: the exact decision, its domains, its
+check.
+"""

@@ -1,0 +1,230 @@
+"""The exact decision where conditions 1 to 9 stay silent: one fibre, by inverse network synthesis
+or as a polynomial ideal.
+
+Both sets of behaviours have irreducible closures V1 and V2; of equal dimension they are equal
+exactly if a generic point of one lies in the image of the other. So a random rational point of one
+model is taken and all parameters of the other model with the same transfer function are listed
+(see `disting.fibres.synthesis`).
+
+What one point proves. Let n be the number of parameters of the searched model and D = max(3 N_B +
+2, n + 1). The pairs (p, q) of equal transfer functions with all elements of q non-zero (one more
+unknown and one more equation say so) are given by equations of degree D at most, so a component
+that dominates the points p has a degree of at most D^(n+1) (Bezout). If V1 = V2 there is one, and
+the points p without an equivalent lie where its projection is not proper: on a hypersurface of no
+larger degree (Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315,
+1999). If V1 is not V2, the points with an equivalent lie on the pull-back of an equation of V2, of
+degree D^(n+1) at most too. Coordinates are fractions whose numerators have B random bits, B so
+large that the bound is small enough for this n (`synthesis.decide.point_bits`); by Schwartz and
+Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are
+drawn, of either model.
+
+Where the synthesis has no method (force and sensor two or more masses apart inside a row; with
+dampers to the ground also some neighbouring ports) or finds only numbers, what is known of the
+rows of both chains decides (`ideals.by_one_row`), then the fibre's ideal, modulo random primes and
+with bounds of its own (see `disting.fibres.ideals`). No other program is asked: the answer depends
+on the question alone.
+
+Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero, exp(-Td s) is one
+as well. It has neither zeros nor poles, and a rational function without any is a constant: Td = 0.
+So models with and without dead time are distinguishable for every Td other than 0, whatever the
+rest; and two models with dead times have equal transfer functions only where both the dead times
+and the rational parts are equal.
+
+What equal ranks are needed for. One direction is looked at, say V1 against V2. Where V1 does not
+lie inside V2, the closures differ, whatever the ranks. Where it does, V1 = V2 holds only because
+both have one dimension: an irreducible closed set contains none but itself of its own dimension.
+Ranks seen at points are lower bounds, so two that are seen equal may differ. So a bounded HOLDS is
+as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full rows need no
+ranks.
+"""
+
+from dataclasses import replace
+
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
+from disting.behaviour.profile import Profile
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
+from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.ideals import Refuted, Shared, Solved
+from disting.fibres import ideals
+from disting.fibres.decision import Decision
+from disting.fibres.ideals import Limits, chains_told_apart, coefficient_map, normalised
+from disting.fibres.ideals.by_one_row import differ_by_row
+from disting.fibres.ideals.full_rows import same_by_full_rows
+from disting.fibres.ideals.zeros import safety_of_branches
+from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
+from disting.fibres.synthesis.duality import are_dual
+from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
+from disting.model.chain import Chain
+from disting.model.question import Membership
+from disting.model.row import Row
+from disting.model.settings import Settings
+from disting.model.structure import Structure
+from disting.model.symmetry import canonical
+
+# wanted of a fibre: with the ranks that it rests on, the bound may lose one bit
+SAFETY = LEAST_SAFETY + 1
+# of one ideal; work ends long before: runs repeat
+LIMITS = Limits(seconds=3600.0, entries=4_000_000, safety=SAFETY)
+
+
+def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """Exact decision for two chains of equal rank, size and sensor; of unequal dead time they
+    differ, by a theorem.
+    """
+    named = theorem(a, b)
+    if named:
+        return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
+    if a.dead_time != b.dead_time:
+        return Finding(EXACT, Outcome.FAILS, Certainty.THEOREM, evidence=DeadTime(a.dead_time))
+    if (a.n_masses, a.sensor) != (b.n_masses, b.sensor):
+        return Finding(
+            EXACT,
+            Outcome.INAPPLICABLE,
+            note="the exact decision compares chains of equal size and sensor",
+        )
+    found = by_synthesis(a, b, settings)
+    if found is None:
+        found = by_full_rows(a, b)
+    if found is None:
+        found = by_row(a, b)
+    # they make the ideals of whole fibres too large
+    if found is None and (a.ground_dampers or b.ground_dampers):
+        found = by_shares(a, b, settings)
+    return by_ideals(a, b, settings, LIMITS) if found is None else found
+
+
+def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the synthesis proves, but for a bound; a dead time that both have is a factor of its
+    own.
+    """
+    a, b = (replace(c, dead_time=False) for c in (a, b))
+    if a.damped != b.damped:
+        return None
+    found = decide(a, b, settings.seed)
+    searched = b if found.direction is Direction.LEFT_IN_RIGHT else a
+    told = found.decision(safety_of_point(searched))
+    return None if told.membership is Membership.UNKNOWN else decided(told)
+
+
+def by_full_rows(a: Chain, b: Chain) -> Finding | None:
+    """What rows that can have any receptance prove; a dead time that both have is a factor of
+    its own.
+    """
+    evidence = same_by_full_rows(a.structure, b.structure)
+    return (
+        None
+        if evidence is None
+        else Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
+    )
+
+
+def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the shares of the numerator's roots refute; a dead time that both have is a factor
+    of its own.
+    """
+    found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
+    if found is None or found[1] < LEAST_SAFETY:
+        return None
+    return Finding(
+        rule=EXACT,
+        outcome=Outcome.FAILS,
+        certainty=Certainty.BOUNDED,
+        safety=found[1],
+        evidence=found[0],
+    )
+
+
+def by_row(a: Chain, b: Chain) -> Finding | None:
+    """What is known once for all of rows of masses; a dead time that both have is a factor of
+    its own.
+    """
+    evidence = differ_by_row(rational_part(a), rational_part(b))
+    if evidence is None:
+        return None
+    given, searched = (
+        Row(evidence.masses, evidence.wall, *ports, damped=True)
+        for ports in (evidence.given, evidence.searched)
+    )
+    safety = safety_of_branches(given, searched)
+    return (
+        Finding(
+            rule=EXACT,
+            outcome=Outcome.FAILS,
+            certainty=Certainty.BOUNDED,
+            safety=safety,
+            evidence=evidence,
+        )
+        if safety >= LEAST_SAFETY
+        else None
+    )
+
+
+def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:
+    """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper,
+    sometimes the other.
+    """
+    reasons: list[str] = []
+    for coordinates in (coefficient_map, normalised):
+        here, there = (coordinates(rational_part(c)) for c in (a, b))
+        if here.degrees != there.degrees:
+            return Finding(
+                EXACT, Outcome.INAPPLICABLE, note="the degrees differ (conditions 1 and 2)"
+            )
+        found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
+        if found.evidence and found.safety >= limits.safety:
+            evidence = replace(found.evidence, is_normalised=coordinates is normalised)
+            return decided(replace(found, evidence=evidence))
+        reasons.append(found.reason)
+    return Finding(
+        EXACT,
+        Outcome.ABANDONED,
+        note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})",
+    )
+
+
+def decided(found: Decision[FibreAt | Solved | Refuted]) -> Finding:
+    """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
+    if found.membership is Membership.UNKNOWN:
+        return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
+    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
+    return Finding(EXACT, outcome, Certainty.BOUNDED, safety=found.safety, evidence=found.evidence)
+
+
+def resting_on_ranks(finding: Finding, left: Profile, right: Profile) -> Finding:
+    """The finding on two models whose ranks are seen equal: that it HOLDS is wrong also where
+    one that is not proven is.
+    """
+    if finding.outcome is not Outcome.HOLDS or finding.certainty is not Certainty.BOUNDED:
+        return finding
+    ranks = [p.safety for p in (left, right) if not p.rank_proven]
+    return replace(finding, safety=joint_safety([finding.safety, *ranks]))
+
+
+def rational_part(chain: Chain) -> Structure:
+    """The structure without its dead time, a factor of its own that both models share."""
+    return replace(chain, dead_time=False).structure
+
+
+def mirrored(finding: Finding) -> Finding:
+    """The finding on the pair in the other order."""
+    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | Shared | DeadTime):
+        return finding
+    return replace(
+        finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given)
+    )
+
+
+def theorem(a: Chain, b: Chain) -> str:
+    """Name of the theorem by which two chains are the same for all parameters; "" if there is none.
+
+    >>> theorem(Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
+    'duality'
+    """
+    if canonical(a).chain == canonical(b).chain:
+        return "symmetry"
+    if are_foster(a, b):
+        return "Foster"
+    if are_same_by_rows(a, b):
+        return "parts"
+    return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""

@@ -1,0 +1,120 @@
+"""The exact decision at little cost, for classes of thousands of models: theorems, then one fibre
+by the synthesis.
+
+What takes longer than SECONDS is given up, and the pair is left undecided; that is many times what
+the dearest pair of the shipped families takes, so that runs repeat.
+"""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from disting.algebra.certainty import Certainty
+from disting.behaviour.inverse import inverse_profile
+from disting.behaviour.profile import Profile
+from disting.behaviour.profile_json import profile_from_json, profile_to_json
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding_json import finding_from_json, finding_to_json
+from disting.conditions.rule import EXACT
+from disting.evidence.decision import Theorem
+from disting.fibres.ideals import Limits
+from disting.model.chain import Chain
+from disting.model.question import Question
+from disting.model.settings import Settings
+from disting.questions.same.exact import by_full_rows, by_ideals, by_shares, by_synthesis, theorem
+
+SECONDS = 60.0
+# the work is limited long before the time
+LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=100)
+
+
+class _OutOfTime(Exception):
+    pass
+
+
+def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """What is cheap of `exact_finding`, for chains of equal rank and size without dead time;
+    ABANDONED where it is silent.
+    """
+    named = theorem(a, b)
+    if named:
+        return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
+    full = by_full_rows(a, b)
+    if full is not None:
+        return full
+    try:
+        with _limited(SECONDS):
+            found = by_synthesis(a, b, settings)
+    except _OutOfTime:
+        return Finding(
+            EXACT, Outcome.ABANDONED, note=f"the synthesis takes more than {SECONDS:g} s"
+        )
+    return (
+        Finding(EXACT, Outcome.ABANDONED, note="the synthesis proves nothing")
+        if found is None
+        else found
+    )
+
+
+def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """What the ideals of the fibre say, in seconds to a minute: where the synthesis has no
+    method.
+    """
+    return by_ideals(a, b, settings, LIMITS)
+
+
+def sharing_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """What the shares of the numerator's roots refute, in a second to some minutes."""
+    found = by_shares(a, b, settings)
+    return (
+        Finding(EXACT, Outcome.ABANDONED, note="the shares refute nothing")
+        if found is None
+        else found
+    )
+
+
+def settled_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """Nothing: what was settled once is told to the engine before it is asked (see
+    `catalogs.damper_settled`).
+    """
+    return Finding(EXACT, Outcome.ABANDONED, note="not settled")
+
+
+def quick_profile(chain: Chain, settings: Settings) -> Profile:
+    """Profile of the Markov parameters of 1/G, as many as are used of G."""
+    structure = chain.structure
+    return inverse_profile(structure, 2 * structure.n_states, settings)
+
+
+QUICKLY = Question("quick exact decisions", quick_finding, finding_to_json, finding_from_json)
+SETTLED = Question("settled decisions", settled_finding, finding_to_json, finding_from_json)
+SHARING = Question("decisions by shares", sharing_finding, finding_to_json, finding_from_json)
+PATIENTLY = Question("patient exact decisions", patient_finding, finding_to_json, finding_from_json)
+INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile_from_json)
+
+
+@contextmanager
+def _limited(seconds: float) -> Iterator[None]:
+    """Raise _OutOfTime in the block after so many seconds of this process, whatever else the
+    machine does.
+
+    Without effect outside a main thread and where there is no timer.
+    """
+    if threading.current_thread() is not threading.main_thread() or not hasattr(
+        signal, "setitimer"
+    ):
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        """Raised in the block by the timer."""
+        raise _OutOfTime
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)

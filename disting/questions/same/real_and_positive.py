@@ -1,0 +1,217 @@
+"""Whether indistinguishable models stay so over real or positive parameters: what the paper calls
+admissible parameter sets.
+
+Positive. Both ways it is asked which positive models of the one have a positive equivalent in the
+other (`disting.questions.positive`). All, both ways: indistinguishable. None, both ways:
+distinguishable. Some in any way, and others not: it depends on the parameters. None in one way and
+some in the other cannot be: the images of both chains have one closure V, and the behaviours with
+positive parameters on both sides are either part of a proper subvariety of V, so that none occurs
+for generic parameters of either chain, or they contain an open set of V(R), which parameters on
+both sides reach.
+
+Real. Symmetry and duality are rational maps, which take real parameters to real ones. Undamped
+chains: real factors of all degrees that are needed exist both ways, or in an open set of models of
+either chain they do not (see `questions.positive.real`). In the second case the verdict is "some"
+if in any way all or some positive models have positive, so real, equivalents. Odd fibres: let n be
+the number of parameter vectors of a chain with one generic behaviour of V, each a simple solution
+(n is the number of points of a generic fibre of a dominant map, all of them simple in
+characteristic zero). If the behaviour is real, the conjugate of a solution is a solution, so an
+odd n leaves at least one that is its own conjugate. A unique solution (n = 1) is real for that
+reason.
+"""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from disting.algebra.certainty import Certainty, Grade, weakest
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
+from disting.errors import ContradictionError, InputError
+from disting.evidence.conditions import Renaming
+from disting.evidence.decision import Theorem
+from disting.evidence.kinds import Evidence
+from disting.evidence.positive import PositiveFinding, Share, Values
+from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.model.chain import Chain
+from disting.model.question import Question
+from disting.model.settings import Settings
+from disting.questions.identifiability import Identifiability
+from disting.questions.positive import always_real, positive_finding, real_witness
+from disting.questions.same.exact import theorem
+
+# of both ways
+SAME = {Share.ALWAYS: Outcome.HOLDS, Share.SOMETIMES: Outcome.SOMETIMES, Share.NEVER: Outcome.FAILS}
+NOT_REAL = (
+    "over real parameters no rational map is known, real factors are not known to exist or to lack,"
+    " and the numbers of equivalents are not odd or not known"
+)
+# theorems whose maps are rational, so that they take real parameters to real ones
+RATIONAL = ("symmetry", "duality")
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Who answers what the real finding rests on: positive equivalents of the one in the other,
+    real models of the one without any, and counts of solutions.
+    """
+
+    positive: Callable[[Chain, Chain], PositiveFinding]
+    lacking: Callable[[Chain, Chain], Values]
+    counted: Callable[[Chain], Identifiability]
+
+
+def positive_share(given: Chain, other: Chain, settings: Settings) -> PositiveFinding:
+    """Which positive models of one canonical chain have a positive equivalent in another;
+    UNKNOWN for chains of two kinds.
+    """
+    try:
+        return positive_finding(given, other, settings)
+    except InputError as reason:
+        return PositiveFinding(Share.UNKNOWN, reason=str(reason))
+
+
+def lacking_real(given: Chain, other: Chain, settings: Settings) -> Values:
+    """A point of one canonical chain in an open set of real models without real equivalents in
+    another; () if none is found.
+    """
+    return real_witness(given, other, settings.seed)
+
+
+def _values(text: str) -> Values:
+    return tuple((name, value) for name, value in json.loads(text))
+
+
+LACKING = Question("real models without equivalents", lacking_real, json.dumps, _values)
+POSITIVELY = Question(
+    "positive equivalents", positive_share, PositiveFinding.to_json, PositiveFinding.from_json
+)
+
+
+def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
+    """Over positive parameters, from the shares of both sides of a pair that is indistinguishable
+    over complex ones.
+
+    Raises ContradictionError where one side has equivalents and the other has none.
+    """
+    shares, known = {left.share, right.share}, [x for x in (left, right) if x.certainty]
+    if Share.NEVER in shares and shares & {Share.ALWAYS, Share.SOMETIMES}:
+        raise ContradictionError(
+            f"positive equivalents {left.share} one way and {right.share} the other"
+        )
+    if Share.UNKNOWN in shares and Share.SOMETIMES not in shares:
+        reasons = "; ".join(
+            dict.fromkeys(x.reason for x in (left, right) if x.share is Share.UNKNOWN)
+        )
+        return Finding(
+            ADMISSIBLE,
+            Outcome.ABANDONED,
+            note=f"whether equivalents are positive is not known: {reasons}",
+        )
+    outcome = SAME[left.share] if len(shares) == 1 else Outcome.SOMETIMES
+    certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
+    return Finding(
+        rule=ADMISSIBLE,
+        outcome=outcome,
+        certainty=certainty,
+        safety=safety,
+        evidence=BothWays(left, right),
+    )
+
+
+def rational_map(left: Chain, right: Chain) -> str:
+    """Name of the theorem that gives a rational map, "" if there is none."""
+    named = theorem(left, right)
+    return named if named in RATIONAL else ""
+
+
+def real_factors(left: Chain, right: Chain) -> bool:
+    """Whether every real model of either canonical chain has a real equivalent in the other, by
+    real factors.
+    """
+    return always_real(left, right) and always_real(right, left)
+
+
+def needs_counts(left: Chain, right: Chain) -> bool:
+    """Whether the numbers of solutions may be asked for; undamped chains are settled by their
+    factors, as a rule.
+    """
+    return bool(left.damped or left.ground_dampers) and not rational_map(left, right)
+
+
+def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
+    """The orders in which a real model without real equivalents is looked for, the second one
+    only if the first has none.
+    """
+    if rational_map(left, right) or real_factors(left, right):
+        return ()
+    return tuple(sorted(((left, right), (right, left)), key=lambda pair: pair[0].indices))
+
+
+def real_finding(left: Chain, right: Chain, asked: Asked) -> Finding:
+    """Over real parameters, for pairs of canonical chains that are equal over C."""
+    named = rational_map(left, right)
+    if named:
+        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
+    if real_factors(left, right):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
+    found = _by_witnesses(left, right, asked)
+    return by_counts(asked.counted(left), asked.counted(right)) if found is None else found
+
+
+def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
+    """An open set of real models without real equivalents, and positive ones with a positive
+    equivalent.
+    """
+    pairs = witness_ways(left, right)
+    found = ((given is left, asked.lacking(given, other)) for given, other in pairs)
+    left_given, without = next((x for x in found if x[1]), (False, ()))
+    for given, other in pairs if without else ():
+        with_one = asked.positive(given, other)
+        if with_one.certainty and with_one.share in (Share.ALWAYS, Share.SOMETIMES):
+            evidence = RealWitnesses(left_given, without, given is left, with_one)
+            certainty, safety = weakest(
+                (Certainty.PROVEN, 0), (with_one.certainty, with_one.safety)
+            )
+            return Finding(
+                rule=ADMISSIBLE,
+                outcome=Outcome.SOMETIMES,
+                certainty=certainty,
+                safety=safety,
+                evidence=evidence,
+            )
+    return None
+
+
+def by_counts(left: Identifiability, right: Identifiability) -> Finding:
+    """As sure as both numbers are."""
+    certainty, safety = weakest(left.count_grade, right.count_grade)
+    if certainty is not Certainty.NUMERICAL and all(_is_odd(x) for x in (left, right)):
+        return Finding(
+            rule=ADMISSIBLE,
+            outcome=Outcome.HOLDS,
+            certainty=certainty,
+            safety=safety,
+            evidence=OddFibres(left.least, right.least),
+        )
+    return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_REAL)
+
+
+def resting_on(finding: Finding, equal: Grade, why: Evidence | None = None) -> Finding:
+    """The finding on admissible parameters, which may rest on that over complex ones, so sure, and
+    on its evidence.
+
+    Odd fibres presuppose that the images are equal over C. A renaming takes real and positive
+    parameters to such ones, whatever the kinds of the two chains: it decides where nothing else
+    does.
+    """
+    if finding.outcome is Outcome.ABANDONED and isinstance(why, Renaming):
+        return Finding(ADMISSIBLE, Outcome.HOLDS, *equal, evidence=why)
+    if not isinstance(finding.evidence, OddFibres):
+        return finding
+    certainty, safety = weakest((finding.certainty, finding.safety), equal)
+    return replace(finding, certainty=certainty, safety=safety)
+
+
+def _is_odd(found: Identifiability) -> bool:
+    return found.least == found.most and found.least % 2 == 1

@@ -1,0 +1,106 @@
+"""What the start page's "Describe your machine" knows: the models' indices, what is not told
+apart, and the parts of drawings.
+
+What is told apart is told over positive parameters.
+
+A description is any chain under (36) and (37), so one that breaks (38) too: the page finds its
+model by the symmetries that (38) breaks (mirrored free row, force and sensor exchanged). Every
+layer of a drawing depends on the gap, one port, or one element and whether there are dampers,
+never on the number of masses: so each is held once, under a name that the page's script can spell.
+"""
+
+from collections.abc import Iterable, Iterator
+from itertools import product
+
+from disting.catalogs import Catalog
+from disting.model.chain import Chain
+from disting.model.constraints import Indices, violated
+from disting.report.damper_drawing import Part
+from disting.report.domains import one_sided
+from disting.report.drawing import draw
+from disting.report.model import folder_of
+from disting.report.scene import Layer
+from disting.report.words import short_title
+from disting.verdict import Relation
+
+
+def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:
+    """Every chain under (36) and (37), in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
+
+    >>> len(list(descriptions(3, damped=True)))
+    17
+    """
+    for gap in range(n_masses):
+        low, high = range(gap + 1), range(gap + 1, n_masses + 1)
+        for ports in product(low, high, low, high):
+            indices = Indices(n_masses, gap, *ports)
+            if not any(violated(indices, (36, 37))):
+                yield Chain(*indices, damped=damped)
+
+
+def parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
+    """The layers of all descriptions' drawings, each once."""
+    chains = (chain for c in catalogs for chain in descriptions(c.n_masses, damped=c.damped))
+    named = {part_name(chain, layer): layer for chain in chains for layer in draw(chain).layers}
+    return tuple(Part(name, layer) for name, layer in named.items())
+
+
+def part_name(chain: Chain, layer: Layer) -> str:
+    """Name of a layer's part: what the layer shows, and what its place depends on.
+
+    >>> two = Chain(2, damped=True)
+    >>> [part_name(two, layer) for layer in draw(two).layers][-4:]
+    ['part-d12', 'part-gap-0', 'part-force-0-1', 'part-sensor-0-1']
+    """
+    depends = {
+        "ground": (int(chain.gap > 0),),
+        "gap": (chain.gap,),
+        "force": (chain.act_minus, chain.act_plus),
+        "sensor": (chain.meas_minus, chain.meas_plus),
+    }
+    # a spring makes room for the damper below it
+    above = ("damped",) * (chain.damped and layer.name.startswith("k"))
+    return "-".join(map(str, ("part", layer.name, *depends.get(layer.name, ()), *above)))
+
+
+def machines(catalogs: Iterable[Catalog]) -> list[dict[str, object]]:
+    """Of each catalogue: its models' five indices in order, groups, what depends on the values,
+    how many verdicts are open.
+    """
+    return [_machine(c) for c in catalogs]
+
+
+def _machine(c: Catalog) -> dict[str, object]:
+    scene = draw(c.family[1])
+    return {
+        "name": c.name,
+        "title": short_title(c),
+        "folder": folder_of(c),
+        "masses": c.n_masses,
+        "damped": c.damped,
+        "size": [scene.width, scene.height],
+        "models": [chain.indices[1:] for chain in c.family],
+        "groups": c.classes(),
+        "depends": _depending(c),
+        "open": _undecided(c),
+    }
+
+
+def _depending(c: Catalog) -> dict[int, list[int]]:
+    """For each model, those that have equivalents of some of its positive parameters, or the
+    reverse, but not of all.
+    """
+    pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
+    pairs += [(one.given, one.other) for one in one_sided(c)]
+    return {
+        number: sorted(other for given, other in pairs if given == number)
+        for number in sorted({p for p, _ in pairs})
+    }
+
+
+def _undecided(c: Catalog) -> dict[int, int]:
+    """Number of undecided pairs of each model that has any."""
+    numbers = range(1, len(c.family) + 1)
+    pairs = [(i, j) for j in numbers for i in range(1, j) if c.relation(i, j) is Relation.UNDECIDED]
+    touched = [number for pair in pairs for number in pair]
+    return {number: touched.count(number) for number in sorted(set(touched))}

@@ -1,0 +1,263 @@
+"""A selection as one HTML page that needs nothing else: the result first, then why, then how
+sure.
+"""
+
+from collections.abc import Sequence
+
+import disting
+from disting.fit.alternatives import Alternative
+from disting.fit.explained import LARGEST
+from disting.fit.judged import Candidate
+from disting.fit.modes import Result
+from disting.fit.select import Selection
+from disting.fit.telling import first_lines, suspicions
+from disting.measurement import FrequencyResponse
+from disting.report.drawing import draw
+from disting.report.environment import render
+from disting.report.fit.convergence import hits, hits_in_words
+from disting.report.fit.criteria import limits, nearest, weakest
+from disting.report.fit.not_excluded import drawing, shown_set
+from disting.report.fit.onward import Site, next_steps
+from disting.report.fit.residuals import bands_in_words
+from disting.report.fit.style import Drawn
+from disting.report.fit.table_rows import parameter_rows, result_row
+from disting.report.fit.words import (
+    cost_in_words,
+    fit_in_words,
+    name,
+    percent,
+    readable,
+)
+from disting.report.words import listed, plural
+from disting.verdict import Relation
+
+FIRST = 30  # rows of candidates that are shown at once
+FOLDED = 4  # equivalents of one structure that are shown at once
+NEAREST = 5  # candidates that are named where none is admissible
+SAME = (
+    "Every positive model of the selected structure is a positive model of these, and the reverse."
+    " No data with this force and sensor tell them apart; another place for the sensor may:"
+)
+SOME = (
+    "These have the behaviour of the selected structure for some positive parameters and not for"
+    " others:"
+)
+OPEN = (
+    "Whether these have the behaviour of the selected structure with positive parameters, within"
+    " the limits, is not known:"
+)
+INTRODUCTIONS = {
+    Relation.INDISTINGUISHABLE: SAME,
+    Relation.SOMETIMES: SOME,
+    Relation.UNDECIDED: OPEN,
+}
+CERTAIN = 2  # starts that reach the best cost, at least
+
+
+def fit_page(
+    selection: Selection,
+    results: Sequence[Result],
+    figures: Sequence[Drawn],
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+    site: Site | None = None,
+) -> str:
+    """HTML of a selection; `results` and `figures` are those of the described candidate, Bode
+    diagram and residuals first.
+
+    `site`: where the pages of the catalogues lie, to which the structures are linked.
+    """
+    candidate = selection.described
+    return render(
+        "fit.html",
+        selection=selection,
+        candidate=candidate,
+        title=name(candidate.chain),
+        drawing=drawing(candidate.chain),
+        description=draw(candidate.chain).title,
+        results=[result_row(r, train) for r in results],
+        parameters=parameter_rows(candidate, selection.task, train),
+        response=[*zip(figures[:2], bands_in_words(selection, train, test), strict=False)],
+        fitted=fit_in_words(selection, train, test),
+        figures=figures[2:],
+        limits=limits(candidate, selection.thresholds),
+        limits_of=lambda c: limits(c, selection.thresholds),
+        weakest=weakest(candidate),
+        nearest=nearest(selection)[:NEAREST],
+        alternatives=alternatives(selection),
+        others=rivals(selection),
+        reasoning=reasoning(selection),
+        measured="J test" if test is not None else "J cross-validated",
+        cost=cost_in_words(selection.task.cost),
+        data=[("Training", train)] + ([("Test", test)] if test is not None else []),
+        choices=choices(selection),
+        first_lines=first_lines(selection),
+        suspicions=suspicions(selection),
+        steps=next_steps(selection),
+        members=shown_set(selection, train, site),
+        folded=FOLDED,
+        first=FIRST,
+        name=name,
+        readable=readable,
+        percent=percent,
+        plural=plural,
+    )
+
+
+def reasoning(selection: Selection) -> list[tuple[str, str]]:
+    """Keyword and one sentence each: how the cost was validated, what noise may do, why this
+    one, how safe the optimum is.
+    """
+    typical = selection.repeatability.typical
+    rows = [
+        ("Validation", _validation(selection)),
+        (
+            "Repeatability",
+            (
+                f"Amplitude and phase of a line scatter by about {percent(typical)} and"
+                f" {readable(typical, 2)} rad, known from {selection.repeatability.source}."
+            ),
+        ),
+        ("Margin", _margin(selection)),
+        ("Akaike weights", _akaike(selection)),
+        ("Starts", _starts(selection.described)),
+        ("Scatter", _scatter(selection)),
+        (
+            "Standard errors",
+            (
+                "They follow from the scatter of the lines; where residuals are larger, or those of"
+                " neighbouring lines hang together, that counts as an error of the model and widens"
+                " them."
+            ),
+        ),
+    ]
+    return [(keyword, sentence) for keyword, sentence in rows if sentence]
+
+
+def alternatives(selection: Selection) -> list[tuple[str, list[tuple[str, str]]]]:
+    """What the same data can come from, and what is not decided: an introduction, then names
+    and reasons.
+    """
+    return [
+        (
+            introduction,
+            [
+                (name(a.chain), _reason(a, selection))
+                for a in selection.alternatives
+                if a.relation is relation
+            ],
+        )
+        for relation, introduction in INTRODUCTIONS.items()
+    ]
+
+
+def _reason(found: Alternative, selection: Selection) -> str:
+    """The verdict's sentence with short names; the longer one first, of which the other may be
+    the beginning.
+    """
+    sentence, chains = found.sentence, [found.chain, selection.described.chain]
+    for chain in sorted(chains, key=lambda c: -len(str(c))):
+        sentence = sentence.replace(str(chain), name(chain))
+    return sentence
+
+
+def rivals(selection: Selection) -> int:
+    """Number of other candidates with as many masses, fitted or not."""
+    chains = [*(c.chain for c in selection.candidates), *selection.same_as]
+    return sum(c.n_masses == selection.described.chain.n_masses for c in chains) - 1
+
+
+def _validation(selection: Selection) -> str:
+    if selection.test is not selection.task.cost.measured:
+        return "The cost that decides is measured on test data, which no fit has seen."
+    return (
+        f"The cost that decides comes from {selection.validation}: each line is predicted by a fit"
+        " without it."
+    )
+
+
+def _margin(selection: Selection) -> str:
+    """Why the selected candidate and not the one with the lowest cost."""
+    chosen = selection.selected
+    if chosen is None:
+        return ""
+    excluded, best = (
+        _excluded(selection, chosen),
+        next(c for c in selection.candidates if c.admissible),
+    )
+    if best is chosen:
+        return f"The selected candidate has the lowest cost of all admissible ones.{excluded}"
+    fewer = plural(best.n_parameters - chosen.n_parameters, "parameter")
+    return (
+        f"{name(best.chain)} has the lowest cost of all admissible ones, {readable(best.j_test)};"
+        f" the selected candidate has {fewer} fewer and loses"
+        f" {readable(chosen.j_test - best.j_test)}, less than the {readable(selection.margin)} that"
+        f" noise alone may make (two standard deviations of the difference).{excluded}"
+    )
+
+
+def _scatter(selection: Selection) -> str:
+    """What the absolute check was made with."""
+    said = selection.explanation
+    return (
+        f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}."
+        f" Measured by it, chi2 per line is {readable(said.chi2)}: 1 is noise alone, above"
+        f" {readable(LARGEST)} the data are not explained."
+    )
+
+
+def _excluded(selection: Selection, chosen: Candidate) -> str:
+    """How many excluded candidates fit better, and how much: far lower costs call for other
+    thresholds or candidates.
+    """
+    lower = [
+        c.j_test for c in selection.candidates if not c.admissible and c.j_test < chosen.j_test
+    ]
+    if not lower:
+        return ""
+    reach = f"{plural(len(lower), 'excluded candidate')} reach{'es' * (len(lower) == 1)}"
+    return (
+        f" {reach} a lower one, down to {readable(min(lower))}, by parameters that these data do"
+        " not determine."
+    )
+
+
+def _akaike(selection: Selection) -> str:
+    if selection.selected is None:
+        return ""
+    heaviest = max(selection.candidates, key=lambda c: c.akaike_weight)
+    said = (
+        "They compare the admissible candidates on the training data alone, as if the residuals"
+        " were independent noise"
+    )
+    if heaviest is selection.selected:
+        return f"{said}; the selected candidate has the largest."
+    largest = readable(heaviest.akaike_weight, 2)
+    return (
+        f"{said}; {name(heaviest.chain)} has the largest ({largest}), but the validation decides."
+    )
+
+
+def _starts(candidate: Candidate) -> str:
+    """Hit rate, with a warning where the optimum was reached from hardly any start."""
+    rare = " Reached so rarely, it may not be the lowest." if hits(candidate) < CERTAIN else ""
+    return f"{hits_in_words(candidate)} after the rough search.{rare}"
+
+
+def choices(selection: Selection) -> list[tuple[str, str]]:
+    """What was set, for the foot of the page."""
+    task = selection.task
+    bounds = [
+        f"{n} {readable(low)}..{readable(high)}" for n, (low, high) in sorted(task.bounds.items())
+    ]
+    fixed = [f"{n} = {readable(value, 6)}" for n, value in sorted(task.fixed.items())]
+    rows = [
+        ("Cost", f"J adds {cost_in_words(task.cost)}"),
+        ("Weights of lines", "equal" if task.cost.lines is None else "one for each line"),
+        ("Sign of the sensor", f"{task.sign:+d}".replace("-", "−")),
+        ("Bounds", listed(bounds) or "none"),
+        ("Fixed", listed(fixed) or "none"),
+        ("Seed", task.seed),
+        ("disting", disting.__version__),
+    ]
+    return rows

@@ -1,0 +1,6 @@
+"""What is kept between runs: the store, the digest of the code that its answers depend on, and
+workers.
+"""
+
+from disting.store.store import CacheWarning as CacheWarning
+from disting.store.store import Store as Store

@@ -1,0 +1,242 @@
+"""A chain as one side of a comparison: its profiles on demand, its colouring for renamings, and the
+questions about pairs, each computed once.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.sampling import prime
+from disting.behaviour.expanded import is_renaming
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.sample import Representation, sample
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding_json import finding_from_json, finding_to_json
+from disting.conditions.rule import EXACT
+from disting.evidence.conditions import Renaming
+from disting.evidence.kinds import Evidence
+from disting.evidence.positive import PositiveFinding, Values
+from disting.model.chain import Chain
+from disting.model.domain import Domain
+from disting.model.question import Answerer, Question, computed
+from disting.model.settings import Settings
+from disting.model.structure import Structure
+from disting.model.symmetry import Form, canonical
+from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
+from disting.questions.inclusion import (
+    CLOSURE,
+    IDEALS,
+    IMAGE,
+    Inclusions,
+    asked_closure,
+    asked_image,
+    by_rank,
+    implied_image,
+    inclusions,
+    joined,
+    needs_ideals,
+    quick_closure,
+)
+from disting.questions.same.exact import exact_finding, mirrored, resting_on_ranks
+from disting.questions.same.real_and_positive import (
+    LACKING,
+    POSITIVELY,
+    Asked,
+    needs_counts,
+    positive_ways,
+    real_finding,
+    witness_ways,
+)
+from disting.verdict.compared import Ask
+
+EXACTLY = Question("exact decisions", exact_finding, finding_to_json, finding_from_json)
+Profiles = Callable[[Structure, Representation, int, Settings], Profile]
+Pair = tuple["ComparedChain", "ComparedChain"]
+
+
+@dataclass(frozen=True)
+class ComparedChain:
+    """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both."""
+
+    name: str
+    chain: Chain
+    settings: Settings = field(default_factory=Settings)
+    source: Profiles = profile
+    answerer: Answerer = computed
+    _known: dict[tuple[Representation, int], Profile] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+
+    def profile(self, representation: Representation, count: int) -> Profile:
+        """Profile of the canonical form, which all symmetric chains share."""
+        if (representation, count) not in self._known:
+            found = self.source(self.profiled, representation, count, self.settings)
+            self._known[representation, count] = found
+        return self._known[representation, count]
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return self.chain.parameters
+
+    @property
+    def structure(self) -> Structure:
+        """Masses, springs and dampers."""
+        return self.chain.structure
+
+    @property
+    def n_states(self) -> int:
+        """Order of the transfer function."""
+        return self.chain.structure.n_states
+
+    @property
+    def content(self) -> tuple[str, ...]:
+        """All that verdicts on this chain depend on."""
+        return self.name, repr(self.chain)
+
+    @property
+    def profiled(self) -> Structure:
+        """The canonical structure."""
+        return self.canonical.chain.structure
+
+    @property
+    def rank(self) -> int:
+        """Number of determinable parameters."""
+        return self.profile(Representation.TF, 0).rank
+
+    @cached_property
+    def canonical(self) -> Form:
+        """Canonical form under the symmetries of the class."""
+        return canonical(self.chain)
+
+    @cached_property
+    def colouring(self) -> Colouring:
+        """Stable colours of the parameters in the transfer-function coefficients."""
+        return colouring(self.columns, ("",) * len(self.chain.parameters))
+
+    def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
+        """Values and Jacobian columns of the transfer-function coefficients."""
+        seen = sample(self.chain.structure, Representation.TF, 0, point, prime("renaming"))
+        return seen.values, list(zip(*seen.rows, strict=True))
+
+    def symmetry_with(self, other: "ComparedChain") -> Renaming | None:
+        """Left to the common canonical form, then back to the right model."""
+        if self.canonical.chain != other.canonical.chain:
+            return None
+        back = {there: here for here, there in other.canonical.renaming.items()}
+        pairs = tuple((p, back[self.canonical.renaming[p]]) for p in self.chain.parameters)
+        used = set(self.canonical.symmetries) ^ set(other.canonical.symmetries)
+        return Renaming(pairs, tuple(sorted(used)))
+
+    def is_renamed(self, other: "ComparedChain", renaming: dict[str, str]) -> bool:
+        """Whether renaming the parameters turns this transfer function into the other: exact."""
+        return is_renaming(self.chain.structure, other.chain.structure, renaming)
+
+    def exact(self, other: "ComparedChain") -> Finding:
+        """The exact decision on the canonical forms of both, for equal ranks; the pair's order
+        does not matter.
+        """
+        if self.rank != other.rank:
+            return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
+        first, second = self.in_order(other)
+        found = self.answerer(EXACTLY, (first, second), self.settings)
+        found = found if first == self.canonical.chain else mirrored(found)
+        return resting_on_ranks(found, *(s.profile(Representation.TF, 0) for s in (self, other)))
+
+    def admissible(
+        self, other: "ComparedChain", domain: Domain, why: Evidence | None = None
+    ) -> Finding:
+        """Whether two models that are the same over complex parameters are so over this domain."""
+        if domain is Domain.POSITIVE:
+            return positive_ways(self.positive(other), other.positive(self))
+        asked = Asked(self._positive, self._lacking, self._identifiability)
+        return real_finding(self.canonical.chain, other.canonical.chain, asked)
+
+    def inclusions(self, other: "ComparedChain") -> Inclusions:
+        """Both statements on two chains of unequal rank."""
+        return inclusions(self, other)
+
+    def tells_shares(self, other: "ComparedChain") -> bool:
+        """Whether both have as many masses."""
+        return self.chain.n_masses == other.chain.n_masses
+
+    def positive(self, other: "ComparedChain") -> PositiveFinding:
+        """Which positive models of the one have a positive equivalent in the other; evidence in
+        canonical names.
+        """
+        return self._positive(self.canonical.chain, other.canonical.chain)
+
+    def in_order(self, other: "ComparedChain") -> tuple[Chain, Chain]:
+        """The canonical forms of both, in an order of their own, so that a pair is asked about
+        once.
+        """
+        here, there = sorted(
+            (self.canonical.chain, other.canonical.chain),
+            key=lambda c: (c.indices, c.ground_dampers, c.lag),
+        )
+        return here, there
+
+    @staticmethod
+    def prepare_exact(pairs: Sequence[Pair], ask: Ask) -> None:
+        """Have the exact decisions on pairs of equal rank computed."""
+        ask(EXACTLY, [a.in_order(b) for a, b in pairs if a.rank == b.rank])
+
+    @staticmethod
+    def prepare_positive(ways: Sequence[Pair], ask: Ask) -> None:
+        """Have the positive equivalents of the first ones of each pair looked for."""
+        ask(POSITIVELY, [_canonical(*way) for way in ways])
+
+    @staticmethod
+    def prepare_admissible(pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
+        """Over real parameters: counts of solutions, and real models without real equivalents,
+        the second way where the first finds none.
+        """
+        if domain is not Domain.REAL:
+            return
+        counted = [pair for pair in pairs if needs_counts(*_canonical(*pair))]
+        ask(IDENTIFIABILITY, [(chain,) for pair in counted for chain in _canonical(*pair)])
+        ways = [(pair[0], witness_ways(*_canonical(*pair))) for pair in pairs]
+        for k in range(2):
+            asked = [(s, way[k]) for s, way in ways if len(way) > k]
+            ask(LACKING, [chains for _, chains in asked])
+            none = {chains for s, chains in asked if not s.answerer(LACKING, chains, s.settings)}
+            ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
+
+    @staticmethod
+    def all_inclusions(pairs: Sequence[Pair], ask: Ask) -> list[Inclusions]:
+        """What profiles settle at once, then what has to be asked; each pair of canonical forms
+        is looked at once.
+        """
+        first = {_canonical(*pair): pair for pair in reversed(pairs)}
+        quick = {key: quick_closure(*pair) for key, pair in first.items()}
+        ask(CLOSURE, [by_rank(*first[key]) for key, found in quick.items() if found is None])
+        closures = {
+            key: asked_closure(*first[key]) if found is None else found
+            for key, found in quick.items()
+        }
+        implied = {key: implied_image(*first[key], closures[key]) for key in first}
+        ask(IMAGE, [by_rank(*first[key]) for key, found in implied.items() if found is None])
+        images = {
+            key: asked_image(*first[key]) if found is None else found
+            for key, found in implied.items()
+        }
+        ask(
+            IDEALS,
+            [by_rank(*first[key]) for key in first if needs_ideals(images[key], closures[key])],
+        )
+        found = {key: joined(*first[key], images[key], closures[key]) for key in first}
+        return [found[_canonical(*pair)] for pair in pairs]
+
+    def _positive(self, given: Chain, other: Chain) -> PositiveFinding:
+        return self.answerer(POSITIVELY, (given, other), self.settings)
+
+    def _lacking(self, given: Chain, other: Chain) -> Values:
+        return self.answerer(LACKING, (given, other), self.settings)
+
+    def _identifiability(self, canonical_chain: Chain) -> Identifiability:
+        return self.answerer(IDENTIFIABILITY, (canonical_chain,), self.settings)
+
+
+def _canonical(left: ComparedChain, right: ComparedChain) -> tuple[Chain, Chain]:
+    return left.canonical.chain, right.canonical.chain

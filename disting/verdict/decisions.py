@@ -1,0 +1,174 @@
+"""What is decided of all pairs of a list of models, as numbers a pair. Evidence is made when
+somebody asks for a pair.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.algebra.certainty import Certainty, Grade
+from disting.behaviour.profile import Profile
+from disting.behaviour.sample import Representation
+from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE, Stage
+from disting.conditions.table import NECESSARY, RULES
+from disting.evidence.positive import PositiveFinding
+from disting.model.chain import Chain
+from disting.questions.inclusion import Inclusion, Inclusions, Sense
+from disting.verdict.cascade import Step, decide, verdict_of
+from disting.verdict.chains import ComparedChain
+from disting.verdict.compared import Compared
+from disting.verdict.query import Query
+from disting.verdict.result import Relation, Verdict
+
+NAMES = ("", *RULES)  # what the numbers in `decided_by` stand for
+NUMBERS = {name: number for number, name in enumerate(NAMES)}
+GRADES = {c.rule.name: c for c in NECESSARY}
+STAGES = tuple(Stage)
+Numbers = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Decisions:
+    """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` STAGES.
+
+    `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs
+    whose bounded finding by a necessary condition was proven afterwards, `inclusions` the findings
+    on pairs of unequal rank. `shares[i, j]` tells, for i before or after j, which positive models
+    i have a positive equivalent j: of indistinguishable pairs both ways, of included models in the
+    ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that
+    were asked again over real or positive ones.
+    """
+
+    subjects: tuple[Compared, ...]
+    query: Query
+    decided_by: Numbers
+    representation: Numbers
+    steps: dict[tuple[int, int], Step] = field(default_factory=dict)
+    proven: frozenset[tuple[int, int]] = frozenset()
+    inclusions: dict[tuple[int, int], Inclusions] = field(default_factory=dict)
+    shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
+    equal: dict[tuple[int, int], Finding] = field(default_factory=dict)
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """The chains that were compared, none where they are general models."""
+        return tuple(s.chain for s in self.subjects if isinstance(s, ComparedChain))
+
+    @property
+    def sizes(self) -> list[int]:
+        """Numbers of masses of the chains."""
+        return [chain.n_masses for chain in self.chains]
+
+    def profile(self, representation: Stage, i: int) -> Profile:
+        """The profile by which pairs of model i were decided in a representation."""
+        r = Representation(representation)
+        return self.subjects[i].profile(r, 0 if r is Representation.TF else self._markov)
+
+    @cached_property
+    def _markov(self) -> int:
+        return markov_count(Representation.MARKOV, self.query, self.subjects)
+
+    def relation(self, i: int, j: int) -> Relation:
+        """Relation of subjects i and j (counted from 0, in any order)."""
+        i, j = min(i, j), max(i, j)
+        if not self.decided_by[i, j]:
+            return Relation.UNDECIDED
+        return self.steps[i, j].relation if (i, j) in self.steps else Relation.DISTINGUISHABLE
+
+    def rule(self, i: int, j: int) -> str:
+        """Name of the rule that decides subjects i and j, "" if none does."""
+        return NAMES[int(self.decided_by[min(i, j), max(i, j)])]
+
+    def verdict(self, i: int, j: int) -> Verdict:
+        """The verdict with its evidence; only the deciding condition is run."""
+        i, j = min(i, j), max(i, j)
+        left, right = self.subjects[i], self.subjects[j]
+        if (i, j) in self.steps:
+            return self._included(
+                i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain)
+            )
+        rule, where = self.rule(i, j), STAGES[self.representation[i, j]]
+        if not rule:
+            return decide(left, right, self.query)
+        finding = GRADES[rule].check(self.profile(where, i), self.profile(where, j))
+        if (i, j) in self.proven:
+            finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
+        return self._included(
+            i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain)
+        )
+
+    def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
+        image, closure = (self.inclusion(i, j, sense) for sense in Sense)
+        here, there = self.shares.get((i, j)), self.shares.get((j, i))
+        found = self.inclusions.get((i, j))
+        return replace(
+            verdict,
+            image=image,
+            closure=closure,
+            inclusions=found,
+            left_positive=here,
+            right_positive=there,
+        )
+
+    def inclusion(self, i: int, j: int, sense: Sense) -> Inclusion:
+        """Whose generic models have equivalents (IMAGE), or are limits of models (CLOSURE), on the
+        other side, i < j.
+
+        Not told by the paper's views, nor where it is not asked.
+        """
+        if not self.query.tells_inclusion:
+            return Inclusion.UNKNOWN
+        if (i, j) in self.inclusions:
+            found = self.inclusions[i, j]
+            return (found.image if sense is Sense.IMAGE else found.closure).inclusion
+        if {(i, j), (j, i)} <= self.shares.keys():
+            return Inclusion.EQUAL
+        step = self.steps.get((i, j))
+        if step and (
+            step.finding.rule is ADMISSIBLE or step.relation is Relation.INDISTINGUISHABLE
+        ):
+            return Inclusion.EQUAL
+        return Inclusion.NEITHER if self.decided_by[i, j] else Inclusion.UNKNOWN
+
+    def grades(self) -> Iterator[tuple[int, int, str, str, str, int]]:
+        """Yield (i, j, rule, representation, certainty, safety) of all pairs, without evidence."""
+        profiles: dict[tuple[int, int], Profile] = {}
+
+        def profile(where: int, i: int) -> Profile:
+            """The profile of model i in the representation of this number, looked up once."""
+            if (where, i) not in profiles:
+                profiles[where, i] = self.profile(STAGES[where], i)
+            return profiles[where, i]
+
+        for i, j in combinations(range(len(self.subjects)), 2):
+            rule, where = self.rule(i, j), int(self.representation[i, j])
+            grade: Grade | tuple[str, int] = ("", 0)
+            if (i, j) in self.proven:
+                grade = (Certainty.PROVEN, 0)
+            elif (i, j) in self.steps:
+                grade = (self.steps[i, j].finding.certainty, self.steps[i, j].finding.safety)
+            elif rule:
+                grade = GRADES[rule].grade(profile(where, i), profile(where, j))
+            yield i, j, rule, STAGES[where], str(grade[0]), grade[1]
+
+    def counts(self) -> dict[str, int]:
+        """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
+        undecided ones.
+        """
+        found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=1)
+        return {NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
+
+
+def markov_count(r: Representation, query: Query, subjects: Sequence[Compared]) -> int:
+    """Markov parameters after G_0: as asked, or twice the number of states of the largest
+    model, enough for every pair.
+    """
+    if r is Representation.TF or not subjects:
+        return 0
+    largest = max(subjects, key=lambda s: s.n_states)
+    return query.count(largest, largest)

@@ -1,0 +1,276 @@
+"""Settings and cache around the pure functions: chain -> profile, pair -> verdict, list ->
+decisions.
+
+Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which
+code. So nothing is ever invalidated; what changes has another key. Every finished profile is
+stored at once, so a run that is killed resumes there.
+"""
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.profile_json import profile_from_json, profile_to_json
+from disting.behaviour.sample import Representation
+from disting.general import ComparedModel, Model
+from disting.general.profiles import profile as general_profile
+from disting.model.chain import Chain
+from disting.model.question import Models, Question
+from disting.model.settings import Settings
+from disting.model.symmetry import canonical
+from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
+from disting.store.code import digest
+from disting.store.store import Store
+from disting.verdict.cascade import audit, decide
+from disting.verdict.chains import ComparedChain
+from disting.verdict.compared import Compared, Profiled
+from disting.verdict.deciding import decisions
+from disting.verdict.decisions import Decisions
+from disting.verdict.query import Query
+from disting.verdict.result import Verdict
+
+T = TypeVar("T")
+Progress = Callable[[str, int, int], None]
+"""Told what is done, how much of it is finished, and how much there is."""
+# structures a task: large enough to be worth a message, small enough that a kill loses little
+BATCH = 8
+
+
+def silent(what: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+@dataclass
+class Engine:
+    """Compares models with a store behind it; what is computed once in a process is kept in
+    `memo` and `answers`.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    store: Store = field(default_factory=lambda: Store.open(""))
+    memo: dict[str, Profile] = field(default_factory=dict)
+    answers: dict[str, Any] = field(default_factory=dict)
+
+    def subject(self, name: str, chain: Chain) -> ComparedChain:
+        """A side of a comparison whose profiles come from this engine."""
+        return ComparedChain(
+            name=name,
+            chain=chain,
+            settings=self.settings,
+            source=self.profile,
+            answerer=self.answer,
+        )
+
+    def general_subject(self, name: str, model: Model) -> ComparedModel:
+        """The same for a general model."""
+        return ComparedModel(
+            name=name,
+            model=model,
+            settings=self.settings,
+            source=self.profile,
+            answerer=self.answer,
+        )
+
+    def profile(
+        self, what: Profiled, representation: Representation, count: int, settings: Settings
+    ) -> Profile:
+        """The profile, from memory, from the store, or computed and stored."""
+        key = profile_key(what, representation, count, settings)
+        if key not in self.memo:
+            found = self._stored([key])
+            if key not in found:
+                found[key] = profile_of(what, representation, count, settings)
+                self.store.put_many({key: profile_to_json(found[key])})
+            self.memo[key] = found[key]
+        return self.memo[key]
+
+    def answer(self, question: Question[T], models: Models, settings: Settings) -> T:
+        """The answer, from memory, from the store, or computed and stored."""
+        key = question_key(question, models, settings)
+        if key not in self.answers:
+            self.answer_all(question, [models])
+        found: T = self.answers[key]
+        return found
+
+    def remember(self, question: Question[T], models: Models, answer: T) -> None:
+        """Take over an answer that is known already, such as a catalogue's; it is not stored."""
+        self.answers[question_key(question, models, self.settings)] = answer
+
+    def verdict(
+        self, left: Compared, right: Compared, query: Query, *, audited: bool = False
+    ) -> Verdict:
+        """The verdict on a pair, from the store or decided and stored; an audited one is always
+        computed.
+        """
+        if audited:
+            return audit(left, right, query)
+        content = [*left.content, *right.content, repr(query), self.settings.to_dict()]
+        key = _key("verdict", *map(str, content))
+        for text in self.store.get_many([key]).values():
+            return Verdict.from_dict(json.loads(text))
+        decided = decide(left, right, query)
+        self.store.put_many({key: json.dumps(decided.to_dict())})
+        return decided
+
+    def decisions(
+        self,
+        subjects: Sequence[Compared],
+        query: Query,
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> Decisions:
+        """All pairs of models, of one size or several; the executor's workers compute what is
+        asked for.
+        """
+
+        def prefetch(wanted: Sequence[Compared], r: Representation, count: int) -> None:
+            """Have the profiles of these models computed, many at a time."""
+            self.prefetch({s.profiled for s in wanted}, r, count, executor, progress)
+
+        def ask(question: Question[Any], pairs: Sequence[Models]) -> None:
+            """Have the question answered for these pairs, many at a time."""
+            self.answer_all(question, pairs, executor=executor, progress=progress)
+
+        return decisions(subjects, query, prefetch, ask)
+
+    def profiles_of(
+        self,
+        chains: Iterable[Chain],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> list[Profile]:
+        """Transfer-function profiles of chains, in order."""
+        subjects = [self.subject("", chain) for chain in chains]
+        profiled: set[Profiled] = {s.profiled for s in subjects}
+        self.prefetch(profiled, Representation.TF, 0, executor, progress)
+        return [s.profile(Representation.TF, 0) for s in subjects]
+
+    def identifiabilities(
+        self,
+        chains: Sequence[Chain],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> list[Identifiability]:
+        """Identifiability of chains, in order; each canonical form is looked at once."""
+        formed = [(chain, canonical(chain)) for chain in chains]
+        self.answer_all(
+            IDENTIFIABILITY,
+            [(form.chain,) for _, form in formed],
+            executor=executor,
+            progress=progress,
+        )
+        return [
+            as_given(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain)
+            for chain, form in formed
+        ]
+
+    def prefetch(
+        self,
+        what: set[Profiled],
+        r: Representation,
+        count: int,
+        executor: Executor | None,
+        progress: Progress,
+    ) -> None:
+        """Bring the profiles of these models into memory: from the store, the rest computed,
+        each batch stored at once.
+        """
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=repr)}
+        self.memo |= self._stored([key for key in keys if key not in self.memo])
+        missing = [key for key in keys if key not in self.memo]
+        done = len(keys) - len(missing)
+        absent = [keys[k] for k in missing]
+        batches = [
+            (absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)
+        ]
+        for _, batch in mapped(compute, batches, executor):
+            texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
+            self.store.put_many(texts)
+            self.memo |= {key: profile_from_json(text) for key, text in texts.items()}
+            done += len(batch)
+            progress(f"{r.value} profiles", done, len(keys))
+
+    def answer_all(
+        self,
+        question: Question[Any],
+        asked: Sequence[Models],
+        *,
+        executor: Executor | None = None,
+        progress: Progress = silent,
+    ) -> None:
+        """Bring answers into memory, as `prefetch` does with profiles."""
+        keys = {question_key(question, models, self.settings): models for models in asked}
+        stored = self.store.get_many([key for key in keys if key not in self.answers])
+        self.answers |= {key: question.decode(text) for key, text in stored.items()}
+        missing = {key: models for key, models in keys.items() if key not in self.answers}
+        done = len(keys) - len(missing)
+        asked_for = {models: key for key, models in missing.items()}
+        tasks = [(question, models, self.settings) for models in asked_for]
+        for (_, models, _), text in mapped(compute_answer, tasks, executor):
+            key = asked_for[models]
+            self.store.put_many({key: text})
+            self.answers[key] = question.decode(text)
+            done += 1
+            progress(question.name, done, len(keys))
+
+    def _stored(self, keys: list[str]) -> dict[str, Profile]:
+        return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
+
+
+def profile_key(what: Profiled, r: Representation, count: int, settings: Settings) -> str:
+    """Content address of a profile."""
+    return _key("profile", repr(what), r.value, str(count), repr(settings))
+
+
+def question_key(question: Question[Any], models: Models, settings: Settings) -> str:
+    """Content address of an answer."""
+    return _key(question.name, *map(repr, models), repr(settings))
+
+
+def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:
+    """The profile of a chain's structure or of a general model."""
+    if isinstance(what, Model):
+        return general_profile(what, r, count, settings)
+    return profile(what, r, count, settings)
+
+
+def compute(
+    batch: Sequence[Profiled], r: Representation, count: int, settings: Settings
+) -> list[tuple[Profiled, str]]:
+    """A task for a worker: profiles as JSON text."""
+    return [(what, profile_to_json(profile_of(what, r, count, settings))) for what in batch]
+
+
+def compute_answer(question: Question[Any], models: Models, settings: Settings) -> str:
+    """A task for a worker: one answer as text."""
+    return question.encode(question.answer(*models, settings))
+
+
+def mapped(
+    function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
+) -> Iterator[tuple[tuple[Any, ...], T]]:
+    """Tasks with their results as they come, in any order, from the executor's workers or from
+    this process.
+    """
+    if executor is None:
+        yield from ((task, function(*task)) for task in tasks)
+        return
+    futures: dict[Future[T], tuple[Any, ...]] = {
+        executor.submit(function, *task): task for task in tasks
+    }
+    try:
+        yield from ((futures[future], future.result()) for future in as_completed(futures))
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _key(*content: str) -> str:
+    return hashlib.sha256("\0".join((digest(__name__), *content)).encode()).hexdigest()

@@ -1,0 +1,77 @@
+"""How surely everything that is said of a family holds together.
+
+The error bound of a pair is that of the pair alone. Pairs share the points and primes of their
+models, so a bound of all of them adds up what can go wrong, independent or not (union bound): a
+profile errs for all pairs of its model at once, so it counts once for each representation in which
+it decides; a bounded exact decision, inclusion or finding on positive equivalents counts by
+itself. Where inclusion is told, it rests on the order of the ranks: of unequal ranks the larger
+model does not lie in the smaller one, and of equal ranks distinguishable models lie neither in the
+other. So every rank that is not proven counts.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
+from disting.conditions.rule import Stage
+from disting.verdict.classes import Classes
+from disting.verdict.decisions import Decisions
+
+
+def family_safety(decided: Decisions) -> int:
+    """Largest b such that all statements on all pairs hold, but for a probability of 2**-b at
+    most; 0: all is proven.
+
+    `certainty.USELESS` where no bound is left.
+    """
+    return joint_safety(_safeties(decided))
+
+
+def classes_safety(found: Classes) -> int:
+    """The same for classes of models, from the number of statements alone: each is wrong with
+    2^-LEAST_SAFETY at most.
+
+    Three profiles a model (transfer function, Markov parameters, 1/G), as many links as models
+    beyond the first of each class, and one exact decision for each pair of classes that no column
+    tells apart.
+    """
+    first: dict[int, int] = {}
+    for i, group in enumerate(found.group):
+        first.setdefault(int(group), i)
+    columns = found.columns[list(first.values())]
+    together = np.ones((len(first), len(first)), bool)
+    for column in columns.T:
+        one, other = column[:, None], column[None, :]
+        together &= (one == other) | (one < 0) | (other < 0)
+    decisions = int(np.triu(together, 1).sum()) - len(found.open_groups)
+    return joint_safety([LEAST_SAFETY] * (3 * len(found) + len(found) - len(first) + decisions))
+
+
+def _safeties(decided: Decisions) -> Iterator[int]:
+    """Yield the bits of everything that rests on chance. Those of an exact decision count the
+    ranks it needs.
+    """
+    profiles = set[tuple[Stage, int]]()
+    for i, j, _, where, certainty, safety in decided.grades():
+        if certainty == Certainty.BOUNDED and (i, j) in decided.steps:
+            yield safety
+        elif certainty == Certainty.BOUNDED:
+            profiles |= {(Stage(where), i), (Stage(where), j)}
+    if decided.query.tells_inclusion:
+        profiles |= set(_uncertain_ranks(decided))
+    yield from (decided.profile(where, i).safety for where, i in profiles)
+    yield from (safety for safety in (f.safety for f in decided.equal.values()) if safety)
+    for both in decided.inclusions.values():
+        yield from (f.safety for f in dict.fromkeys((both.image, both.closure)) if f.safety)
+    yield from (share.safety for share in decided.shares.values() if share.safety)
+
+
+def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[Stage, int]]:
+    """Yield the models whose ranks are not proven, with the representation that tells them."""
+    where = Stage.TF
+    yield from (
+        (where, i)
+        for i in range(len(decided.subjects))
+        if not decided.profile(where, i).rank_proven
+    )

@@ -1,0 +1,183 @@
+"""Rows told apart by sharing out the numerator's roots: against plain SymPy, against models
+that are known to be the same.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+import sympy
+
+from disting import Family
+from disting.algebra.sampling import prime, residues
+from disting.catalogs.damper_files import damper_catalog
+from disting.conditions import Outcome
+from disting.fibres.ideals import chains_told_apart
+from disting.fibres.ideals.factored import factored, shared_fibre, values
+from disting.fibres.ideals.shares import _transposes, is_symmetric, shares_by_type
+from disting.model.chain import Chain
+from disting.model.row import rows_of
+from disting.model.settings import Settings
+from disting.model.symmetry import canonical
+from disting.questions.same.exact import exact_finding
+from disting.questions.same.verify import Witness
+
+S = sympy.Symbol("s")
+
+
+def model(name):
+    """A chain by its name, such as 5:59+b2."""
+    head, *dampers = name.split("+")
+    n, number = map(int, head.split(":"))
+    return canonical(
+        replace(Family(n, damped=True)[number], ground_dampers=tuple(int(b[1:]) for b in dampers))
+    ).chain
+
+
+def physical(structure, ends, numbers):
+    """Stiffness matrix of a row from its elements, by SymPy, and its elements by kind and place."""
+    first, last = ends
+    size, matrix, found = last - first + 1, sympy.zeros(last - first + 1), {}
+    for e, number in zip(structure.elements, numbers, strict=True):
+        if not first <= e.at + (e.kind in "kd") <= last:
+            continue
+        found[e.kind, e.at] = number
+        term = number * S ** {"m": 2, "d": 1, "b": 1, "k": 0}[e.kind]
+        nodes = [k - first for k in ((e.at, e.at + 1) if e.kind in "kd" else (e.at,)) if k >= first]
+        for i in nodes:
+            for j in nodes:
+                matrix[i, j] += term if i == j else -term
+    assert matrix.shape == (size, size)
+    return matrix, found
+
+
+def unknowns(row, found, ports):
+    """The map's unknowns from masses, springs and dampers, as its text says."""
+    return [unknown(name[0], int(name[1:]), found, ports) for name in row.parameters]
+
+
+def unknown(kind, i, found, ports):
+    """One of them."""
+    spring, damper = found.get(("k", i)), found.get(("d", i))
+    left, right = found.get(("m", i)), found.get(("m", i + 1))
+    if kind == "f":
+        return found["b", i] / left
+    if kind == "h":
+        return spring / damper
+    if kind == "x":
+        return damper / right
+    near = right if (left is None or i >= ports[1]) else left
+    if kind == "r":
+        return near / (left if near is right else right)
+    if kind == "u":
+        return spring / near
+    return (damper + (found.get(("b", i + 1), 0) if left is None else 0)) / near
+
+
+@pytest.mark.parametrize(
+    "name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"]
+)
+def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name):
+    structure = model(name).structure
+    numbers = [sympy.Rational(x, 7) for x in residues(name, len(structure.elements), 97)]
+    for place, ends in zip(rows_of(structure), structure.row_ends, strict=True):
+        matrix, found = physical(structure, ends, numbers)
+        ports = sorted(p for p in structure.ports if ends[0] <= p <= ends[1])
+        ports = (ports[0], ports[-1])
+        row = factored(place)
+        point = [*(Fraction(int(x.p), int(x.q)) for x in unknowns(row, found, ports)), Fraction(1)]
+
+        def at(polynomials, point=point):
+            total = 0
+            for power, p in enumerate(polynomials):
+                for e, c in p.to_dict().items():
+                    value = Fraction(int(c))
+                    for x, k in zip(point, e, strict=True):
+                        value *= x ** int(k)
+                    total += sympy.Rational(value.numerator, value.denominator) * S**power
+            return total
+
+        inverse = matrix.inv()[ports[0] - ends[0], ports[1] - ends[0]]
+        ratio = sympy.cancel(inverse * at(row.whole.denominator) / at(row.whole.numerator))
+        assert ratio.is_number
+        assert ratio > 0
+
+
+def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
+    row = factored(*rows_of(model("4:6+b1").structure))
+    modulus = prime("own share", 192)
+    for draw in range(200):
+        point = residues(f"own:{draw}", len(row.parameters), modulus)
+        at = values(row, point, modulus)
+        found = [[int(z) for z, _ in f.roots()] for f in (at.left, at.right)]
+        if [len(f) for f in found] == [2, 2]:
+            break
+    types = [
+        *((z, "joint") for z in at.joints),
+        *((z, kind) for kind, f in zip("lr", found, strict=True) for z in f),
+    ]
+    own = [
+        s
+        for s in shares_by_type(types, 1, 2)
+        if s.joints == at.joints and set(s.left) == set(found[0])
+    ]
+    assert len(own) == 1
+    count, equations = shared_fibre(at, row, own[0], modulus)
+    assert 0 < count < len(row.parameters)
+    assert not any(list(e) == [(0,) * count] for e in equations)
+
+
+def test_models_that_are_the_same_are_never_told_apart():
+    """All pairs of unequal canonical forms in a class of 3 masses with all sets of dampers."""
+    found, tried = damper_catalog(3, damped=True).found, 0
+    for members in found.classes():
+        forms = sorted({canonical(found.chains[i]).chain for i in members}, key=str)
+        for a, b in combinations(forms, 2):
+            tried += 1
+            assert chains_told_apart(a.structure, b.structure, "same") is None
+    assert tried == 58
+
+
+@pytest.mark.parametrize(
+    ("left", "right"), [("4:2+b1", "4:2+b2"), ("4:3+b1", "4:3+b2"), ("4:6+b1+b2", "4:2+b3+b4")]
+)
+def test_models_that_the_shipped_classes_tell_apart_are(left, right):
+    a, b = model(left), model(right)
+    told = chains_told_apart(a.structure, b.structure, "apart")
+    assert told is not None
+    assert told[1] >= 100
+    assert told[0].shares > 1
+
+
+@pytest.mark.parametrize(
+    ("left", "right"), [("5:59+b2", "5:59+b3"), ("5:15+b2", "5:15+b3"), ("5:60+b5", "5:65+b5")]
+)
+def test_five_masses_that_were_left_open_are_decided_by_the_part_that_differs(left, right):
+    a, b = model(left), model(right)
+    found = exact_finding(a, b, Settings())
+    assert found.outcome is Outcome.FAILS
+    assert found.safety >= 100
+    assert found.evidence.part in ("grounded", "free")
+    assert Witness().confirms(found.evidence, "fibre", a, b)
+    assert not Witness().confirms(replace(found.evidence, part="another"), "fibre", a, b)
+    assert not Witness().confirms(found.evidence, "fibre", a, a)
+
+
+def test_parts_are_not_compared_where_both_or_none_differ():
+    a, b = (Chain(4, 2, 1, 3, p, q, damped=True).structure for p, q in ((1, 3), (2, 4)))
+    assert chains_told_apart(a, b, "both") is None
+    assert chains_told_apart(a, a, "none") is None
+
+
+def test_a_power_that_is_a_transposition():
+    assert _transposes((2,), ())
+    assert _transposes((1, 2, 3), (3, 3, 1))
+    assert not _transposes((2, 2), ())
+    assert not _transposes((4,), ())
+    assert not _transposes((1, 2), (2,))
+
+
+def test_groups_of_rows_are_symmetric():
+    assert is_symmetric(factored(*rows_of(model("5:2+b1").structure)), "six roots")
+    assert is_symmetric(factored(*rows_of(model("5:8+b1").structure)), "two and two")
