@@ -32,6 +32,7 @@ NAMES = [
     *(
         "InputError",
         "Model",
+        "ModelList",
         "ModelRow",
         "Outcome",
         "Query",
@@ -54,7 +55,9 @@ NAMES = [
         "global_identifiability",
         "local_identifiability",
         "prove",
+        "read_models",
         "transfer_function",
+        "write_models",
     ),
 ]
 HEAVY = {

@@ -8,13 +8,13 @@ from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import query, reference
 from disting.cli.workers import engine_for
-from disting.equivalence import chain_of
 from disting.errors import InputError, listed
 from disting.evidence.real import BothWays
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Query, Relation, Verdict, View
 from disting.verdict.comparison import compare
