@@ -15,13 +15,12 @@ many independent ones as the rank are listed, the shortest first.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import islice, permutations
 
 from flint import fmpz_mpoly, nmod_mat
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
-from disting.general.cases import Case, Search, searched
+from disting.general.cases import Case, Search, orders, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
@@ -30,7 +29,6 @@ from disting.general.spelled import text_of
 from disting.model.domain import Domain
 from disting.model.settings import Settings
 
-ORDERS = 24  # in which unknowns are solved for
 SETTINGS = Settings()
 
 
@@ -103,7 +101,7 @@ class _Vector:
 def _best(ring: Orthant, model: Model) -> Search | None:
     """The search with the fewest equations left."""
     found: list[Search] = []
-    for order in islice(permutations(ring.unknowns), ORDERS):
+    for order in orders(ring.unknowns):
         try:
             found.append(searched(ring, model, model, order))
         except TooMuch:

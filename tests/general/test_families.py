@@ -1,11 +1,25 @@
 """Lists of general models through the one fold: classes, and a second run that computes nothing."""
 
 from concurrent.futures import Executor
+from itertools import combinations
 
 import pytest
 
-from disting import ContradictionError, Engine, Model, Query, Relation, Store, View, compare
+from disting import (
+    Chain,
+    ContradictionError,
+    Engine,
+    Family,
+    Model,
+    Query,
+    Relation,
+    Store,
+    View,
+    catalog,
+    compare,
+)
 from disting.general import ComparedModel
+from tests.oracles.plain_chains import plain_state_space
 
 ENTRIES = {
     "two leaks": ("k12", "(s + k12 + k01)*(s + k02)"),
@@ -64,3 +78,27 @@ def test_verdicts_that_contradict_a_class_are_refused():
     assert isinstance(found.subjects[0], ComparedModel)
     with pytest.raises(ContradictionError, match="two leaks and sum are one group"):
         found.classes()
+
+
+@pytest.mark.parametrize(
+    ("damped", "view"), [(False, View.EXACT), (True, View.EXACT), (True, View.POSITIVE)]
+)
+def test_chains_as_state_spaces_have_the_verdicts_of_the_catalogue(damped, view):
+    family, known, engine = Family(3, damped), catalog(3, damped=damped), Engine()
+    subjects = [
+        engine.general_subject(f"A{i}", Model.from_state_space(*plain_state_space(chain)))
+        for i, chain in enumerate(family, 1)
+    ]
+    found = engine.decisions(subjects, Query(view))
+    for low, high in combinations(range(1, len(family) + 1), 2):
+        relation = found.relation(low - 1, high - 1)
+        assert relation is known.relation(low, high, view) is not Relation.UNDECIDED
+
+
+def test_a_plain_state_space_is_the_chain():
+    for chain in (
+        Chain(3, 1, 1, 3, 1, 2, damped=True, ground_dampers=(1, 3)),
+        Chain(4, 2, 1, 3, 2, 4),
+        Chain(1),
+    ):
+        assert Model.from_state_space(*plain_state_space(chain)) == Model.from_chain(chain)
