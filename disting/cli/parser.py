@@ -84,6 +84,11 @@ def _sizes_or_file(text: str) -> range | Path:
     return Path(text) if text.endswith(".json") else _sizes(text)
 
 
+def _size_or_file(text: str) -> int | Path:
+    """One number of masses, or a file of models."""
+    return Path(text) if text.endswith(".json") else MASSES(text)
+
+
 def _bounds(text: str) -> tuple[str, tuple[str, str]]:
     """A range such as k12=0..1000."""
     match = re.fullmatch(r"(\w+)=([^=.]*\.?[^=.]*)\.\.([^=]+)", text)
@@ -250,8 +255,10 @@ def _add_simulate(groups: Groups) -> None:
 
 
 def _add_report(groups: Groups) -> None:
-    p = _command(groups, "report", report.run, "HTML pages, figures and tables of whole catalogues")
-    p.add_argument("masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses")
+    what = "HTML pages, figures and tables of whole catalogues, or of your own models in a file"
+    p = _command(groups, "report", report.run, what)
+    text = "numbers of masses, or files of models"
+    p.add_argument("masses", type=_size_or_file, nargs="*", metavar="N|FILE.json", help=text)
     text = (
         "the paper's figures and tables from our own data, and its claims one by one, into the"
         " folder paper below DIR"

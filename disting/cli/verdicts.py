@@ -17,7 +17,7 @@ from disting.cli.common import (
 )
 from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.general import read_models
+from disting.general import ModelList, read_models
 from disting.model.chain import Chain, Sensor
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety
@@ -38,8 +38,13 @@ def run(options: argparse.Namespace) -> int:
     file = options.masses if isinstance(options.masses, Path) else None
     if file:
         refuse_chain_options(options, "prove")
+    models = list_of(file) if file else None
     with engine_for(options) as (engine, pool, progress):
-        subjects = of_file(file, engine) if file else _of_sizes(options, engine)
+        subjects: Sequence[Compared] = (
+            [engine.general_subject(model.name, model) for model in models]
+            if models
+            else _of_sizes(options, engine)
+        )
         decided = engine.decisions(subjects, asked, executor=pool, progress=progress)
         if options.prove:
             decided = prove_all(decided, progress=progress)
@@ -68,12 +73,12 @@ def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
 
 
-def of_file(path: Path, engine: Engine) -> Sequence[Compared]:
-    """The models of a file as subjects of a comparison, two at least."""
+def list_of(path: Path) -> ModelList:
+    """The models of a file, two at least."""
     found = read_models(path)
     if len(found) < 2:
         raise InputError(f"{path} has one model: there is nothing to compare; add another one")
-    return [engine.general_subject(model.name, model) for model in found]
+    return found
 
 
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:

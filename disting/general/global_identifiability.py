@@ -13,22 +13,27 @@ together they determine all that is. Of them, and of parameters that are globall
 many independent ones as the rank are listed, the shortest first.
 """
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from functools import partial
 
 from flint import fmpz_mpoly, nmod_mat
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
 from disting.general.cases import Case, Search, orders, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
-from disting.general.model import Model
+from disting.general.model import MOST_SYMBOLS, Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.samples import evaluated
 from disting.general.spelled import text_of
 from disting.model.domain import Domain
+from disting.model.question import Question
 from disting.model.settings import Settings
 
+CHEAP = 8  # parameters: the search takes a second or two
 SETTINGS = Settings()
 
 
@@ -65,8 +70,11 @@ class GlobalIdentifiability:
         return f"All {n} parameters are locally identifiable, {many}{some}."
 
 
-def global_identifiability(model: Model, settings: Settings = SETTINGS) -> GlobalIdentifiability:
-    """How many parameter vectors fit, and what is determined.
+def global_identifiability(
+    model: Model, settings: Settings = SETTINGS, *, searched_up_to: int = MOST_SYMBOLS
+) -> GlobalIdentifiability:
+    """How many parameter vectors fit, and what is determined; with more parameters than
+    `searched_up_to` their number is left open, which takes milliseconds.
 
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     >>> found.count, found.unique, found.combinations
@@ -74,7 +82,7 @@ def global_identifiability(model: Model, settings: Settings = SETTINGS) -> Globa
     """
     local = local_identifiability(model, settings)
     ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
-    search = _best(ring, model)
+    search = _best(ring, model) if len(model.parameters) <= searched_up_to else None
     vectors = [v for case in search.cases if (v := _vector(ring, model, case))] if search else []
     count, infinite = _counted(ring, search.cases if search else (), vectors)
     unique = tuple(
@@ -85,6 +93,37 @@ def global_identifiability(model: Model, settings: Settings = SETTINGS) -> Globa
     return GlobalIdentifiability(
         local, count, infinite, unique, _combinations(ring, model, local.rank, unique)
     )
+
+
+def _encoded(found: GlobalIdentifiability) -> str:
+    return json.dumps(asdict(found), separators=(",", ":"))
+
+
+def _decoded(text: str) -> GlobalIdentifiability:
+    data = json.loads(text)
+    local = data["local"]
+    known = LocalIdentifiability(
+        tuple(local["parameters"]),
+        local["rank"],
+        tuple(local["identifiable"]),
+        Certainty(local["certainty"]),
+        local["safety"],
+    )
+    return GlobalIdentifiability(
+        known,
+        data["count"],
+        data["is_infinite"],
+        tuple(data["unique"]),
+        tuple(data["combinations"]),
+    )
+
+
+IDENTIFIABILITY = Question(
+    "identifiability of general models",
+    partial(global_identifiability, searched_up_to=CHEAP),
+    _encoded,
+    _decoded,
+)
 
 
 @dataclass(frozen=True, slots=True)

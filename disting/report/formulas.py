@@ -18,6 +18,7 @@ from disting.algebra.symbols import Polynomial, coefficients, factors, terms
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
+from disting.general import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination
 from disting.report.mathml import (
@@ -35,6 +36,7 @@ from disting.report.words import LARGEST_SPELLED_OUT
 
 # masses of maps by continued fractions; those of 4 masses have thousands of letters
 CAUER_UP_TO = 3
+MOST_TERMS = 300  # of a general model whose coefficients are written out
 LONGEST_BRACKET = 9  # letters of a sum in parentheses; a browser cannot break it
 G_OF_S = '<mi>G</mi><mo stretchy="false">(</mo><mi>s</mi><mo stretchy="false">)</mo>'
 Coefficient = tuple[int, Polynomial]
@@ -89,6 +91,25 @@ def written(chain: Chain) -> TransferFunction:
     return TransferFunction(
         head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness
     )
+
+
+def written_model(model: Model) -> TransferFunction:
+    """The transfer function of a general model; of a large one the head alone."""
+    sides = [
+        (letter, [(power, p) for power, p in enumerate(side) if not p.is_zero()])
+        for letter, side in (("b", model.numerator), ("a", model.denominator))
+    ]
+    head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
+    is_long = sum(len(p) for _, found in sides for _, p in found) > MOST_TERMS
+    flat = [
+        (f"{letter}{power}", _readable(p))
+        for letter, found in sides
+        for power, p in ([] if is_long else found)
+    ]
+    lines = tuple(
+        (math(f"{symbol(label)}<mo>=</mo>"), _typeset(shown, False)) for label, shown in flat
+    )
+    return TransferFunction(head, lines, _latex(sides, flat), False)
 
 
 def correspondence(given: Chain, other: Chain) -> Correspondence | None:
