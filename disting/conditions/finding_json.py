@@ -28,10 +28,10 @@ def finding_from_json(text: str, rule: Rule = EXACT) -> Finding:
     if written != WRITTEN:
         raise ValueError("not a finding of a decision")
     return Finding(
-        rule,
-        Outcome(outcome),
-        Certainty(certainty),
-        safety,
-        evidence_from(evidence) if evidence else None,
-        note,
+        rule=rule,
+        outcome=Outcome(outcome),
+        certainty=Certainty(certainty),
+        safety=safety,
+        evidence=evidence_from(evidence) if evidence else None,
+        note=note,
     )

@@ -16,16 +16,16 @@ many independent ones as the rank are listed, the shortest first.
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from functools import partial
+from itertools import islice
 
 from flint import fmpz_mpoly, nmod_mat
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
-from disting.general.cases import Case, Search, orders, searched
+from disting.general.cases import ORDERS, Case, Search, orders, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
-from disting.general.model import MOST_SYMBOLS, Model
+from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.samples import evaluated
 from disting.general.spelled import text_of
@@ -33,7 +33,7 @@ from disting.model.domain import Domain
 from disting.model.question import Question
 from disting.model.settings import Settings
 
-CHEAP = 8  # parameters: the search takes a second or two
+CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
 SETTINGS = Settings()
 
 
@@ -71,10 +71,10 @@ class GlobalIdentifiability:
 
 
 def global_identifiability(
-    model: Model, settings: Settings = SETTINGS, *, searched_up_to: int = MOST_SYMBOLS
+    model: Model, settings: Settings = SETTINGS, *, tries: int = ORDERS
 ) -> GlobalIdentifiability:
-    """How many parameter vectors fit, and what is determined; with more parameters than
-    `searched_up_to` their number is left open, which takes milliseconds.
+    """How many parameter vectors fit, and what is determined, from so many `tries` of orders in
+    which unknowns are solved for.
 
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     >>> found.count, found.unique, found.combinations
@@ -82,7 +82,7 @@ def global_identifiability(
     """
     local = local_identifiability(model, settings)
     ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
-    search = _best(ring, model) if len(model.parameters) <= searched_up_to else None
+    search = _best(ring, model, tries)
     vectors = [v for case in search.cases if (v := _vector(ring, model, case))] if search else []
     count, infinite = _counted(ring, search.cases if search else (), vectors)
     unique = tuple(
@@ -91,7 +91,11 @@ def global_identifiability(
         if vectors and _is_unique(ring, vectors, i, search)
     )
     return GlobalIdentifiability(
-        local, count, infinite, unique, _combinations(ring, model, local.rank, unique)
+        local=local,
+        count=count,
+        is_infinite=infinite,
+        unique=unique,
+        combinations=_combinations(ring, model, local.rank, unique),
     )
 
 
@@ -102,28 +106,27 @@ def _encoded(found: GlobalIdentifiability) -> str:
 def _decoded(text: str) -> GlobalIdentifiability:
     data = json.loads(text)
     local = data["local"]
-    known = LocalIdentifiability(
-        tuple(local["parameters"]),
-        local["rank"],
-        tuple(local["identifiable"]),
-        Certainty(local["certainty"]),
-        local["safety"],
-    )
     return GlobalIdentifiability(
-        known,
-        data["count"],
-        data["is_infinite"],
-        tuple(data["unique"]),
-        tuple(data["combinations"]),
+        local=LocalIdentifiability(
+            parameters=tuple(local["parameters"]),
+            rank=local["rank"],
+            identifiable=tuple(local["identifiable"]),
+            certainty=Certainty(local["certainty"]),
+            safety=local["safety"],
+        ),
+        count=data["count"],
+        is_infinite=data["is_infinite"],
+        unique=tuple(data["unique"]),
+        combinations=tuple(data["combinations"]),
     )
 
 
-IDENTIFIABILITY = Question(
-    "identifiability of general models",
-    partial(global_identifiability, searched_up_to=CHEAP),
-    _encoded,
-    _decoded,
-)
+def _cheaply(model: Model, settings: Settings) -> GlobalIdentifiability:
+    few = len(model.parameters) <= CHEAP_UP_TO
+    return global_identifiability(model, settings, tries=TRIES if few else 0)
+
+
+IDENTIFIABILITY = Question("identifiability of general models", _cheaply, _encoded, _decoded)
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,10 +140,10 @@ class _Vector:
     at: int
 
 
-def _best(ring: Orthant, model: Model) -> Search | None:
+def _best(ring: Orthant, model: Model, tries: int) -> Search | None:
     """The search with the fewest equations left."""
     found: list[Search] = []
-    for order in orders(ring.unknowns):
+    for order in islice(orders(ring.unknowns), tries):
         try:
             found.append(searched(ring, model, model, order))
         except TooMuch:

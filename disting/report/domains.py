@@ -59,12 +59,12 @@ def over(decided: Decided, view: View) -> Over:
     groups = decided.classes(view)
     sides = tuple(one_sided(decided)) if view is View.POSITIVE else ()
     return Over(
-        view,
-        totals(decided, view),
-        groups,
-        decided.depending(view),
-        sides,
-        blocks(decided.classes(View.EXACT), groups),
+        view=view,
+        totals=totals(decided, view),
+        groups=groups,
+        depending=decided.depending(view),
+        one_sided=sides,
+        blocks=blocks(decided.classes(View.EXACT), groups),
     )
 
 

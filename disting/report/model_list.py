@@ -125,11 +125,11 @@ def model_list_page(
     domains = [over(found, view) for view in VIEWS]
     cards = [
         Card(
-            number,
-            model,
-            known,
-            written_model(model),
-            tuple(
+            number=number,
+            model=model,
+            known=known,
+            transfer=written_model(model),
+            groups=tuple(
                 next((k for k, g in enumerate(of.groups, 1) if number in g), 0) for of in domains
             ),
         )

@@ -128,7 +128,7 @@ def test_identifiability_is_kept_as_it_is() -> None:
     many = Model.from_transfer_function(
         [f"b{i}" for i in range(5)], [1, *(f"a{i}" for i in range(5))]
     )
-    quick = global_identifiability(many, searched_up_to=8)
+    quick = global_identifiability(many, tries=0)
     assert (quick.count, quick.local.rank, len(quick.combinations)) == (None, 10, 10)
 
 
