@@ -23,9 +23,12 @@ from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
 from disting.general import Alternatives as Alternatives
 from disting.general import Model as Model
+from disting.general import ModelList as ModelList
 from disting.general import alternatives as alternatives
 from disting.general import global_identifiability as global_identifiability
 from disting.general import local_identifiability as local_identifiability
+from disting.general import read_models as read_models
+from disting.general import write_models as write_models
 from disting.model.chain import Chain as Chain
 from disting.model.chain import Sensor as Sensor
 from disting.model.domain import Domain as Domain

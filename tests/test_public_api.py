@@ -30,6 +30,7 @@ NAMES = [
     *(
         "InputError",
         "Model",
+        "ModelList",
         "ModelRow",
         "Outcome",
         "Query",
@@ -52,7 +53,9 @@ NAMES = [
         "global_identifiability",
         "local_identifiability",
         "prove",
+        "read_models",
         "transfer_function",
+        "write_models",
     ),
 ]
 HEAVY = {
