@@ -21,6 +21,7 @@ from disting.errors import ConstraintViolation as ConstraintViolation
 from disting.errors import ContradictionError as ContradictionError
 from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
+from disting.experiments import Experiment as Experiment
 from disting.general import Alternatives as Alternatives
 from disting.general import Model as Model
 from disting.general import alternatives as alternatives

@@ -24,6 +24,7 @@ NAMES = [
         "DistingError",
         "Domain",
         "Engine",
+        "Experiment",
         "Family",
         "Finding",
         "Identifiability",

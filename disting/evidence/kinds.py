@@ -17,7 +17,7 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
-from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import ByParts, ByRow, FullParts, Refuted, Shared, Solved
 from disting.evidence.limits import (
@@ -30,7 +30,9 @@ from disting.evidence.limits import (
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 
 ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
-ByDecision = Theorem | DeadTime | FibreAt | FullParts | Solved | ByRow | Refuted | Shared
+ByDecision = (
+    Theorem | DeadTime | FibreAt | FibreUnder | FullParts | Solved | ByRow | Refuted | Shared
+)
 OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels

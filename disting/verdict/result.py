@@ -38,6 +38,7 @@ GROUNDS = {
     "theorem": "a theorem",
     "dead time": "dead time",
     "fibre": "one fibre",
+    "fibre under experiments": "one fibre",
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
     "row": "a row of masses decided once for all",

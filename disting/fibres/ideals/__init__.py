@@ -19,6 +19,8 @@ from disting.fibres.ideals.full_parts import same_by_full_parts as same_by_full_
 from disting.fibres.ideals.membership import Decision as Decision
 from disting.fibres.ideals.membership import Limits as Limits
 from disting.fibres.ideals.membership import decide as decide
+from disting.fibres.ideals.membership import decide_matched as decide_matched
 from disting.fibres.ideals.system import CoefficientMap as CoefficientMap
+from disting.fibres.ideals.system import Terms as Terms
 from disting.fibres.ideals.system import coefficient_map as coefficient_map
 from disting.fibres.ideals.system import normalised as normalised
