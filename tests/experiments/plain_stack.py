@@ -61,7 +61,8 @@ def has_equivalent(given, point, searched):
     for here, there in zip(given[1], searched[1], strict=True):
         n1, d1 = transfer(given[0], point, **here)
         n2, d2 = transfer(searched[0], names, **there)
-        equations += Poly(n1 * d2 - n2 * d1, S, *names.values()).as_poly(S).all_coeffs()
+        gap = Poly(n1 * d2 - n2 * d1, S, *names.values()).clear_denoms()[1]
+        equations += Poly(gap.as_expr(), S).all_coeffs()
     product, extra = 1, symbols("extra")
     for symbol in names.values():
         product *= symbol
