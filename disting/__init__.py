@@ -46,6 +46,7 @@ from disting.verdict import Verdict as Verdict
 from disting.verdict import View as View
 from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
+from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.proof import prove as prove
 
 __version__ = "0.1.0"

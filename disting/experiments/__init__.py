@@ -9,3 +9,8 @@ from disting.experiments.compared import ComparedMachine as ComparedMachine
 from disting.experiments.experiment import GENERIC as GENERIC
 from disting.experiments.experiment import Experiment as Experiment
 from disting.experiments.experiment import MeasuredChain as MeasuredChain
+from disting.experiments.places import Named as Named
+from disting.experiments.places import Places as Places
+from disting.experiments.places import moved as moved
+from disting.experiments.places import named as named
+from disting.experiments.places import ways as ways

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from disting.algebra.sampling import residues
 from disting.errors import ConstraintViolation, InputError, shown
@@ -25,6 +26,7 @@ Place = tuple[int, int]
 """Plus and minus mass of a port; 0 is the ground."""
 Sizes = tuple[tuple[int, Fraction], ...]
 """(mass, size) of what is added."""
+Given = Mapping[int, object] | Iterable[tuple[int, object]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +42,25 @@ class Experiment:
     'sensor 3, mass 2 locked, inertia 1/2 at mass 1'
     """
 
-    force: Place | int | None = None
-    sensor: Place | int | None = None
+    force: Place | None = None
+    sensor: Place | None = None
     quantity: Sensor | None = None
-    locked: tuple[int, ...] | int = ()
-    inertias: Sizes | Mapping[int, object] = ()
-    springs: Sizes | Mapping[int, object] = ()
+    locked: tuple[int, ...] = ()
+    inertias: Sizes = ()
+    springs: Sizes = ()
+
+    if TYPE_CHECKING:  # what may be given, and what it becomes
+
+        def __init__(
+            self,
+            force: Place | int | None = None,
+            sensor: Place | int | None = None,
+            quantity: Sensor | str | None = None,
+            locked: Iterable[int] | int = (),
+            inertias: Given = (),
+            springs: Given = (),
+        ) -> None:
+            """See the class."""
 
     def __post_init__(self) -> None:
         given = {
@@ -60,6 +75,12 @@ class Experiment:
             object.__setattr__(self, name, value)
 
     @property
+    def masses(self) -> tuple[int, ...]:
+        """All masses that it names."""
+        ports = [i for port in (self.force, self.sensor) for i in port or () if i]
+        return (*ports, *self.locked, *(i for i, _ in (*self.inertias, *self.springs)))
+
+    @property
     def changes(self) -> tuple[object, ...]:
         """The state of the machine: experiments that share it share their poles."""
         return self.locked, self.inertias, self.springs
@@ -70,26 +91,24 @@ class Experiment:
         ports = [
             f"{name} {place[0]}-{place[1]}" if place[1] else f"{name} {place[0]}"
             for name, place in (("force", self.force), ("sensor", self.sensor))
-            if isinstance(place, tuple)
+            if place
         ]
         added = [
             f"{what} {size} at mass {mass}"
             for what, sizes in (("inertia", self.inertias), ("spring", self.springs))
-            for mass, size in _sizes("", sizes)
+            for mass, size in sizes
         ]
-        locked = [f"mass {i} locked" for i in _tuple(self.locked)]
+        locked = [f"mass {i} locked" for i in self.locked]
         quantity = [self.quantity.value] if self.quantity else []
         return ", ".join([*ports, *quantity, *locked, *added]) or "as it is"
 
     def refuse(self, chain: Chain) -> None:
         """Raise InputError if the chain has no such place, or nothing is left that moves."""
         n = chain.n_masses
-        ports = [*_tuple(self.force), *_tuple(self.sensor)]
-        added = [mass for given in (self.inertias, self.springs) for mass, _ in _sizes("", given)]
-        wrong = [i for i in (*ports, *_tuple(self.locked), *added) if i > n]
+        wrong = [i for i in self.masses if i > n]
         if wrong:
             raise InputError(f"there is no mass {wrong[0]} in a chain with masses 1 to {n}")
-        if len(_tuple(self.locked)) == n:
+        if len(self.locked) == n:
             raise InputError("all masses are locked: leave one that moves")
 
 
@@ -124,16 +143,16 @@ class Entry:
     def ports(self) -> Ports:
         """Where force and sensor attach; a locked mass is as good as the ground."""
         p = self.structure.ports
-        act = _tuple(self.experiment.force) or (p.act_plus, p.act_minus)
-        meas = _tuple(self.experiment.sensor) or (p.meas_plus, p.meas_minus)
-        still = set(_tuple(self.experiment.locked))
+        act = self.experiment.force or (p.act_plus, p.act_minus)
+        meas = self.experiment.sensor or (p.meas_plus, p.meas_minus)
+        still = set(self.experiment.locked)
         act_plus, act_minus, meas_plus, meas_minus = (0 if i in still else i for i in (*act, *meas))
         return Ports(act_minus, act_plus, meas_minus, meas_plus)
 
     @cached_property
     def blocks(self) -> tuple[tuple[int, int], ...]:
         """Rows of masses that move, cut at the locked ones."""
-        still = set(_tuple(self.experiment.locked))
+        still = set(self.experiment.locked)
         found = []
         for first, last in self.structure.blocks:
             walls = [first - 1, *(i for i in range(first, last + 1) if i in still), last + 1]
@@ -143,7 +162,7 @@ class Entry:
     @cached_property
     def elements(self) -> tuple[Element, ...]:
         """Those of the structure that act on a mass that moves, and what is added to it."""
-        still = {0, *_tuple(self.experiment.locked)}
+        still = {0, *self.experiment.locked}
 
         def moves(e: Element) -> bool:
             """Whether the element acts on a mass that moves."""
@@ -159,10 +178,7 @@ class Entry:
 
     @property
     def _added(self) -> tuple[tuple[str, Sizes], ...]:
-        return ("m", _sizes("", self.experiment.inertias)), (
-            "g",
-            _sizes("", self.experiment.springs),
-        )
+        return ("m", self.experiment.inertias), ("g", self.experiment.springs)
 
 
 @dataclass(frozen=True)
@@ -207,12 +223,6 @@ class MeasuredChain:
     def text(self) -> tuple[str, ...]:
         """The experiments in words."""
         return tuple(e.text for e in self.experiments)
-
-
-def _tuple(given: Place | tuple[int, ...] | int | None) -> tuple[int, ...]:
-    if given is None:
-        return ()
-    return (given,) if isinstance(given, int) else given
 
 
 def _place(what: str, given: object) -> Place | None:

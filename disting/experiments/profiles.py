@@ -189,7 +189,7 @@ def _shared(measured: MeasuredChain, at: int) -> int | None:
 
 
 def _label(measured: MeasuredChain, name: str, at: int, shared: int | None) -> str:
-    if len(measured.entries) == 1:
+    if len(measured.entries) == 1 and measured.alone(0):
         return name
     less = f"-{shared + 1}" if shared is not None and name[0] == "a" else ""
     return f"{name}[{at + 1}{less}]"
