@@ -5,6 +5,7 @@ open, `compared` makes a measured chain a side of a comparison, `places` tells w
 model is which of the other.
 """
 
+from disting.experiments.check import confirms as confirms
 from disting.experiments.compared import ComparedMachine as ComparedMachine
 from disting.experiments.experiment import GENERIC as GENERIC
 from disting.experiments.experiment import Experiment as Experiment

@@ -5,10 +5,11 @@ pair of ports and are not asked. Which models lie in others of larger rank is no
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+from disting.algebra.certainty import weakest
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile
@@ -16,24 +17,32 @@ from disting.behaviour.sample import Representation, coefficients
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.evidence.conditions import Renaming
+from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence
-from disting.evidence.positive import PositiveFinding, Share
+from disting.evidence.positive import PositiveFinding
 from disting.experiments.exact import exact_finding
 from disting.experiments.experiment import MeasuredChain
-from disting.experiments.polynomials import is_renaming, shape
+from disting.experiments.polynomials import is_renaming
+from disting.experiments.positive import positive_finding
 from disting.experiments.profiles import drawn_at, profile
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.questions.same.exact import resting_on_ranks
+from disting.questions.same.real_and_positive import positive_ways
 
 NOT_ASKED = "under several experiments only equality is asked for"
 NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
-NO_POSITIVE = "whether equivalents under these experiments are positive is not known"
+NOT_KNOWN = "whether equivalents under these experiments are {} is not known"
 EXACTLY = Question(
     "exact decisions under experiments", exact_finding, finding_to_json, finding_from_json
+)
+POSITIVELY = Question(
+    "positive equivalents under experiments",
+    positive_finding,
+    PositiveFinding.to_json,
+    PositiveFinding.from_json,
 )
 Profiles = Callable[[MeasuredChain, Representation, int, Settings], Profile]
 Pair = tuple["ComparedMachine", "ComparedMachine"]
@@ -103,12 +112,6 @@ class ComparedMachine:
         rows = [[*row, *[0] * (len(point) - n)] for _, _, each in known for row in each]
         return values, [tuple(row[j] for row in rows) for j in range(len(point))]
 
-    @property
-    def silent(self) -> tuple[int, ...]:
-        """Numbers, from 1, of the experiments in which the sensor never moves."""
-        entries = enumerate(self.measured.entries, 1)
-        return tuple(i for i, entry in entries if not shape(entry).numerator)
-
     def symmetry_with(self, other: "ComparedMachine") -> Renaming | None:
         """None: symmetries of a chain may move a sensor."""
         return None
@@ -128,8 +131,18 @@ class ComparedMachine:
     def admissible(
         self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None
     ) -> Finding:
-        """Over real or positive parameters: a renaming is a bijection there too."""
-        return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NO_POSITIVE)
+        """Over real or positive parameters: a renaming is a bijection there too; positive ones are
+        asked for both ways, and what is found is no surer than that the models are the same.
+        """
+        if isinstance(why, Renaming) or domain is not Domain.POSITIVE:
+            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_KNOWN.format(domain))
+        found = positive_ways(self.positive(other), other.positive(self))
+        if found.outcome is Outcome.ABANDONED or isinstance(why, FreeChoice):
+            return found
+        same = self.exact(other)
+        grades = (found.certainty, found.safety), (same.certainty, same.safety)
+        certainty, safety = weakest(*grades)
+        return replace(found, certainty=certainty, safety=safety)
 
     def inclusions(self, other: "ComparedMachine") -> Inclusions:
         """Not asked."""
@@ -140,8 +153,10 @@ class ComparedMachine:
         return False
 
     def positive(self, other: "ComparedMachine") -> PositiveFinding:
-        """Not asked."""
-        return PositiveFinding(Share.UNKNOWN, reason=NO_POSITIVE)
+        """Which positive models of the one have a positive equivalent in the other, where generic
+        complex ones have equivalents.
+        """
+        return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
 
     @staticmethod
     def prepare_exact(pairs: Sequence[Pair], ask: Callable[..., Any]) -> None:

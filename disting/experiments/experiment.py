@@ -15,6 +15,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from disting.algebra.sampling import residues
+from disting.behaviour.transfer import touched
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.exact_number import is_too_long
@@ -218,6 +219,11 @@ class MeasuredChain:
             return replace(self.chain, **entry.ports._asdict(), sensor=quantity)
         except ConstraintViolation:
             return None
+
+    @property
+    def silent(self) -> tuple[int, ...]:
+        """Experiments, from 0, in which the sensor never moves: their transfer function is zero."""
+        return tuple(i for i, entry in enumerate(self.entries) if not touched(entry))
 
     @property
     def text(self) -> tuple[str, ...]:

@@ -57,6 +57,17 @@ class Listed:
     found: Fibre
     refuted_by: tuple[int | None, ...]
 
+    @property
+    def point(self) -> tuple[tuple[str, str], ...]:
+        """The values as text."""
+        return tuple((name, str(value)) for name, value in self.values.items())
+
+    @property
+    def kept(self) -> tuple[Solution, ...]:
+        """The solutions that no experiment refutes."""
+        pairs = zip(self.found.solutions, self.refuted_by, strict=True)
+        return tuple(s for s, missed in pairs if missed is None)
+
 
 def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
     """FAILS where one list is refuted, the cheaper direction first; None where nothing is."""
@@ -68,7 +79,7 @@ def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Fi
         if listed is not None and None not in listed.refuted_by:
             evidence = FibreUnder(
                 left_given,
-                tuple((name, str(value)) for name, value in listed.values.items()),
+                listed.point,
                 listed.at + 1,
                 tuple(k + 1 for k in listed.refuted_by if k is not None),
             )
@@ -78,17 +89,30 @@ def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Fi
 
 
 def lists(given: MeasuredChain, searched: MeasuredChain, seed: str) -> Iterator[Listed]:
-    """Yield lists that are complete, one for each experiment that can be listed."""
-    for at, one, other in listable(given, searched):
+    """Yield lists at random points, one for each experiment that can be listed."""
+    for at, _, _ in listable(given, searched):
         for draw in range(DRAWS):
             label = about(f"synthesis:{seed}:{draw}", given, searched)
             values = rational_point(given.chain, label, point_bits(searched.chain))
-            found = fibre(other, target(one.structure, values), confirm=False)
-            if found.status is not Status.DEGENERATE:
+            listed = listed_at(given, searched, at, values)
+            if listed is not None:
+                yield listed
                 break
-        if found.status in (Status.COMPLETE, Status.EMPTY):
-            missed = (missed_by(given, values, searched, s, found) for s in found.solutions)
-            yield Listed(values, at, found, tuple(missed))
+
+
+def listed_at(
+    given: MeasuredChain, searched: MeasuredChain, at: int, values: dict[str, fmpq]
+) -> Listed | None:
+    """All solutions of one experiment at a point; None for an infinite or an open list."""
+    one, other = given.alone(at), searched.alone(at)
+    if one is None or other is None:
+        return None
+    found = fibre(other, target(one.structure, values), confirm=False)
+    whole = found.status in (Status.COMPLETE, Status.EMPTY)
+    if not whole or found.tests.boundary or found.tests.uncovered:
+        return None
+    missed = (missed_by(given, values, searched, s, found) for s in found.solutions)
+    return Listed(values, at, found, tuple(missed))
 
 
 def listable(given: MeasuredChain, searched: MeasuredChain) -> Iterator[tuple[int, Chain, Chain]]:

@@ -86,14 +86,16 @@ def _measured(
     chains = zip((left, right), zip(*pairs, strict=True), strict=True)
     a, b = (MeasuredChain(chain, side) for chain, side in chains)
     names = [side.name for side in _sides(left, right, engine)]
-    alone = (a.alone(0), b.alone(0)) if len(pairs) == 1 else (None, None)
-    if alone[0] and alone[1]:
-        plain = engine.subject(names[0], alone[0]), engine.subject(names[1], alone[1])
-        return engine.verdict(*plain, query, audited=audit)
-    one, other = engine.measured_subject(names[0], a), engine.measured_subject(names[1], b)
-    found = engine.verdict(one, other, query, audited=audit)
-    silent = [i for i in one.silent if i in other.silent]
-    notes = [f"nothing is learned from experiment {i}: its sensor never moves" for i in silent]
+    silent = [i for i in a.silent if i in b.silent]
+    telling = [i for i in range(len(pairs)) if i not in silent]
+    alone = [m.alone(telling[0]) if len(telling) == 1 else None for m in (a, b)]
+    sides: tuple[Compared, Compared] = (
+        (engine.subject(names[0], alone[0]), engine.subject(names[1], alone[1]))
+        if alone[0] and alone[1]
+        else (engine.measured_subject(names[0], a), engine.measured_subject(names[1], b))
+    )
+    found = engine.verdict(*sides, query, audited=audit)
+    notes = [f"nothing is learned from experiment {i + 1}: its sensor never moves" for i in silent]
     return replace(found, notes=(*found.notes, *notes))
 
 

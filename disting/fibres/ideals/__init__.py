@@ -14,6 +14,7 @@ from disting.fibres.ideals.by_two_rows import decide_by_parts as decide_by_parts
 from disting.fibres.ideals.by_two_rows import included_by_parts as included_by_parts
 from disting.fibres.ideals.by_two_rows import refuted_by_parts as refuted_by_parts
 from disting.fibres.ideals.confirm import confirms as confirms
+from disting.fibres.ideals.confirm import confirms_matched as confirms_matched
 from disting.fibres.ideals.fibre_ideal import generic_rank as generic_rank
 from disting.fibres.ideals.full_parts import same_by_full_parts as same_by_full_parts
 from disting.fibres.ideals.membership import Decision as Decision
