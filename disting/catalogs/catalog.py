@@ -226,7 +226,16 @@ class Catalog:
         number, (numerator, denominator) = record["model"], record["degrees"]
         known = Identifiability.from_dict(record["identifiability"])
         chain, count = self.family[number], len(record["parameters"])
-        return ModelRow(number, chain, numerator, denominator, count, record["rank"], group, known)
+        return ModelRow(
+            number=number,
+            chain=chain,
+            numerator_degree=numerator,
+            denominator_degree=denominator,
+            n_parameters=count,
+            rank=record["rank"],
+            group=group,
+            identifiability=known,
+        )
 
     @cached_property
     def _known(self) -> dict[tuple[int, int, View], Verdict]:

@@ -151,11 +151,11 @@ class Entry:
         return Ports(act_minus, act_plus, meas_minus, meas_plus)
 
     @cached_property
-    def blocks(self) -> tuple[tuple[int, int], ...]:
+    def row_ends(self) -> tuple[tuple[int, int], ...]:
         """Rows of masses that move, cut at the locked ones."""
         still = set(self.experiment.locked)
         found = []
-        for first, last in self.structure.blocks:
+        for first, last in self.structure.row_ends:
             walls = [first - 1, *(i for i in range(first, last + 1) if i in still), last + 1]
             found += [(a + 1, b - 1) for a, b in pairwise(walls) if b - a > 1]
         return tuple(found)

@@ -34,7 +34,12 @@ def from_arrays(
     omega = _numbers(frequency, "frequency") * UNIT[known(frequency_unit)]
     values = _numbers(response, "response") * as_sign(sign)
     return FrequencyResponse(
-        omega, values, deviation, coherence, as_sensor(sensor), origin="arrays"
+        omega=omega,
+        G=values,
+        deviation=deviation,
+        coherence=coherence,
+        sensor=as_sensor(sensor),
+        origin="arrays",
     )
 
 
@@ -116,7 +121,11 @@ def _table(frame: Any) -> Table:
     if not len(values):
         raise InputError("the data frame has no rows")
     return Table(
-        tuple(map(str, whole.columns)), values, tuple(range(1, len(values) + 1)), (), "data frame"
+        headers=tuple(map(str, whole.columns)),
+        values=values,
+        lines=tuple(range(1, len(values) + 1)),
+        comments=(),
+        origin="data frame",
     )
 
 

@@ -128,8 +128,8 @@ class Structure:
         return 2 * self.n_masses + self.lag
 
     @cached_property
-    def blocks(self) -> tuple[tuple[int, int], ...]:
-        """Connected rows of masses (first, last), ground not counted as a connection."""
+    def row_ends(self) -> tuple[tuple[int, int], ...]:
+        """First and last mass of each row; the ground is not counted as a connection."""
         joints = {e.at for e in self.elements if e.kind in "kd"}
         cuts = [0, *(i for i in range(1, self.n_masses) if i not in joints), self.n_masses]
         return tuple((a + 1, b) for a, b in pairwise(cuts))

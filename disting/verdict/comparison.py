@@ -65,7 +65,7 @@ def findings(
     """What every condition finds in every representation, in order, whether it decides or not.
 
     >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
-    >>> [(s.representation, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
+    >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
     return tuple(steps(*_sides(left, right, engine or Engine()), query or Query()))

@@ -59,11 +59,23 @@ class Engine:
 
     def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
-        return ComparedChain(name, chain, self.settings, self.profile, self.answer)
+        return ComparedChain(
+            name=name,
+            chain=chain,
+            settings=self.settings,
+            source=self.profile,
+            answerer=self.answer,
+        )
 
     def general_subject(self, name: str, model: Model) -> ComparedModel:
         """The same for a general model."""
-        return ComparedModel(name, model, self.settings, self.profile, self.answer)
+        return ComparedModel(
+            name=name,
+            model=model,
+            settings=self.settings,
+            source=self.profile,
+            answerer=self.answer,
+        )
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
         """The same for a chain under several experiments."""

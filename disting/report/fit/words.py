@@ -4,7 +4,6 @@ from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.cost import Case, Cost
 from disting.fit.fitted import fit_percent
-from disting.fit.judged import Candidate
 from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
@@ -198,11 +197,6 @@ def cost_in_words(cost: Cost) -> str:
         f"{CASES[cost.case]}, weighted {'π' if first == pi else readable(first)} :"
         f" {readable(second)}"
     )
-
-
-def violations(candidate: Candidate) -> str:
-    """The reasons why a candidate is excluded, in one text; "" if it is admissible."""
-    return "; ".join(candidate.reasons)
 
 
 def fit_in_words(

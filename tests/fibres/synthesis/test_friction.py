@@ -14,13 +14,14 @@ from disting import Query, View, compare
 from disting.fibres.ideals import coefficient_map
 from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.decide import decide, rational_point
-from disting.fibres.synthesis.fibre import fibre, segments
+from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
 from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
 from disting.fibres.synthesis.target import Target, target
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.question import Membership
+from disting.model.row import rows_of
 from disting.questions.identifiability.tangent import proof_tangents
 from disting.verdict import Engine
 from tests.questions.identifiability.oracle import solutions
@@ -33,7 +34,7 @@ def rubbed(n: int, damped: bool) -> list[Chain]:
 
 
 def covered(chain: Chain) -> bool:
-    return all(is_covered(s) for s in segments(chain) if s is not None)
+    return all(map(is_covered, rows_of(chain.structure)))
 
 
 def own_fibre(chain: Chain, seed: str = "friction") -> tuple[dict[str, fmpq], Fibre]:
