@@ -74,6 +74,27 @@ def test_one_that_sees_nothing_differs_from_one_that_sees_something():
     assert "In experiment 2" in found.sentence and "a sensor that does not move" in found.sentence
 
 
+@pytest.mark.parametrize(
+    ("chain", "experiments"),
+    [
+        # one mass that varies, with and without what is known
+        (Chain(1, damped=True), [(Experiment(), Experiment(inertias={1: 1}))]),
+        (Chain(2, damped=True), [(Experiment(), Experiment(inertias={2: "1/3"}))]),
+        # nobody sees mass 1: whatever is added to it
+        (
+            Chain(3, 1, 1, 2, 1, 2, damped=True),
+            [
+                (Experiment(2, 2), Experiment(2, 2)),
+                (Experiment(2, 3), Experiment(2, 3, inertias={1: 1})),
+            ],
+        ),
+    ],
+)
+def test_what_is_done_to_one_side_alone_is_compared_all_the_same(chain, experiments):
+    found = compare(chain, chain, experiments=experiments, query=COMPLEX, audit=True)
+    assert found.relation.value == "indistinguishable"
+
+
 def test_nothing_moves_in_any_experiment():
     found = compare(A[1], A[1], experiments=[Experiment(locked=1)], query=COMPLEX)
     assert found.relation.value == "indistinguishable"
