@@ -67,6 +67,14 @@ def test_the_order_of_experiments_and_of_sides_does_not_matter(case):
 
 
 @few
+@given(pairs(max_masses=2))
+def test_conditions_and_exact_decision_never_contradict_each_other(case):
+    left, right, asked = case
+    for some in (asked, asked[1:], asked[:2]):
+        compare(left, right, experiments=some, query=COMPLEX, audit=True, engine=ENGINE)
+
+
+@few
 @given(st.data())
 def test_a_single_experiment_is_the_verdict_of_today(data):
     left, right = data.draw(st.sampled_from(SMALL)), data.draw(st.sampled_from(SMALL))
