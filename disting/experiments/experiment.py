@@ -264,7 +264,11 @@ def _quantity(given: object) -> Sensor:
 
 
 def _sizes(what: str, given: object) -> Sizes:
-    items = list(given.items()) if isinstance(given, Mapping) else list(given)  # type: ignore[call-overload]
+    listed = given.items() if isinstance(given, Mapping) else given
+    try:
+        items = [(mass, size) for mass, size in listed]  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        raise InputError(f"known sizes are written {{mass: size}}, not {shown(given)}") from None
     masses = [mass for mass, _ in items]
     if len(_masses(f"the place of a known {what}", masses)) < len(masses):
         raise InputError(f"two known {what}s at one mass: give their sum")

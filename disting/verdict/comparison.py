@@ -16,6 +16,7 @@ from disting.verdict.result import Verdict
 
 # masses; larger families are long to list, so their chains are named by their indices
 NUMBERED_UP_TO = 8
+NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
 def compare(
@@ -81,7 +82,7 @@ def _measured(
 ) -> Verdict:
     """The verdict under experiments, with what is to be known of those that tell nothing."""
     if isinstance(left, Model) or isinstance(right, Model):
-        raise InputError("experiments are on chains: a general model has no masses to measure at")
+        raise InputError(NOT_CHAINS)
     pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
     chains = zip((left, right), zip(*pairs, strict=True), strict=True)
     a, b = (MeasuredChain(chain, side) for chain, side in chains)

@@ -1,7 +1,17 @@
 import pytest
 from sympy import Poly, Rational, sympify
 
-from disting import Chain, Engine, Experiment, Family, InputError, Query, View, compare
+from disting import (
+    Chain,
+    Engine,
+    Experiment,
+    Family,
+    InputError,
+    Query,
+    View,
+    compare,
+    compare_everywhere,
+)
 from disting.experiments import MeasuredChain
 from disting.experiments.polynomials import expanded, shape
 from disting.experiments.profiles import degrees
@@ -24,6 +34,11 @@ COMPLEX = Query(View.EXACT)
         ({"inertias": {1: "heavy"}}, "a positive number or generic"),
         ({"inertias": {1: "1e999999999"}}, "a positive number or generic"),
         ({"inertias": [(1, 2), (1, 3)]}, "give their sum"),
+        ({"inertias": "1:2"}, "are written"),
+        ({"inertias": 5}, "are written"),
+        ({"springs": [1]}, "are written"),
+        ({"inertias": {1: float("nan")}}, "a positive number or generic"),
+        ({"inertias": {1: float("inf")}}, "a positive number or generic"),
         ({"quantity": "jerk"}, "position, velocity or acceleration"),
     ],
 )
@@ -49,6 +64,8 @@ def test_what_the_chain_does_not_have_is_refused(experiment, said):
 def test_general_models_have_no_places():
     from disting import Model
 
+    with pytest.raises(InputError, match="no masses to measure at"):
+        compare_everywhere(Model.from_chain(A[1]), A[2], ["sensor=1"])
     with pytest.raises(InputError, match="no masses to measure at"):
         compare(Model.from_chain(A[1]), A[2], experiments=[Experiment(sensor=1)])
 
