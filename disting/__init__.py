@@ -21,6 +21,7 @@ from disting.errors import ConstraintViolation as ConstraintViolation
 from disting.errors import ContradictionError as ContradictionError
 from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
+from disting.experiments import Experiment as Experiment
 from disting.general import Alternatives as Alternatives
 from disting.general import Model as Model
 from disting.general import ModelList as ModelList
@@ -48,6 +49,7 @@ from disting.verdict import Verdict as Verdict
 from disting.verdict import View as View
 from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
+from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.proof import prove as prove
 
 __version__ = "0.1.0"

@@ -162,6 +162,11 @@ def _add_compare(groups: Groups) -> None:
     p.add_argument(
         "--range", type=_bounds, action="append", default=[], metavar="NAME=LOW..HIGH", help=text
     )
+    text = (
+        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
+        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
+    )
+    p.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     p.add_argument(
         "--json", action="store_true", help="print the verdict with its evidence as JSON"
     )
