@@ -13,8 +13,12 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from disting.errors import InputError
+
 if TYPE_CHECKING:
     import networkx as nx
+
+HIGHEST = 2  # derivative that has Markov parameters and a state space whatever the ports
 
 
 def _between(i: int) -> str:
@@ -116,6 +120,13 @@ class Structure:
     sensor_order: int
     lag: bool = False
     dead_time: bool = False
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.sensor_order <= HIGHEST:
+            raise InputError(
+                "a sensor shows the position or one of its first two derivatives, not derivative"
+                f" {self.sensor_order}: beyond, the transfer function of a mass is not proper"
+            )
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:

@@ -102,6 +102,10 @@ class Engine:
         found: T = self.answers[key]
         return found
 
+    def remember(self, question: Question[T], models: Models, answer: T) -> None:
+        """Take over an answer that is known already, such as a catalogue's; it is not stored."""
+        self.answers[question_key(question, models, self.settings)] = answer
+
     def verdict(
         self, left: Compared, right: Compared, query: Query, *, audited: bool = False
     ) -> Verdict:

@@ -9,6 +9,7 @@ from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation, Sample
 from disting.evidence.conditions import (
+    ByConditions,
     Counts,
     Embedding,
     Forms,
@@ -20,7 +21,7 @@ from disting.evidence.conditions import (
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
-from disting.evidence.kinds import ByConditions, Evidence
+from disting.evidence.kinds import Evidence
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
