@@ -89,10 +89,11 @@ def _measured(
     names = [side.name for side in _sides(left, right, engine)]
     silent = [i for i in a.silent if i in b.silent]
     telling = [i for i in range(len(pairs)) if i not in silent]
-    alone = [m.alone(telling[0]) if len(telling) == 1 else None for m in (a, b)]
+    # as they are: what a verdict's evidence says is then of the chains that were given
+    as_they_are = len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b))
     sides: tuple[Compared, Compared] = (
-        (engine.subject(names[0], alone[0]), engine.subject(names[1], alone[1]))
-        if alone[0] and alone[1]
+        (engine.subject(names[0], left), engine.subject(names[1], right))
+        if as_they_are
         else (engine.measured_subject(names[0], a), engine.measured_subject(names[1], b))
     )
     found = engine.verdict(*sides, query, audited=audit)
