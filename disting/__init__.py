@@ -22,6 +22,7 @@ from disting.errors import ContradictionError as ContradictionError
 from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
 from disting.experiments import Experiment as Experiment
+from disting.files import __version__ as __version__
 from disting.general import Alternatives as Alternatives
 from disting.general import Model as Model
 from disting.general import ModelList as ModelList
@@ -51,5 +52,3 @@ from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
 from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.proof import prove as prove
-
-__version__ = "0.1.0"

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from disting import __version__
 from disting.catalogs.files import shipped_folder
 from disting.cli import (
     catalogs,
@@ -25,6 +24,7 @@ from disting.cli.paths import written_file, written_folder
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.errors import LONGEST_ECHO, shown
+from disting.files import __version__
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
