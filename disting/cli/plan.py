@@ -16,7 +16,7 @@ from disting.errors import InputError, printable
 from disting.fit.designed import Designed, designed, designed_to_dict
 from disting.fit.export import predicted
 from disting.fit.named import Named, named_by
-from disting.fit.plan import Plan, plan, plan_to_dict
+from disting.fit.plan import Answer, Plan, plan, plan_to_dict
 from disting.fit.plant import Real
 from disting.fit.scatter import scatter
 from disting.measurement import read
@@ -39,9 +39,8 @@ class Effort:
 
 def run(options: argparse.Namespace) -> int:
     """Plan for one pair, or for all rivals that a fit names."""
-    path = Path(options.model)
-    if path.suffix == ".json" or path.is_file():
-        return _from_fit(path, options)
+    if options.model.lower().endswith(".json"):
+        return _from_fit(Path(options.model), options)
     if options.rival is None:
         raise InputError("name the structure to exclude too, such as: disting plan 2:1+b1 2:1+b2")
     family = Family(1, options.damped)
@@ -88,28 +87,35 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
     if options.out:
         raise InputError("--out belongs to one pair: plan it by name, as the output shows")
     named = named_by(path)
+    if not named.explained:
+        complain(
+            f"warning: none of the structures of {path} explains its data, so no rival is named;"
+            " name the structures to plan for"
+        )
     effort = _effort(options, named.model, named.values, named)
     _warn(effort)
-    found = list[Plan]()
+    found = list[tuple[Plan, Plan | None]]()
     with engine_for(options) as (engine, pool, progress):
-        for rival in named.rivals:
+
+        def planned(one: Chain, values: dict[str, float], other: Chain) -> Plan:
+            """One plan with this effort."""
+            return plan(one, values, other, effort.omega, effort.rho, engine=engine, executor=pool)
+
+        for rival, values in named.rivals.items():
             progress("rival", len(found), len(named.rivals))
-            found.append(
-                plan(
-                    named.model,
-                    named.values,
-                    rival,
-                    effort.omega,
-                    effort.rho,
-                    engine=engine,
-                    executor=pool,
-                )
-            )
-    plain = {"same": named.same, "rivals": [plan_to_dict(one) for one in found]}
-    _emit(options, plain)
+            there = planned(named.model, named.values, rival)
+            contains = there.answer is Answer.SAME and values
+            found.append((there, planned(rival, values, named.model) if contains else None))
+    rows = [plan_to_dict(one) | _reverse(back) for one, back in found]
+    _emit(options, {"same": named.same, "rivals": rows})
     if options.json != "-":
         print(printable("\n".join(rivals_in_words(named, found, effort.source))))
     return 0
+
+
+def _reverse(found: Plan | None) -> dict[str, Any]:
+    """Beside a rival that does what the model does: the model, were the rival true."""
+    return {"reverse": plan_to_dict(found)} if found else {}
 
 
 def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:

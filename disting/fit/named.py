@@ -20,13 +20,16 @@ from disting.verdict import Relation
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """`same`: names of what behaves the same, with the reason; `scatter` of a line; `low`, `high`
-    [Hz] and number of the `lines`, 0 each where the file does not tell.
+    """`explained`: whether the selected structure explains the data; `same`: names of what behaves
+    the same, with the reason; `rivals` with their fitted values, none of those that were not
+    fitted; `scatter` of a line; `low`, `high` [Hz] and number of the `lines`, 0
+    each where the file does not tell.
     """
 
     model: Chain
     values: dict[str, float]
-    rivals: tuple[Chain, ...]
+    explained: bool
+    rivals: dict[Chain, dict[str, float]]
     same: dict[str, str]
     scatter: float
     low: float
@@ -49,7 +52,8 @@ def named_by(path: Path) -> Named:
         return Named(
             model,
             values,
-            tuple(c for c in _rivals(plain) if c != model and reference(c) not in same),
+            plain["explained"] is True,
+            {c: v for c, v in _rivals(plain) if c != model and reference(c) not in same},
             same,
             float(plain["scatter"]),
             float(range_of["low"]),
@@ -60,10 +64,12 @@ def named_by(path: Path) -> Named:
         raise InputError(f"{path} is no whole file of a fit: {reason} is missing") from None
 
 
-def _rivals(plain: dict[str, Any]) -> Iterator[Chain]:
-    """Each once, in the order of the file."""
-    rest = (a for a in plain["alternatives"] if a["relation"] != Relation.INDISTINGUISHABLE)
-    yield from dict.fromkeys(map(chain_from_dict, (*plain["not_excluded"][1:], *rest)))
+def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
+    """In the order of the file, those with values last, which stand."""
+    for found in plain["alternatives"]:
+        if found["relation"] != Relation.INDISTINGUISHABLE:
+            yield chain_from_dict(found), {}
+    yield from map(model_from_dict, plain["not_excluded"][1:])
 
 
 def _same(plain: dict[str, Any]) -> Iterator[tuple[str, str]]:

@@ -190,7 +190,7 @@ def _projected(residual: Real, step: Real, columns: Real) -> float:
     left = left[:, sizes > VANISHING * sizes[0]]
     d = step - left @ (left.T @ step)
     r = residual - left @ (left.T @ residual)
-    return float((r @ d) ** 2 / max(d @ d, np.finfo(float).tiny))
+    return float(r @ d) ** 2 / max(float(d @ d), float(np.finfo(float).tiny))
 
 
 def _middle(values: dict[str, float], kind: str) -> float:

@@ -41,8 +41,12 @@ def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[s
         yield from _spectra(found, best)
 
 
-def rivals_in_words(named: Named, found: Sequence[Plan], source: str) -> Iterator[str]:
-    """The selected structure of a fit against each rival."""
+def rivals_in_words(
+    named: Named, found: Sequence[tuple[Plan, Plan | None]], source: str
+) -> Iterator[str]:
+    """The selected structure of a fit against each rival; beside it the reverse, where the rival
+    contains the selected structure.
+    """
     name = reference(named.model)
     yield f"{name} is taken for true: {_values(named.values)}; noise {source}"
     for same, why in named.same.items():
@@ -52,19 +56,37 @@ def rivals_in_words(named: Named, found: Sequence[Plan], source: str) -> Iterato
         yield "" if named.same else "the fit names no rival: nothing is to be told apart"
         return
     yield ""
-    width = max(len("rival"), *(len(p.names[1]) for p in found))
-    yield f"{'rival':{width}}  {'lambda':>8}  {'power':>7}  {'periods':>8}  answer"
-    for p in found:
-        periods = f"{readable(p.factor)}x" if p.noncentrality > 0 else "–"
-        said = _short(p)
-        row = f"{readable(p.noncentrality):>8}  {percent(p.power):>7}  {periods:>8}  {said}"
-        yield f"{p.names[1]:{width}}  {row}"
+    yield from _rows([there for there, _ in found])
+    back = [reverse for _, reverse in found if reverse is not None]
+    if back:
+        yield ""
+        yield f"the other way round, what excludes {name} if a structure that contains it is true:"
+        yield from _rows(back, true=True)
     yield ""
     yield (
-        f"periods: multiple of those at hand for power {percent(POWER)} at level {percent(LEVEL)}"
+        f"periods: multiple of those at hand for power {percent(POWER)} at level {percent(LEVEL)},"
+        " if all lines scatter alike; --noise FRF.csv takes each line's own scatter"
     )
-    worst = max(found, key=lambda p: p.factor if np.isfinite(p.factor) else 0.0)
-    yield f"one pair in full: {plan_command(worst)}"
+    every = [p for p in (*(there for there, _ in found), *back) if p.noncentrality > 0]
+    if any(p.answer is Answer.ENOUGH for p in every):
+        yield (
+            "enough: by the test planned here; the fit's own rule, costs on data that it has not"
+            " seen, asks for more"
+        )
+    if every:
+        yield f"one pair in full: {plan_command(max(every, key=lambda p: p.factor))}"
+
+
+def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
+    """A row a plan, named by the rival, or by what is true."""
+    names = [p.names[0 if true else 1] for p in found]
+    head = "true" if true else "rival"
+    width = max(len(head), *map(len, names))
+    yield f"{head:{width}}  {'lambda':>8}  {'power':>7}  {'periods':>8}  answer"
+    for name, p in zip(names, found, strict=True):
+        periods = f"{readable(p.factor)}x" if p.noncentrality > 0 else "–"
+        row = f"{readable(p.noncentrality):>8}  {percent(p.power):>7}  {periods:>8}  {_short(p)}"
+        yield f"{name:{width}}  {row}"
 
 
 def next_command(model: str, rival: str, damped: bool) -> str:
