@@ -139,8 +139,6 @@ def _effort(
     if not 0 < low < high:
         raise InputError("say which lines are measured [Hz]: --range 5..300")
     size = number if number is not None else named.scatter if named else 0.0
-    if not 0 < size < np.inf:
-        raise InputError("the noise of a line is a positive number, such as 0.02 for 2 %")
     count = options.lines or (named.lines if named else 0) or LINES
     source = "given" if number is not None else "of the fitted data"
     return Effort(2 * np.pi * np.geomspace(low, high, count), np.full(count, size), source)

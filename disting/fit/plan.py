@@ -34,6 +34,7 @@ from disting.fit.rival import Rival, Trust, fitted_rival
 from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.questions.identifiability.tangent import proof_tangents
+from disting.questions.inclusion import Inclusion
 from disting.verdict import Engine, Relation, Verdict
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Progress, silent
@@ -97,6 +98,13 @@ class Plan:
         if self.rival.is_same:
             return Answer.SAME
         return Answer.ENOUGH if self.power >= POWER else Answer.MORE
+
+    @property
+    def is_contained(self) -> bool:
+        """Whether the rival contains the model, as elements or the verdict on inclusion tell."""
+        both = None if self.verdict is None else self.verdict.inclusions
+        known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
+        return known or joined(self.model, self.chain) == self.chain
 
     @property
     def noncentrality(self) -> float:
@@ -207,7 +215,8 @@ def plan_to_dict(found: Plan) -> dict[str, Any]:
         "best_fit": rival.estimate.parameters,
         "trust": rival.trust.value,
         "starts": [rival.reached, len(rival.estimate.costs)],
-        "limits": {n: "zero" if gone else "infinity" for n, gone in rival.limits.items()},
+        "contains": found.is_contained,
+        "limits": {name: limit.value for name, limit in rival.limits.items()},
     }
 
 

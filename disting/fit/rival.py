@@ -7,7 +7,8 @@ rival the cost of the fit is
     lambda = min over the rival's parameters of sum_k |ln(G_A/G_B)|_k^2 / rho_k^2,
 
 the noncentrality of the test below if the model is true. The search is that of a fit to measured
-data; what it finds is never below the smallest one, so lambda is at most what is said. The model
+data, which begins from the model's values too where the rival has the same masses and springs; what
+it finds is never below the smallest one, so lambda is at most what is said. The model
 itself is fitted beside its rival: a search that does not find back the values from which the
 response was computed has missed the rival's best values perhaps too.
 
@@ -36,8 +37,10 @@ from disting.fit.cost import Case, Cost
 from disting.fit.descent import fine
 from disting.fit.estimate import Estimate, Task, estimates
 from disting.fit.export import predicted
+from disting.fit.neighbours import carried
 from disting.fit.noise import VANISHING
 from disting.fit.plant import Real
+from disting.fit.starts import natural, scale, stacked
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.store import Store
@@ -46,7 +49,10 @@ from disting.verdict.engine import Progress, silent
 NATURAL = (log(10.0), 1.0)  # weights of amplitude and phase with which J is a sum of |ln G/G_M|^2
 ROUNDING = 1e-6  # relative deviation a line below which two responses are the same
 FEWEST = 3  # starts that reach the best fit, for it to be trusted
-WITHOUT_EFFECT = 1e-5  # of the largest sensitivity: an element that has gone to its limit
+WITHOUT_EFFECT = 1e-5  # of the largest sensitivity
+EXTREME = 1e4  # times its natural size, or of it: where an element has gone to a limit
+QUIETEST, LOUDEST = 1e-9, 10.0  # noise of a line
+WIDEST = 1e5  # ratio of the highest to the lowest frequency
 
 
 class Trust(StrEnum):
@@ -54,6 +60,16 @@ class Trust(StrEnum):
 
     AGREED = "agreed"
     DOUBTFUL = "doubtful"
+
+
+class Limit(StrEnum):
+    """Where an element without effect has gone; ANY: it may have any value, as a neighbour has gone
+    to a limit.
+    """
+
+    ZERO = "zero"
+    INFINITY = "infinity"
+    ANY = "any"
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,19 +131,24 @@ class Rival:
         return Trust.AGREED if agreed else Trust.DOUBTFUL
 
     @property
-    def limits(self) -> dict[str, bool]:
-        """The rival's elements that have gone to a limit, without effect: whether they vanish
-        (True) or grow without bound.
-        """
+    def limits(self) -> dict[str, Limit]:
+        """The rival's elements that have no effect, and what they have become."""
         columns = np.linalg.norm(self.task.cost.of(self.task.plant(self.chain), self.p)[1], axis=0)
         gone = columns < WITHOUT_EFFECT * columns.max(initial=0.0)
-        sizes = {kind: _middle(self.values, kind) for kind in "mkdbT"}
+        usual = natural(self.chain, scale(self.task.cost.measured))
         found = self.estimate.parameters
         return {
-            name: found[name] < (sizes[name[0]] or sizes["m"])
+            name: _limit(found[name] / usual[name])
             for name, limit in zip(self.chain.parameters, gone, strict=True)
             if limit
         }
+
+
+def _limit(share: float) -> Limit:
+    """From the share of its natural size that an element has."""
+    if share < 1 / EXTREME:
+        return Limit.ZERO
+    return Limit.INFINITY if share > EXTREME else Limit.ANY
 
 
 def apart(rival: Rival, p: Real) -> Real:
@@ -154,13 +175,42 @@ def fitted_rival(
     rival = replace(rival, sensor=model.sensor)
     if rival == model:
         raise InputError("a structure is no rival of itself: name another one")
-    if not (np.all(rho > 0) and np.all(np.isfinite(rho))):
-        raise InputError("the noise of a line is a positive number, such as 0.02 for 2 %")
+    _check(omega, rho)
     measured = FrequencyResponse(omega, predicted(model, values, omega), sensor=model.sensor)
     task = Task(Cost(measured, Case.LOGARITHM, NATURAL, 1.0 / rho), seed=seed)
     found = estimates([model, rival], task, store=store, executor=executor, progress=progress)
     own = found[model].j * float(np.mean(rho**2)) / len(omega)
-    return Rival(model, values, rho, found[rival], own < ROUNDING**2, task, found)
+    best = _from_values(found[rival], values, task)
+    return Rival(model, values, rho, best, own < ROUNDING**2, task, found)
+
+
+def _from_values(found: Estimate, values: dict[str, float], task: Task) -> Estimate:
+    """The estimate, or a better one to which the model's own values lead, where the rival has
+    elements of the same names.
+    """
+    chain = found.chain
+    masses_and_springs = [
+        {n for n in names if n[0] in "mk"} for names in (values, chain.parameters)
+    ]
+    if masses_and_springs[0] != masses_and_springs[1]:
+        return found
+    plant, box = task.plant(chain), task.box(chain.parameters)
+    starts = stacked(list(carried(chain, values, scale(task.cost.measured))), chain.parameters)
+    ends = [fine(plant, task.cost, box, start) for start in starts]
+    p, j = min(ends, key=lambda end: end[1])
+    tried = tuple(sorted([*found.costs, *(end[1] for end in ends)]))
+    if j >= found.j:
+        return replace(found, costs=tried)
+    return Estimate(chain, dict(zip(chain.parameters, map(float, p), strict=True)), j, tried)
+
+
+def _check(omega: Real, rho: Real) -> None:
+    if not (np.all(rho >= QUIETEST) and np.all(rho <= LOUDEST)):
+        raise InputError(
+            f"the noise of a line lies between {QUIETEST:g} and {LOUDEST:g}, such as 0.02 for 2 %"
+        )
+    if omega.max() > WIDEST * omega.min():
+        raise InputError(f"the highest frequency is at most {WIDEST:g} times the lowest one")
 
 
 def gain(rival: Rival, measured: FrequencyResponse) -> float:
@@ -191,9 +241,3 @@ def _projected(residual: Real, step: Real, columns: Real) -> float:
     d = step - left @ (left.T @ step)
     r = residual - left @ (left.T @ residual)
     return float(r @ d) ** 2 / max(float(d @ d), float(np.finfo(float).tiny))
-
-
-def _middle(values: dict[str, float], kind: str) -> float:
-    """Typical size of the model's elements of one kind; 0 where it has none."""
-    sizes = [value for name, value in values.items() if name[0] == kind]
-    return float(np.exp(np.mean(np.log(sizes)))) if sizes else 0.0

@@ -105,7 +105,7 @@ def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answ
     first, second = done.stdout.split("the other way round")
     for name in ("2:1+b1", "2:1+b2"):
         (row,) = [line for line in first.splitlines() if line.startswith(f"{name} ")]
-        assert f"impossible: it contains the model (limit of {name[4:]})" in row
+        assert f"impossible: it contains the model ({name[4:]} without effect)" in row
     plain = json.loads(called("plan", path, "--json", "-").stdout)
     assert [one["rival"] for one in plain["rivals"]] == ["2:1+b1", "2:1+b2"]
     assert all(one["noncentrality"] == 0 for one in plain["rivals"])
@@ -150,8 +150,8 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
     [
         ((*PAIR,), "--noise 0.02, or --noise FRF.csv"),
         ((*PAIR[:5], "--noise", "0.02"), "--range 5..300"),
-        ((*PAIR, "--noise", "0"), "a positive number"),
-        ((*PAIR, "--noise", "nan"), "a positive number"),
+        ((*PAIR, "--noise", "0"), "the noise of a line lies"),
+        ((*PAIR, "--noise", "nan"), "the noise of a line lies"),
         ((*PAIR, "--noise", "0.1", "--lines", "3"), "at least 8 lines"),
         (("2:1+b1", *PAIR[2:], "--noise", "0.1"), "name the structure to exclude"),
         (("2:1+b1", "2:1+b1", *PAIR[2:], "--noise", "0.1"), "no rival of itself"),

@@ -1,5 +1,7 @@
 """How much measuring excludes a rival: the power that is planned is the power that is had."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import minimize
@@ -22,6 +24,7 @@ from disting.fit.rival import Trust, fitted_rival, gain
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.report.fit.plan_words import plan_in_words
 from disting.verdict import Relation
 
 MODEL = Chain(2, damped=True, ground_dampers=(1,))
@@ -188,17 +191,49 @@ def test_indistinguishable_structures_are_not_even_fitted():
 def test_rival_that_contains_the_model_is_never_excluded_and_the_limit_is_named():
     found = plan(MODEL, VALUES, BOTH, OMEGA, alike(0.001))
     assert found.verdict.relation is Relation.DISTINGUISHABLE
-    assert found.answer is Answer.SAME and found.rival.limits == {"b2": True}
+    assert found.answer is Answer.SAME and found.rival.limits == {"b2": "zero"}
+    assert found.is_contained
     assert found.noncentrality == 0.0 and found.factor == np.inf
     reverse = plan(BOTH, VALUES | {"b2": 0.05}, MODEL, OMEGA, alike(0.01))
     assert reverse.noncentrality > 0
+
+
+def test_a_limit_on_narrow_lines_is_not_taken_for_a_rival_that_contains_the_model(planned):
+    """At 10^-30 Hz a mass does nothing, which is no statement on structures."""
+    slow = OMEGA * 1e-30
+    found = plan(MODEL, VALUES, RIVAL, slow, alike(0.1))
+    assert found.answer is Answer.SAME and found.rival.limits and not found.is_contained
+    said = next(plan_in_words(found, None, "given"))
+    assert said.startswith("impossible on these lines") and "wider range" in said
+
+
+def test_a_larger_structure_contains_the_smaller_one_as_the_verdict_tells():
+    small = Chain(2, damped=True)
+    values = {n: v for n, v in VALUES.items() if n != "b1"}
+    found = plan(small, values, Chain(3, damped=True), OMEGA, alike(0.1))
+    assert found.answer is Answer.SAME and found.is_contained
+    assert next(plan_in_words(found, None, "given")).startswith("impossible: 3:1 contains 2:1")
+
+
+def test_few_starts_that_agree_make_the_answer_doubtful(planned):
+    rival = planned.rival
+    j = rival.noncentrality
+    for costs, recovered, trust in (
+        ((j, j, j, 9 * j), True, Trust.AGREED),
+        ((j, j, 2 * j, 9 * j), True, Trust.DOUBTFUL),
+        ((j, j, j, 9 * j), False, Trust.DOUBTFUL),
+    ):
+        other = replace(rival, estimate=replace(rival.estimate, costs=costs), recovered=recovered)
+        found = replace(planned, rival=other)
+        said = next(plan_in_words(found, None, "given"))
+        assert other.trust is trust and ("Doubtful" in said) == (trust is Trust.DOUBTFUL)
 
 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
         (lambda: fitted_rival(MODEL, VALUES, MODEL, OMEGA, alike(0.1)), "no rival of itself"),
-        (lambda: fitted_rival(MODEL, VALUES, RIVAL, OMEGA, alike(0.0)), "positive number"),
+        (lambda: fitted_rival(MODEL, VALUES, RIVAL, OMEGA, alike(0.0)), "noise of a line lies"),
     ],
 )
 def test_bad_input_is_named(change, words):

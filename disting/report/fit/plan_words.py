@@ -9,7 +9,7 @@ from disting.fit.candidates import as_listed, reference
 from disting.fit.designed import Designed
 from disting.fit.named import Named
 from disting.fit.plan import LEVEL, POWER, Answer, Plan, is_trusted, joined, needed, power, typical
-from disting.fit.rival import Rival
+from disting.fit.rival import Limit, Rival
 from disting.model.drawing import text_drawing
 from disting.report.fit.words import percent, readable
 from disting.verdict import Relation
@@ -142,14 +142,17 @@ def _doubt(rival: Rival) -> str:
 def _same(found: Plan, rival: Rival) -> str:
     """Why a rival that fits within rounding does so, although the verdict does not say so."""
     model, name = found.names
-    if rival.limits:
-        ends = ", ".join(
-            f"{n} -> {'0' if gone else 'infinity'}" for n, gone in rival.limits.items()
-        )
+    if found.is_contained:
+        does = f", which it does {_limits(rival)}" if rival.limits else ""
         return (
-            f"impossible: {name} does what {model} does in the limit {ends}: it contains this"
-            f" machine, so no measurement of it excludes {name}, with whatever effort. The question"
-            f" that can be answered is the reverse: is a machine that is {name} told from {model}?"
+            f"impossible: {name} contains {model}{does}, so no measurement of this machine excludes"
+            f" it, with whatever effort. The question that can be answered is the reverse: is a"
+            f" machine that is {name} told from {model}?"
+        )
+    if rival.limits:
+        return (
+            f"impossible on these lines: {name} does there what {model} does {_limits(rival)}; if"
+            " the structures differ it shows elsewhere: choose a wider range"
         )
     relation = found.verdict.relation if found.verdict is not None else Relation.UNDECIDED
     why = {
@@ -165,13 +168,26 @@ def _same(found: Plan, rival: Rival) -> str:
     )
 
 
+def _limits(rival: Rival) -> str:
+    """What has become of the elements that have no effect."""
+    ends = [
+        f"{name} -> {'0' if limit is Limit.ZERO else 'infinity'}"
+        for name, limit in rival.limits.items()
+        if limit is not Limit.ANY
+    ]
+    idle = [name for name, limit in rival.limits.items() if limit is Limit.ANY]
+    said = [f"in the limit {', '.join(ends)}"] if ends else []
+    return " and ".join([*said, *([f"with {', '.join(idle)} without effect"] if idle else [])])
+
+
 def _short(found: Plan) -> str:
     """The answer in a table."""
     if found.rival is None:
         return f"impossible: {next_command(*found.names, found.model.damped)}"
     if found.answer is Answer.SAME:
-        ends = ", ".join(found.rival.limits)
-        return f"impossible: it contains the model (limit of {ends})" if ends else "impossible"
+        ends = f" ({', '.join(found.rival.limits)} without effect)" * bool(found.rival.limits)
+        does = "contains the model" if found.is_contained else "does the same on these lines"
+        return f"impossible: it {does}{ends}"
     return found.answer.value + ("" if is_trusted(found) else ", doubtful: few starts agree")
 
 
