@@ -27,14 +27,22 @@ def stored_verdict(record: Record, view: View) -> Verdict:
     if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
         return found
     here, there = _shares(record)
-    found = replace(found, left_positive=here, right_positive=there)
     if INCLUSIONS in record:
         both = inclusions_from_dict(record[INCLUSIONS])
-        return replace(
-            found, image=both.image.inclusion, closure=both.closure.inclusion, inclusions=both
+        image, closure = both.image.inclusion, both.closure.inclusion
+    else:
+        both = None
+        image = closure = (
+            Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
         )
-    told = Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
-    return replace(found, image=told, closure=told)
+    return replace(
+        found,
+        left_positive=here,
+        right_positive=there,
+        image=image,
+        closure=closure,
+        inclusions=both,
+    )
 
 
 def deciding(record: Record, view: View) -> tuple[Stage, dict[str, Any]]:

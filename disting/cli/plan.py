@@ -11,7 +11,7 @@ import numpy as np
 from disting.cli.common import emitted
 from disting.cli.plain import complain
 from disting.cli.workers import engine_for
-from disting.equivalence.given import assignments, chain_of, point_of
+from disting.equivalence.given import assignments, point_of
 from disting.errors import InputError, printable
 from disting.fit.designed import Designed, designed, designed_to_dict
 from disting.fit.export import predicted
@@ -22,6 +22,7 @@ from disting.fit.scatter import scatter
 from disting.measurement import read
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.plan_write import write_plan
 

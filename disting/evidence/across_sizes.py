@@ -215,7 +215,6 @@ class LimitFibre:
 
 
 AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
-ACROSS_SIZES = {c.kind: c for c in (Limit, Meeting, TooLarge, PoleSharing, LimitFibre)}
 
 
 def _counted(rank: int, coordinates: int, factors: int, same_mass: int) -> str:

@@ -7,18 +7,17 @@ Those of findings on positive parameters are `positive.PositiveEvidence`.
 from typing import Any, get_args
 
 from disting.evidence import plain
-from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
-from disting.evidence.conditions import (
-    Counts,
-    Embedding,
-    Forms,
-    FreeChoice,
-    Ranks,
-    Renaming,
-    Supermodel,
+from disting.evidence.across_sizes import (
+    AcrossSizes,
+    Limit,
+    LimitFibre,
+    Meeting,
+    PoleSharing,
+    TooLarge,
 )
-from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
+from disting.evidence.conditions import ByConditions, Counts
+from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
+from disting.evidence.general import OfGeneralModels
 from disting.evidence.ideals import ByRow, ByRows, FullRows, Refuted, Shared, Solved
 from disting.evidence.limits import (
     FullImage,
@@ -29,13 +28,12 @@ from disting.evidence.limits import (
 )
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 
-ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
-ByDecision = Theorem | DeadTime | FibreAt | FullRows | Solved | ByRow | Refuted | Shared
-OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
+ByDecision = (
+    Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | ByRow | Refuted | Shared
+)
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
 )
-AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
 RowByRow = Outside | RowsInside | ByRows
 InclusionEvidence = (
     AcrossSizes
@@ -52,6 +50,7 @@ GROUNDS = {
     "theorem": "a theorem",
     "dead time": "dead time",
     "fibre": "one fibre",
+    "fibre under experiments": "one fibre",
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
     "row": "a row of masses decided once for all",

@@ -9,8 +9,8 @@ from disting.errors import InputError, shown
 from disting.measurement import checks, periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.closed_loop import follows_output
-from disting.measurement.response import UNNAMED, FrequencyResponse, Signal, as_sensor
-from disting.model.chain import Sensor
+from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
+from disting.model.chain import Sensor, as_sensor
 
 
 @dataclass(frozen=True, slots=True, eq=False)

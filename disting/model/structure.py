@@ -13,8 +13,12 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from disting.errors import InputError
+
 if TYPE_CHECKING:
     import networkx as nx
+
+HIGHEST = 2  # derivative that has Markov parameters and a state space whatever the ports
 
 
 def _between(i: int) -> str:
@@ -71,8 +75,28 @@ class GroundDamper(NamedTuple):
         return f"b{self.at}"
 
 
-Element = Mass | Spring | Damper | GroundDamper
-POWER = {"m": 2, "k": 0, "d": 1, "b": 1}  # of s, with which an element's parameter enters A(s)
+class Known(NamedTuple):
+    """Inertia ("m") or spring to the ground ("g") at mass `at`, of a size that is known: no
+    parameter.
+    """
+
+    at: int
+    kind: str
+
+    @property
+    def parameter(self) -> str:
+        """Name of its value, such as +m2."""
+        return f"+{self.kind}{self.at}"
+
+
+Element = Mass | Spring | Damper | GroundDamper | Known
+POWER = {
+    "m": 2,
+    "k": 0,
+    "g": 0,
+    "d": 1,
+    "b": 1,
+}  # of s, with which an element's parameter enters A(s)
 
 
 class Ports(NamedTuple):
@@ -96,6 +120,13 @@ class Structure:
     sensor_order: int
     lag: bool = False
     dead_time: bool = False
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.sensor_order <= HIGHEST:
+            raise InputError(
+                "a sensor shows the position or one of its first two derivatives, not derivative"
+                f" {self.sensor_order}: beyond, the transfer function of a mass is not proper"
+            )
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:

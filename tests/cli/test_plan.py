@@ -96,7 +96,14 @@ def fit_file(tmp_path_factory):
     return path, found
 
 
-def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answered(fit_file):
+@pytest.fixture(scope="module")
+def rows(fit_file):
+    return json.loads(called("plan", fit_file[0], "--json", "-").stdout)["rivals"]
+
+
+def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answered(
+    fit_file, rows
+):
     path, found = fit_file
     assert [m.name for m in found.members] == ["2:1", "2:1+b1", "2:1+b2"]
     done = called("plan", path)
@@ -106,10 +113,9 @@ def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answ
     for name in ("2:1+b1", "2:1+b2"):
         (row,) = [line for line in first.splitlines() if line.startswith(f"{name} ")]
         assert f"impossible: it contains the model ({name[4:]} without effect)" in row
-    plain = json.loads(called("plan", path, "--json", "-").stdout)
-    assert [one["rival"] for one in plain["rivals"]] == ["2:1+b1", "2:1+b2"]
-    assert all(one["noncentrality"] == 0 for one in plain["rivals"])
-    for one in plain["rivals"]:
+    assert [one["rival"] for one in rows] == ["2:1+b1", "2:1+b2"]
+    assert all(one["noncentrality"] == 0 and one["contains"] for one in rows)
+    for one in rows:
         back = one["reverse"]
         assert (back["model"], back["rival"]) == (one["rival"], "2:1")
         assert back["noise"] == pytest.approx(found.explanation.scatter.typical)
@@ -120,9 +126,8 @@ def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answ
     }  # fmt: skip
 
 
-def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file):
-    path, found = fit_file
-    back = json.loads(called("plan", path, "--json", "-").stdout)["rivals"][0]["reverse"]
+def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rows):
+    back, found = rows[0]["reverse"], fit_file[1]
     values = found.members[1].candidate.estimate.parameters
     assert back["parameters"] == values
     hertz = found.task.cost.measured.frequency

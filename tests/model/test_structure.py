@@ -1,9 +1,11 @@
 """Structures as graphs: parts, unions, rows; and the drawing in one line."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given, settings
 
-from disting import Chain, Family
+from disting import Chain, Family, InputError
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.structure import GroundDamper, Spring, Structure
 from tests.laws.strategies import chains
@@ -25,6 +27,13 @@ def without(structure, *elements):
         structure.lag,
         structure.dead_time,
     )
+
+
+@pytest.mark.parametrize("order", [-1, 3])
+def test_a_derivative_whose_transfer_function_is_not_proper_is_refused(order):
+    """Its Markov parameters were those of the proper part alone, and verdicts rested on them."""
+    with pytest.raises(InputError, match="is not proper"):
+        replace(Chain(2).structure, sensor_order=order)
 
 
 # --- embeddings

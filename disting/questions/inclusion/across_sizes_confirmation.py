@@ -5,6 +5,7 @@ evidence alone.
 from dataclasses import astuple
 
 from disting.evidence.across_sizes import (
+    AcrossSizes,
     Limit,
     LimitFibre,
     Meeting,
@@ -14,7 +15,6 @@ from disting.evidence.across_sizes import (
 )
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Solved
-from disting.evidence.kinds import AcrossSizes
 from disting.model.chain import Chain
 from disting.model.row import Row, canonical_rows
 from disting.questions.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins

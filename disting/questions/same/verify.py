@@ -9,6 +9,7 @@ from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation, Sample
 from disting.evidence.conditions import (
+    ByConditions,
     Counts,
     Embedding,
     Forms,
@@ -17,10 +18,10 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
-from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
-from disting.evidence.kinds import ByConditions, Evidence
+from disting.evidence.kinds import Evidence
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
@@ -88,6 +89,8 @@ class Witness:
                 return real_factors(canonical(left).chain, canonical(right).chain)
             case RealWitnesses():
                 return _real_witnesses(evidence, canonical(left).chain, canonical(right).chain)
+            case FibreUnder():
+                return False  # of chains under several experiments
             case Witnesses() | Explicit() | NoEquivalent() | Constants():
                 return False  # these speak of general models, see `general.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)

@@ -7,6 +7,7 @@ from disting.fit.fitted import fit_percent
 from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
+from disting.measurement.units import differentiated
 from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
 
@@ -150,7 +151,7 @@ def unit_of(kind: str, measured: FrequencyResponse) -> str:
     """
     if kind not in MOTIONS:
         return "s"
-    motion = measured.to_quantity(MOTIONS[kind]).output.unit
+    motion = differentiated(measured.output.unit, measured.sensor, MOTIONS[kind])
     if not measured.input.unit or not motion:
         return f"input per {MOTIONS[kind]}"
     quotient = (

@@ -30,7 +30,7 @@ from disting.model.family import Family
 from disting.model.question import Membership
 from disting.model.symmetry import canonical
 
-LIMITS = Limits(seconds=20, entries=1_000_000, safety=100)
+LIMITS = Limits(seconds=600, entries=1_000_000, safety=100)
 P = prime("test of rows")
 
 

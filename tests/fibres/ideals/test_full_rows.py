@@ -16,7 +16,7 @@ from disting.model.settings import Settings
 from disting.questions.same.exact import by_full_rows, by_ideals
 from disting.questions.same.verify import Witness
 
-LIMITS = Limits(seconds=60.0, entries=500_000, safety=100)
+LIMITS = Limits(seconds=600, entries=500_000, safety=100)
 
 
 def found(a: Chain, b: Chain) -> FullRows | None:
