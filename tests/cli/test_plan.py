@@ -2,6 +2,7 @@
 
 import csv
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from disting.model.chain import Chain
 from tests.cli.process import called
 from tests.fit.drives import response
 
+GUIDE = Path(__file__).parents[2] / "disting" / "guide" / "plan.md"
 VALUES = "m1=0.0045,m2=0.005,k12=550,d12=0.08,b1=0.1"
 PAIR = ("2:1+b1", "2:1+b2", "--damped", "--set", VALUES, "--range", "5..300")
 MODEL, RIVAL = (Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2))
@@ -38,6 +40,13 @@ def test_answer_comes_first_with_what_is_needed(written):
     text = "\n".join(rest)
     assert "  noise of a line at most 23 %\n  1.68 times the periods\n" in text
     assert "1 surplus parameter (within 2:1+b1+b2)" in text and ": agreed" in text
+
+
+def test_the_guide_shows_what_is_printed(written):
+    """Up to the spectra, whose last digits depend on the machine's linear algebra."""
+    done, _ = written
+    told, _, _ = done.stdout.partition("excitation of the same power")
+    assert len(told.splitlines()) > 15 and told in GUIDE.read_text(encoding="utf-8")
 
 
 def test_written_spectrum_is_run_by_the_command_that_is_named(written, tmp_path):
