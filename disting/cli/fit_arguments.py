@@ -76,7 +76,7 @@ def _data(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument("--torque-constant", type=float, metavar="K", help=text)
     group.add_argument(
-        "--band", type=_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
+        "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
     )
     text = (
         "sign of the sensor; auto takes what fits better among small and large candidates"
@@ -207,7 +207,7 @@ def _option(text: str) -> tuple[str, Any]:
             f"an option is written like sampling_rate=2500, not {shown(text)}"
         )
     if ".." in value:
-        return name, _range(value)
+        return name, frequency_range(value)
     # not at the comma of frf[2,1]
     parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))
     return name, parts if len(parts) > 1 else parts[0]
@@ -231,7 +231,8 @@ def _number(text: str) -> int | float | str:
     return text
 
 
-def _range(text: str) -> tuple[float, float]:
+def frequency_range(text: str) -> tuple[float, float]:
+    """Two rising numbers such as 11..250; raises ArgumentTypeError."""
     low, dots, high = text.partition("..")
     try:
         limits = (float(low), float(high))
@@ -244,7 +245,7 @@ def _range(text: str) -> tuple[float, float]:
 
 def _bound(text: str) -> tuple[str, tuple[float, float]]:
     name, _, limits = text.partition("=")
-    return name, _range(limits)
+    return name, frequency_range(limits)
 
 
 def _value(text: str) -> tuple[str, float]:

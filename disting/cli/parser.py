@@ -14,6 +14,7 @@ from disting.cli import (
     equivalents,
     fit_arguments,
     models,
+    plan_arguments,
     report,
     simulate,
     upkeep,
@@ -131,6 +132,7 @@ def parser() -> argparse.ArgumentParser:
         _add_verdicts,
         _add_equivalents,
         _add_fit,
+        _add_plan,
         _add_report,
         _add_catalog,
     ):
@@ -246,6 +248,19 @@ def _fit(options: argparse.Namespace) -> int:
     from disting.cli import fit
 
     return fit.run(options)
+
+
+def _add_plan(groups: Groups) -> None:
+    p = _command(groups, "plan", _plan, "how much measuring tells two structures apart")
+    plan_arguments.add_arguments(p)
+    _shared(p, damped=True, work=True)
+
+
+def _plan(options: argparse.Namespace) -> int:
+    """Plan a measurement; likewise."""
+    from disting.cli import plan
+
+    return plan.run(options)
 
 
 def _add_simulate(groups: Groups) -> None:

@@ -1,6 +1,7 @@
 """disting simulate: what a bench would measure on a chain with known parameters."""
 
 import argparse
+from pathlib import Path
 
 from disting.cli.common import emitted
 from disting.cli.paths import written_file
@@ -44,6 +45,11 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         default="schroeder",
         help="test signal (default: a Schroeder multisine)",
     )
+    text = (
+        "CSV with the columns frequency_hz and amplitude, as 'disting plan' writes it: the lines of"
+        " the multisine, instead of --low and --high"
+    )
+    p.add_argument("--spectrum", type=Path, metavar="FILE", help=text)
     for name, value, text in (
         ("low", 10.0, "lowest excited frequency [Hz]"),
         ("high", 250.0, "highest excited frequency [Hz]"),
@@ -81,9 +87,13 @@ def run(options: argparse.Namespace) -> int:
     """Simulate, estimate the response, write it."""
     from disting.measurement import csv_text
     from disting.simulation import DEMO_PARAMETERS, Bench, Excitation, Friction, simulate
+    from disting.simulation.excitation import read_spectrum
 
     chain, values = _model(options)
-    excitation = Excitation(options.excitation, options.low, options.high, options.rms)
+    spectrum = read_spectrum(options.spectrum) if options.spectrum else ()
+    excitation = Excitation(
+        options.excitation, options.low, options.high, options.rms, spectrum=spectrum
+    )
     bench = Bench(
         sampling_rate=options.rate,
         samples=options.samples,
@@ -95,7 +105,10 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed,
     )
     series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
-    response = series.response(options.to, period=options.samples)
+    lines = excitation.lines(options.samples, options.rate) * options.rate / options.samples
+    response = series.response(
+        options.to, period=options.samples, lines=lines if spectrum else None
+    )
     text = csv_text(response)
     emitted(options.csv, text)
     if options.csv == "-":

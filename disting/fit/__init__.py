@@ -23,6 +23,8 @@ from disting.fit.cost import Case as Case
 from disting.fit.cost import Cost as Cost
 from disting.fit.cost import lines_by_coherence as lines_by_coherence
 from disting.fit.cost import lines_by_deviation as lines_by_deviation
+from disting.fit.designed import Designed as Designed
+from disting.fit.designed import designed as designed
 from disting.fit.estimate import Estimate as Estimate
 from disting.fit.estimate import Task as Task
 from disting.fit.estimate import estimates as estimates
@@ -47,6 +49,8 @@ from disting.fit.modes import physical as physical
 from disting.fit.modes import poles as poles
 from disting.fit.modes import zeros as zeros
 from disting.fit.noise import Noise as Noise
+from disting.fit.plan import Plan as Plan
+from disting.fit.plan import plan as plan
 from disting.fit.plant import Plant as Plant
 from disting.fit.practical import Practical as Practical
 from disting.fit.practical import Thresholds as Thresholds
@@ -55,6 +59,8 @@ from disting.fit.practical import condition_indices as condition_indices
 from disting.fit.practical import importance as importance
 from disting.fit.practical import practical as practical
 from disting.fit.readings import Reading as Reading
+from disting.fit.rival import Rival as Rival
+from disting.fit.rival import gain as gain
 from disting.fit.scatter import Scatter as Scatter
 from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select

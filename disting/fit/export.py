@@ -157,6 +157,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "chi2_per_line": found.explanation.chi2,
         "scatter": found.explanation.scatter.typical,
         "scatter_source": found.explanation.scatter.source,
+        "frequencies": _frequencies(found),
         "residual_correlation": found.explanation.correlation,
         "fit_percent": _fit_percent(found),
         "not_excluded": [member_to_dict(m) for m in found.members],
@@ -168,6 +169,12 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "margin": found.margin,
         "sign": found.task.sign,
     }
+
+
+def _frequencies(found: Selection) -> dict[str, float]:
+    """Range [Hz] and number of the lines of the training data."""
+    hertz = found.task.cost.measured.frequency
+    return {"low": float(hertz[0]), "high": float(hertz[-1]), "lines": len(hertz)}
 
 
 def _fit_percent(found: Selection) -> dict[str, float | None]:
@@ -261,9 +268,19 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
     """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what
     is none.
     """
+    chain = chain_from_dict(plain)
+    try:
+        values = {name: float(plain["parameters"][name]) for name in chain.parameters}
+    except (KeyError, TypeError, ValueError) as reason:
+        raise _no_model(reason) from None
+    return chain, values
+
+
+def chain_from_dict(plain: dict[str, Any]) -> Chain:
+    """The structure alone, of a candidate or of what is named beside it; raises InputError."""
     try:
         (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
-        chain = Chain(
+        return Chain(
             plain["n_masses"],
             plain["gap"],
             act_minus,
@@ -276,10 +293,12 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
             plain["lag"],
             plain["delay"],
         )
-        values = {name: float(plain["parameters"][name]) for name in chain.parameters}
     except (KeyError, TypeError, ValueError) as reason:
-        raise InputError(f"this is no fitted model: {shown(reason)} is missing or wrong") from None
-    return chain, values
+        raise _no_model(reason) from None
+
+
+def _no_model(reason: Exception) -> InputError:
+    return InputError(f"this is no fitted model: {shown(reason)} is missing or wrong")
 
 
 def read_model(path: Path) -> tuple[Chain, dict[str, float]]:

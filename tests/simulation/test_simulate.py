@@ -23,9 +23,54 @@ from disting.simulation import (
     matrices,
     simulate,
 )
+from disting.simulation.excitation import read_spectrum, spectrum_text
 
 BENCH = Bench(sampling_rate=1000.0, samples=1000, periods=3)
 BAND = Excitation(low=5.0, high=200.0)
+
+
+SPECTRUM = tuple(
+    (f, a) for f, a in zip(range(10, 120, 10), (1, 2, 1, 3, 1, 1, 2, 1, 1, 5, 1), strict=True)
+)
+
+
+def test_a_multisine_has_the_lines_and_amplitudes_of_its_spectrum():
+    signal = Excitation(spectrum=SPECTRUM, rms=3.0).period(1000, 1000.0)
+    lines = np.abs(np.fft.rfft(signal))
+    sizes = np.array([a for _, a in SPECTRUM], dtype=float)
+    seen = lines[[f for f, _ in SPECTRUM]]
+    assert seen / seen[0] == pytest.approx(sizes) and np.sqrt(np.mean(signal**2)) == pytest.approx(
+        3.0
+    )
+    assert np.sum(lines**2) == pytest.approx(np.sum(seen**2))
+
+
+def test_a_spectrum_of_equal_amplitudes_is_the_schroeder_multisine():
+    equal = Excitation(spectrum=tuple((float(f), 0.5) for f in range(10, 101)))
+    plain = Excitation(low=10.0, high=100.0)
+    assert equal.period(1000, 1000.0) == pytest.approx(plain.period(1000, 1000.0), abs=1e-9)
+
+
+def test_lines_that_fall_together_add_their_powers():
+    near = Excitation(spectrum=((10.2, 3.0), (9.9, 4.0), (20.0, 5.0)))
+    assert list(near.lines(1000, 1000.0)) == [10, 20]
+    seen = np.abs(np.fft.rfft(near.period(1000, 1000.0)))
+    assert seen[10] == pytest.approx(seen[20])
+
+
+def test_a_spectrum_is_read_back_bit_by_bit(tmp_path):
+    hertz, sizes = np.array([1 / 3, 10.0, 77.7]), np.array([0.1, 1 / 7, 1.0])
+    (tmp_path / "s.csv").write_text(spectrum_text(hertz, sizes), encoding="utf-8")
+    assert read_spectrum(tmp_path / "s.csv") == tuple(zip(hertz, sizes, strict=True))
+
+
+@pytest.mark.parametrize(
+    "text", ["", "frequency_hz,amplitude\n", "a,b\n1,2\n", "frequency_hz,amplitude\n1,x\n"]
+)
+def test_what_is_no_spectrum_is_refused(tmp_path, text):
+    (tmp_path / "s.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match="is no spectrum"):
+        read_spectrum(tmp_path / "s.csv")
 
 
 def truth(chain, seed=0):
@@ -228,6 +273,9 @@ def test_the_demonstration_is_a_bench_that_shows_its_model():
             "k12 = -1.0 is no non-negative",
         ),
         (lambda: Excitation(low=0.0), "0 < low < high"),
+        (lambda: Excitation(spectrum=((10.0, 0.0),)), "positive amplitudes"),
+        (lambda: Excitation("chirp", spectrum=((10.0, 1.0),)), "no spectrum of its own"),
+        (lambda: Excitation(spectrum=((600.0, 1.0),)).period(1000, 1000.0), "other samples"),
         (lambda: Excitation("noise"), "one of schroeder, random-phase, chirp"),
         (lambda: Excitation(high=600.0).period(1000, 1000.0), "half the sampling rate"),
         (lambda: Excitation(low=10.1, high=10.2).period(1000, 1000.0), "holds no line"),

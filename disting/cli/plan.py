@@ -1,0 +1,172 @@
+"""disting plan: how much measuring tells two structures apart."""
+
+import argparse
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from disting.cli.common import emitted
+from disting.cli.plain import complain
+from disting.cli.workers import engine_for
+from disting.equivalence.given import assignments, point_of
+from disting.errors import InputError, printable
+from disting.fit.designed import Designed, designed, designed_to_dict
+from disting.fit.export import predicted
+from disting.fit.named import Named, named_by
+from disting.fit.plan import Answer, Plan, plan, plan_to_dict
+from disting.fit.plant import Real
+from disting.fit.scatter import scatter
+from disting.measurement import read
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.model.names import chain_of
+from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
+from disting.report.fit.plan_write import write_plan
+
+LINES = 120
+
+
+@dataclass(frozen=True, eq=False)
+class Effort:
+    """Lines [rad/s] and their scatter, shape (n_f,) each, and where it is known from."""
+
+    omega: Real
+    rho: Real
+    source: str
+
+
+def run(options: argparse.Namespace) -> int:
+    """Plan for one pair, or for all rivals that a fit names."""
+    if options.model.lower().endswith(".json"):
+        return _from_fit(Path(options.model), options)
+    if options.rival is None:
+        raise InputError("name the structure to exclude too, such as: disting plan 2:1+b1 2:1+b2")
+    family = Family(1, options.damped)
+    model, rival = (chain_of(text, family) for text in (options.model, options.rival))
+    exact = point_of(model, assignments(options.values))
+    values = {name: int(value.p) / int(value.q) for name, value in exact.items()}
+    effort = _effort(options, model, values, None)
+    _warn(effort)
+    with engine_for(options) as (engine, pool, progress):
+        found = plan(
+            model,
+            values,
+            rival,
+            effort.omega,
+            effort.rho,
+            engine=engine,
+            executor=pool,
+            progress=progress,
+        )
+        progress("spectrum", 0, 1)
+        best = designed(found)
+    _emit(options, designed_to_dict(found, best))
+    if options.json != "-":
+        print(printable("\n".join(plan_in_words(found, best, effort.source))))
+    if options.out:
+        _write(options, found, best)
+    return 0
+
+
+def _write(options: argparse.Namespace, found: Plan, best: Designed | None) -> None:
+    if best is None:
+        raise InputError("there is nothing to measure, so nothing is written: leave --out away")
+    command = write_plan(found, best, options.out)
+    if options.json != "-":
+        print(f"\nwritten to {options.out}; the spectrum is run by\n  {command}")
+
+
+def _from_fit(path: Path, options: argparse.Namespace) -> int:
+    """The selected structure of a fit against each rival that it names."""
+    if options.rival or options.values or options.damped:
+        raise InputError(
+            f"{path} names structures and values itself: leave the rival, --set and --damped away"
+        )
+    if options.out:
+        raise InputError("--out belongs to one pair: plan it by name, as the output shows")
+    named = named_by(path)
+    if not named.explained:
+        complain(
+            f"warning: none of the structures of {path} explains its data, so no rival is named;"
+            " name the structures to plan for"
+        )
+    effort = _effort(options, named.model, named.values, named)
+    _warn(effort)
+    found = list[tuple[Plan, Plan | None]]()
+    with engine_for(options) as (engine, pool, progress):
+
+        def planned(one: Chain, values: dict[str, float], other: Chain) -> Plan:
+            """One plan with this effort."""
+            return plan(one, values, other, effort.omega, effort.rho, engine=engine, executor=pool)
+
+        for rival, values in named.rivals.items():
+            progress("rival", len(found), len(named.rivals))
+            there = planned(named.model, named.values, rival)
+            contains = there.answer is Answer.SAME and values
+            found.append((there, planned(rival, values, named.model) if contains else None))
+    rows = [plan_to_dict(one) | _reverse(back) for one, back in found]
+    _emit(options, {"same": named.same, "rivals": rows})
+    if options.json != "-":
+        print(printable("\n".join(rivals_in_words(named, found, effort.source))))
+    return 0
+
+
+def _reverse(found: Plan | None) -> dict[str, Any]:
+    """Beside a rival that does what the model does: the model, were the rival true."""
+    return {"reverse": plan_to_dict(found)} if found else {}
+
+
+def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:
+    if options.json:
+        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        emitted(options.json, text)
+
+
+def _effort(
+    options: argparse.Namespace, model: Chain, values: dict[str, float], named: Named | None
+) -> Effort:
+    """From a number, a measured response, or the file of a fit."""
+    if options.lines is not None and options.lines < FEWEST:
+        raise InputError(f"at least {FEWEST} lines are needed, not {options.lines}")
+    number = _number(options.noise)
+    if options.noise is not None and number is None:
+        return _measured(options, model, values)
+    if number is None and named is None:
+        raise InputError("say how much a line scatters: --noise 0.02, or --noise FRF.csv")
+    low, high = options.range or ((named.low, named.high) if named else (0.0, 0.0))
+    if not 0 < low < high:
+        raise InputError("say which lines are measured [Hz]: --range 5..300")
+    size = number if number is not None else named.scatter if named else 0.0
+    count = options.lines or (named.lines if named else 0) or LINES
+    source = "given" if number is not None else "of the fitted data"
+    return Effort(2 * np.pi * np.geomspace(low, high, count), np.full(count, size), source)
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        return float(text or "")
+    except ValueError:
+        return None
+
+
+def _measured(options: argparse.Namespace, model: Chain, values: dict[str, float]) -> Effort:
+    """Lines and scatter of a measured response."""
+    if options.lines is not None:
+        raise InputError("the lines are those of the measured response: leave --lines away")
+    found = read(Path(options.noise)).to_quantity(model.sensor)
+    for note in (*found.notes, *found.suspicions):
+        complain(f"{found.origin or 'data'}: {note}")
+    found = found.masked(*options.range) if options.range else found
+    seen = scatter(found, [predicted(model, values, found.omega)])
+    return Effort(found.omega, seen.rho, f"of {options.noise}, known from {seen.source}")
+
+
+def _warn(effort: Effort) -> None:
+    if np.median(effort.rho) > LOUD:
+        complain(
+            f"warning: with more than {100 * LOUD:.0f} % noise a line, logarithms of a response are"
+            " biased: powers are rough"
+        )

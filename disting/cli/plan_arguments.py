@@ -1,0 +1,46 @@
+"""Arguments of disting plan; nothing here loads numerical libraries."""
+
+import argparse
+
+from disting.cli.fit_arguments import frequency_range
+from disting.cli.paths import written_file, written_folder
+
+
+def add_arguments(p: argparse.ArgumentParser) -> None:
+    """Everything but --damped and what concerns the work."""
+    text = (
+        "the true structure, such as 2:1+b1, or a file of 'disting fit --json': its selected"
+        " structure"
+    )
+    p.add_argument("model", metavar="N:I|FIT.json", help=text)
+    text = "the structure to exclude (with FIT.json: each that it names)"
+    p.add_argument("rival", nargs="?", metavar="M:J", help=text)
+    text = "values of all parameters of the true structure, such as m1=0.01,k12=500"
+    p.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
+    )
+    text = (
+        "relative noise of a line, such as 0.02 (2 %% in amplitude, 0.02 rad in phase), or a"
+        " measured response whose lines and scatter are taken"
+    )
+    p.add_argument("--noise", metavar="X|FRF.csv", help=text)
+    p.add_argument(
+        "--range",
+        type=frequency_range,
+        metavar="LOW..HIGH",
+        help="of the lines [Hz], such as 5..300",
+    )
+    p.add_argument(
+        "--lines",
+        type=int,
+        metavar="K",
+        help="number of lines, evenly spaced on a logarithmic scale (default: 120)",
+    )
+    text = "write figure, spectrum to run, lines and JSON there"
+    p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
+    p.add_argument(
+        "--json",
+        type=written_file,
+        metavar="FILE",
+        help="write the plan as JSON; - is standard output",
+    )

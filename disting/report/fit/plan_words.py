@@ -1,0 +1,258 @@
+"""A plan in words: the answer first, then the numbers behind it."""
+
+from collections.abc import Iterator, Sequence
+from math import ceil, sqrt
+
+import numpy as np
+
+from disting.fit.candidates import as_listed, reference
+from disting.fit.designed import Designed
+from disting.fit.named import Named
+from disting.fit.plan import LEVEL, POWER, Answer, Plan, is_trusted, joined, needed, power, typical
+from disting.fit.rival import Limit, Rival
+from disting.model.drawing import text_drawing
+from disting.report.fit.words import percent, readable
+from disting.verdict import Relation
+
+LOUD = 0.3  # noise of a line beyond which the logarithm of a response is no longer linear in it
+FEWEST = 8  # lines of a response
+SHOWN = 12  # lines of the optimal spectrum in the table
+
+
+def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[str]:
+    """The lines of the answer for one pair."""
+    yield _answer(found)
+    if found.verdict is not None:
+        yield f"verdict: {found.verdict.sentence}"
+    yield ""
+    model, name = found.names
+    width = max(len(model), len(name))
+    yield f"  {model:{width}}  {text_drawing(found.model)}  true: {_values(found.values)}"
+    rival = found.rival
+    if rival is None:
+        yield f"  {name:{width}}  {text_drawing(found.chain)}"
+        return
+    fitted = _values(rival.estimate.parameters)
+    yield f"  {name:{width}}  {text_drawing(found.chain)}  best fit: {fitted}"
+    yield ""
+    yield from _figures(found, rival, source)
+    if best is not None:
+        yield ""
+        yield from _spectra(found, best)
+
+
+def rivals_in_words(
+    named: Named, found: Sequence[tuple[Plan, Plan | None]], source: str
+) -> Iterator[str]:
+    """The selected structure of a fit against each rival; beside it the reverse, where the rival
+    contains the selected structure.
+    """
+    name = reference(named.model)
+    yield f"{name} is taken for true: {_values(named.values)}; noise {source}"
+    for same, why in named.same.items():
+        yield f"impossible: {same}: {why}"
+        yield f"  what else could be measured: {next_command(name, same, named.model.damped)}"
+    if not found:
+        yield "" if named.same else "the fit names no rival: nothing is to be told apart"
+        return
+    yield ""
+    yield from _rows([there for there, _ in found])
+    back = [reverse for _, reverse in found if reverse is not None]
+    if back:
+        yield ""
+        yield f"the other way round, what excludes {name} if a structure that contains it is true:"
+        yield from _rows(back, true=True)
+    yield ""
+    yield (
+        f"periods: multiple of those at hand for power {percent(POWER)} at level {percent(LEVEL)},"
+        " if all lines scatter alike; --noise FRF.csv takes each line's own scatter"
+    )
+    every = [p for p in (*(there for there, _ in found), *back) if p.noncentrality > 0]
+    if any(p.answer is Answer.ENOUGH for p in every):
+        yield (
+            "enough: by the test planned here; the fit's own rule, costs on data that it has not"
+            " seen, asks for more"
+        )
+    if every:
+        yield f"one pair in full: {plan_command(max(every, key=lambda p: p.factor))}"
+
+
+def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
+    """A row a plan, named by the rival, or by what is true."""
+    names = [p.names[0 if true else 1] for p in found]
+    head = "true" if true else "rival"
+    width = max(len(head), *map(len, names))
+    yield f"{head:{width}}  {'lambda':>8}  {'power':>7}  {'periods':>8}  answer"
+    for name, p in zip(names, found, strict=True):
+        periods = f"{readable(p.factor)}x" if p.noncentrality > 0 else "–"
+        row = f"{readable(p.noncentrality):>8}  {percent(p.power):>7}  {periods:>8}  {_short(p)}"
+        yield f"{name:{width}}  {row}"
+
+
+def next_command(model: str, rival: str, damped: bool) -> str:
+    """The command that tells which other experiment tells two structures apart."""
+    return f"disting next {model} {rival}{' --damped' * damped}"
+
+
+def plan_command(found: Plan) -> str:
+    """The command for one pair; values under the names of the structure that is listed."""
+    model, rival = found.names
+    names = as_listed(found.model).renaming
+    values = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in found.values.items())
+    size = typical(found.rival.rho) if found.rival else 0.02
+    lines = ""
+    if found.rival:
+        hertz = found.rival.hertz
+        lines = f" --range {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
+    damped = " --damped" * found.model.damped
+    return f"disting plan {model} {rival}{damped} --set {values} --noise {size:.3g}{lines}"
+
+
+def _answer(found: Plan) -> str:
+    model, name = found.names
+    if found.rival is None:
+        other = next_command(model, name, found.model.damped)
+        return (
+            f"impossible: no effort tells {model} and {name} apart with this force and sensor; what"
+            f" else could be measured is told by: {other}"
+        )
+    if found.answer is Answer.SAME:
+        return _same(found, found.rival)
+    said = (
+        f"{name} is excluded with a probability of {percent(found.power)} if the machine is {model}"
+        f" (level {percent(LEVEL)})"
+    )
+    more = (
+        f"enough: {said}"
+        if found.answer is Answer.ENOUGH
+        else f"not enough: {said}; {readable(found.factor)} times the periods are needed for"
+        f" {percent(POWER)}"
+    )
+    return more if is_trusted(found) else f"{more}. {_doubt(found.rival)}"
+
+
+def _doubt(rival: Rival) -> str:
+    found = "" if rival.recovered else ", and the search did not find back the model's own values"
+    return (
+        f"Doubtful: {rival.reached} of {len(rival.estimate.costs)} starts reached the rival's best"
+        f" fit{found}; a better one may exist, and then the power is lower"
+    )
+
+
+def _same(found: Plan, rival: Rival) -> str:
+    """Why a rival that fits within rounding does so, although the verdict does not say so."""
+    model, name = found.names
+    if found.is_contained:
+        does = f", which it does {_limits(rival)}" if rival.limits else ""
+        return (
+            f"impossible: {name} contains {model}{does}, so no measurement of this machine excludes"
+            f" it, with whatever effort. The question that can be answered is the reverse: is a"
+            f" machine that is {name} told from {model}?"
+        )
+    if rival.limits:
+        return (
+            f"impossible on these lines: {name} does there what {model} does {_limits(rival)}; if"
+            " the structures differ it shows elsewhere: choose a wider range"
+        )
+    relation = found.verdict.relation if found.verdict is not None else Relation.UNDECIDED
+    why = {
+        Relation.SOMETIMES: "as the verdict says, some parameter values have an equivalent; these"
+        " are among them",
+        Relation.DISTINGUISHABLE: "the verdict says that the structures differ: all models of the"
+        " one, or these values at least, have an equivalent in the other, though not the reverse",
+    }.get(relation, "whether that holds for other values too is not decided")
+    other = next_command(model, name, found.model.damped)
+    return (
+        f"impossible for these values: {name} fits within rounding ({why}); what else could be"
+        f" measured is told by: {other}"
+    )
+
+
+def _limits(rival: Rival) -> str:
+    """What has become of the elements that have no effect."""
+    ends = [
+        f"{name} -> {'0' if limit is Limit.ZERO else 'infinity'}"
+        for name, limit in rival.limits.items()
+        if limit is not Limit.ANY
+    ]
+    idle = [name for name, limit in rival.limits.items() if limit is Limit.ANY]
+    said = [f"in the limit {', '.join(ends)}"] if ends else []
+    return " and ".join([*said, *([f"with {', '.join(idle)} without effect"] if idle else [])])
+
+
+def _short(found: Plan) -> str:
+    """The answer in a table."""
+    if found.rival is None:
+        return f"impossible: {next_command(*found.names, found.model.damped)}"
+    if found.answer is Answer.SAME:
+        ends = f" ({', '.join(found.rival.limits)} without effect)" * bool(found.rival.limits)
+        does = "contains the model" if found.is_contained else "does the same on these lines"
+        return f"impossible: it {does}{ends}"
+    return found.answer.value + ("" if is_trusted(found) else ", doubtful: few starts agree")
+
+
+def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
+    """Numbers behind the answer."""
+    hertz, both = rival.hertz, joined(found.model, found.chain)
+    larger = f" (within {reference(both)})" if both and both != found.model else ""
+    plural = "s" * (found.surplus > 1)
+    yield (
+        f"lines           {len(hertz)} from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, noise of a line"
+        f" {percent(typical(rival.rho))} ({source})"
+    )
+    yield (
+        f"search          {rival.reached} of {len(rival.estimate.costs)} starts reached the rival's"
+        f" best fit: {rival.trust}"
+    )
+    if found.answer is Answer.SAME:
+        return
+    at = int(rival.apart.argmax())
+    yield (
+        f"difference      most at {hertz[at]:.3g} Hz, by {percent(float(rival.apart[at]))}; sum of"
+        f" squares over the lines {readable(float(np.sum(rival.apart**2)))}"
+    )
+    yield (
+        f"test            {found.surplus} surplus parameter{plural}{larger}, level {percent(LEVEL)}"
+    )
+    yield (
+        f"noncentrality   {readable(found.noncentrality)}, of {readable(needed(found.surplus))} for"
+        f" power {percent(POWER)}"
+    )
+    yield f"power           {percent(found.power)}"
+    lines = max(FEWEST, ceil(found.factor * len(hertz)))
+    yield f"needed for power {percent(POWER)}, one of:"
+    yield f"  noise of a line at most {percent(typical(rival.rho) / sqrt(found.factor))}"
+    yield f"  {readable(found.factor)} times the periods"
+    yield f"  {readable(sqrt(found.factor))} times the amplitude"
+    yield f"  {lines} lines in the same range"
+
+
+def _spectra(found: Plan, best: Designed) -> Iterator[str]:
+    """Band and spectra of the same power, and the lines of the optimal one."""
+    before, after = best.crests
+    rows = [
+        ("the lines alike", found.noncentrality),
+        (f"best band, {best.band.low:.3g} to {best.band.high:.3g} Hz", best.band.noncentrality),
+        (f"optimal, {best.optimum.lines} lines", best.optimum.noncentrality),
+        ("to be run: 90 % of it, 10 % on all lines", best.run.noncentrality),
+        (f"  with crest {after:.2g}, at the peak of the first, {before:.2g}", best.at_equal_peak),
+    ]
+    width = max(len(name) for name, _ in rows)
+    yield f"{'excitation of the same power':{width}}  {'lambda':>8}  {'power':>7}  {'periods':>8}"
+    for name, size in rows:
+        periods = f"{readable(needed(found.surplus) / size)}x"
+        reached = percent(power(size, found.surplus))
+        yield f"{name:{width}}  {readable(size):>8}  {reached:>7}  {periods:>8}"
+    gap = best.optimum.bound / best.optimum.noncentrality - 1
+    yield f"no spectrum of this power reaches more than {percent(gap)} beyond the optimal one"
+    yield ""
+    yield "share of the power of the optimal lines:"
+    chosen = np.argsort(-best.optimum.shares, kind="stable")[: min(SHOWN, best.optimum.lines)]
+    for k in np.sort(chosen):
+        yield f"  {best.hertz[k]:8.4g} Hz  {percent(float(best.optimum.shares[k])):>7}"
+    more = best.optimum.lines - len(chosen)
+    yield from [f"  and {more} more"] if more else []
+
+
+def _values(values: object) -> str:
+    return ", ".join(f"{n} = {v:.4g}" for n, v in dict(values).items())  # type: ignore[call-overload]

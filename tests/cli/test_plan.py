@@ -1,0 +1,194 @@
+"""disting plan on the command line: pairs, files of fits, and what it writes."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from disting.fit import select, selection_to_dict
+from disting.fit.export import predicted
+from disting.fit.plan import plan
+from disting.measurement import FrequencyResponse, read, write_csv
+from disting.model.chain import Chain
+from tests.cli.process import called
+from tests.fit.drives import response
+
+GUIDE = Path(__file__).parents[2] / "disting" / "guide" / "plan.md"
+VALUES = "m1=0.0045,m2=0.005,k12=550,d12=0.08,b1=0.1"
+PAIR = ("2:1+b1", "2:1+b2", "--damped", "--set", VALUES, "--range", "5..300")
+MODEL, RIVAL = (Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2))
+NUMBERS = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08, "b1": 0.1}
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("plan")
+    return called("plan", *PAIR, "--noise", 0.3, "--out", folder), folder
+
+
+def test_answer_comes_first_with_what_is_needed(written):
+    done, _ = written
+    assert done.returncode == 0
+    first, verdict, *rest = done.stdout.splitlines()
+    assert first == (
+        "not enough: 2:1+b2 is excluded with a probability of 75 % if the machine is 2:1+b1 (level"
+        " 1 %); 1.68 times the periods are needed for 95 %"
+    )
+    assert verdict.startswith("verdict: A1+b1 and A1+b2 are distinguishable over positive")
+    text = "\n".join(rest)
+    assert "  noise of a line at most 23 %\n  1.68 times the periods\n" in text
+    assert "1 surplus parameter (within 2:1+b1+b2)" in text and ": agreed" in text
+
+
+def test_the_guide_shows_what_is_printed(written):
+    """Up to the spectra, whose last digits depend on the machine's linear algebra."""
+    done, _ = written
+    told, _, _ = done.stdout.partition("excitation of the same power")
+    assert len(told.splitlines()) > 15 and told in GUIDE.read_text(encoding="utf-8")
+
+
+def test_written_spectrum_is_run_by_the_command_that_is_named(written, tmp_path):
+    done, folder = written
+    command = done.stdout.splitlines()[-1].split()
+    assert command[:2] == ["disting", "simulate"]
+    ran = called(*command[1:], "--csv", tmp_path / "frf.csv")
+    assert ran.returncode == 0, ran.stderr
+    seen = read(tmp_path / "frf.csv")
+    assert predicted(MODEL, NUMBERS, seen.omega) == pytest.approx(seen.G, rel=1e-5)
+    plain = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
+    assert len(seen) <= len(plain["frequency"]) == 120
+    assert plain["optimal"]["noncentrality"] > 4 * plain["noncentrality"]
+    rows = list(csv.DictReader((folder / "lines.csv").open(encoding="utf-8")))
+    difference = np.array([float(row["difference"]) for row in rows])
+    assert np.sum(difference**2) == pytest.approx(0.9516, abs=1e-3)
+    assert {p.name for p in folder.iterdir()} == {
+        "plan.svg", "plan.png", "plan.pdf", "plan.json", "lines.csv", "spectrum.csv",
+    }  # fmt: skip
+
+
+def test_indistinguishable_pair_is_impossible_and_next_is_named():
+    values = "m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3"
+    done = called(
+        "plan", "3:1", "3:11", "--damped", "--set", values, "--noise", "0.02", "--range", "0.1..10"
+    )
+    assert done.returncode == 0
+    first, verdict = done.stdout.splitlines()[:2]
+    assert first.startswith("impossible: no effort") and first.endswith(
+        "disting next 3:1 3:11 --damped"
+    )
+    assert "are indistinguishable over positive parameters" in verdict
+
+
+def test_noise_of_a_measured_response_is_taken_line_by_line(tmp_path):
+    exact = response(MODEL, NUMBERS)
+    rho = np.geomspace(0.3, 0.03, len(exact))
+    path = tmp_path / "frf.csv"
+    deviation = np.abs(exact.G) * rho * np.sqrt(2)
+    write_csv(FrequencyResponse(exact.omega, exact.G, deviation), path)
+    done = called("plan", *PAIR[:5], "--noise", path, "--json", "-")
+    plain = json.loads(done.stdout)
+    assert plain["noise"] == pytest.approx(np.mean(rho**-2.0) ** -0.5, rel=1e-6)
+    assert plain["largest_noise"] == pytest.approx(
+        plain["noise"] * np.sqrt(plain["noncentrality"] / plain["needed_noncentrality"]), rel=1e-6
+    )
+
+
+@pytest.fixture(scope="module")
+def fit_file(tmp_path_factory):
+    """Of data that are too loud to see the friction: the structure without any is selected."""
+    candidates = [MODEL, RIVAL, Chain(2, damped=True)]
+    found = select(response(MODEL, NUMBERS | {"b1": 0.02}, noise=0.1, seed=3), candidates)
+    path = tmp_path_factory.mktemp("fit") / "fit.json"
+    path.write_text(json.dumps(selection_to_dict(found)), encoding="utf-8")
+    return path, found
+
+
+@pytest.fixture(scope="module")
+def rows(fit_file):
+    return json.loads(called("plan", fit_file[0], "--json", "-").stdout)["rivals"]
+
+
+def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answered(
+    fit_file, rows
+):
+    path, found = fit_file
+    assert [m.name for m in found.members] == ["2:1", "2:1+b1", "2:1+b2"]
+    done = called("plan", path)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("2:1 is taken for true")
+    first, second = done.stdout.split("the other way round")
+    for name in ("2:1+b1", "2:1+b2"):
+        (row,) = [line for line in first.splitlines() if line.startswith(f"{name} ")]
+        assert f"impossible: it contains the model ({name[4:]} without effect)" in row
+    assert [one["rival"] for one in rows] == ["2:1+b1", "2:1+b2"]
+    assert all(one["noncentrality"] == 0 and one["contains"] for one in rows)
+    for one in rows:
+        back = one["reverse"]
+        assert (back["model"], back["rival"]) == (one["rival"], "2:1")
+        assert back["noise"] == pytest.approx(found.explanation.scatter.typical)
+        assert f"\n{back['model']} " in second and back["factor"] > 0
+    hertz = found.task.cost.measured.frequency
+    assert json.loads(path.read_text(encoding="utf-8"))["frequencies"] == {
+        "low": pytest.approx(hertz[0]), "high": pytest.approx(hertz[-1]), "lines": 120,
+    }  # fmt: skip
+
+
+def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rows):
+    back, found = rows[0]["reverse"], fit_file[1]
+    values = found.members[1].candidate.estimate.parameters
+    assert back["parameters"] == values
+    hertz = found.task.cost.measured.frequency
+    omega = 2 * np.pi * np.geomspace(hertz[0], hertz[-1], 120)
+    rho = np.full(120, found.explanation.scatter.typical)
+    alone = plan(MODEL, values, Chain(2, damped=True), omega, rho)
+    assert back["noncentrality"] == pytest.approx(alone.noncentrality, rel=1e-6)
+
+
+def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
+    path, _ = fit_file
+    plain = json.loads(path.read_text(encoding="utf-8"))
+    plain["not_excluded"][0]["equivalents"] = [{"name": "2:2+b1", "parameters": {}}]
+    plain["not_excluded"] = plain["not_excluded"][:1]
+    plain["alternatives"] = []
+    other = tmp_path / "twins.json"
+    other.write_text(json.dumps(plain), encoding="utf-8")
+    said = called("plan", other).stdout
+    assert "impossible: 2:2+b1: the same response for the fitted values" in said
+    assert "disting next" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((*PAIR,), "--noise 0.02, or --noise FRF.csv"),
+        ((*PAIR[:5], "--noise", "0.02"), "--range 5..300"),
+        ((*PAIR, "--noise", "0"), "the noise of a line lies"),
+        ((*PAIR, "--noise", "nan"), "the noise of a line lies"),
+        ((*PAIR, "--noise", "0.1", "--lines", "3"), "at least 8 lines"),
+        (("2:1+b1", *PAIR[2:], "--noise", "0.1"), "name the structure to exclude"),
+        (("2:1+b1", "2:1+b1", *PAIR[2:], "--noise", "0.1"), "no rival of itself"),
+        (("nothing.json",), "is no JSON file of a fit"),
+        (("fit.json", "2:1"), "names structures and values itself"),
+        ((*PAIR, "--noise", "nothing.csv"), "nothing.csv"),
+        ((*PAIR[:3], "--set", "m1=1", "--noise", "0.1", "--range", "1..2"), "is missing"),
+    ],
+)
+def test_bad_input_is_one_sentence_with_the_remedy(arguments, words):
+    done = called("plan", *arguments)
+    assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", '{"selected": {}}', '{"selected": {"n_masses": 2}}'])
+def test_damaged_file_of_a_fit_is_refused(tmp_path, text):
+    path = tmp_path / "fit.json"
+    path.write_text(text, encoding="utf-8")
+    done = called("plan", path)
+    assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
+
+
+def test_spectrum_of_simulate_is_checked(tmp_path):
+    done = called("simulate", "--spectrum", tmp_path / "none.csv")
+    assert done.returncode == 2 and "cannot be read" in done.stderr

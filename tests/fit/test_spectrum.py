@@ -1,0 +1,109 @@
+"""The optimal spectrum: bounded from above by cuts, better than random ones, and what it says of
+single lines.
+"""
+
+import numpy as np
+import pytest
+
+from disting.fit.descent import fine
+from disting.fit.designed import designed
+from disting.fit.plan import plan
+from disting.fit.rival import apart
+from disting.fit.spectrum import CLOSE, KEPT, Adversary, best_band, optimal, runnable
+from disting.model.chain import Chain
+from tests.fit.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
+
+THREE = {"m1": 0.0045, "m2": 0.005, "m3": 0.003, "k12": 550.0, "k23": 800.0}
+THREE |= {"d12": 0.08, "d23": 0.05, "b1": 0.1}
+
+
+@pytest.fixture(scope="module")
+def adversary():
+    return Adversary(plan(MODEL, VALUES, RIVAL, OMEGA, alike(0.2)).rival)
+
+
+@pytest.fixture(scope="module")
+def best(adversary):
+    return optimal(adversary)
+
+
+def random_spectra(count, seed=3):
+    """Smooth ones, those of few lines, and bands."""
+    source, n = np.random.default_rng(seed), len(OMEGA)
+    for k in range(count):
+        if k % 2:
+            yield source.dirichlet(np.full(n, 10.0 ** source.uniform(-2.5, 1.0)))
+        else:
+            few = source.choice(n, size=source.integers(2, 30), replace=False)
+            shares = np.zeros(n)
+            shares[few] = source.dirichlet(np.ones(len(few)))
+            yield shares
+
+
+def refitted(rival, shares, starts):
+    """Noncentrality by a route of its own: a fit from each start, summed up here."""
+    weights = np.sqrt(len(shares) * shares) / rival.rho
+    task = rival.task
+    cost = type(task.cost)(task.cost.measured, task.cost.case, task.cost.weights, weights)
+    found = []
+    for start in starts:
+        p, _ = fine(task.plant(rival.chain), cost, task.box(rival.chain.parameters), start)
+        found.append(len(shares) * np.sum(shares * (apart(rival, p) / rival.rho) ** 2))
+    return min(found)
+
+
+def test_optimal_spectrum_meets_its_bound_and_beats_equal_lines(adversary, best):
+    assert best.shares.sum() == pytest.approx(1.0) and best.shares.min() >= 0.0
+    assert best.noncentrality <= best.bound <= best.noncentrality * (1 + 3 * CLOSE)
+    assert best.noncentrality > 4 * adversary.rival.noncentrality
+    assert refitted(adversary.rival, best.shares, adversary.points) == pytest.approx(
+        best.noncentrality, rel=1e-4
+    )
+
+
+def test_equivalence_theorem_no_line_sees_more_than_the_optimum(adversary, best):
+    """Atkinson and Fedorov 1975: psi_k <= lambda on all lines, = on those of the spectrum, for some
+    mixture of the rival's best fits."""
+    near = [cut for cut in adversary.cuts if cut @ best.shares <= best.noncentrality * 1.01]
+    assert min(cut.max() for cut in near) <= best.noncentrality * 1.1
+    chosen = best.shares > 0.02
+    closest = min(near, key=lambda cut: cut.max())
+    assert closest[chosen] == pytest.approx(best.noncentrality, rel=0.15)
+
+
+def test_optimal_spectrum_beats_ten_thousand_random_ones(adversary, best):
+    """Every fit of the rival bounds a spectrum's noncentrality from above; what the bound leaves
+    open is fitted."""
+    open_ones = [s for s in random_spectra(10_000) if adversary.bound(s) > best.noncentrality]
+    reached = [refitted(adversary.rival, s, adversary.points[:3]) for s in open_ones]
+    assert max(reached, default=0.0) <= best.noncentrality
+    some = [refitted(adversary.rival, s, adversary.points[:2]) for s in random_spectra(40, seed=4)]
+    assert 0 < max(some) < best.noncentrality
+
+
+def test_best_band_is_no_worse_than_any_band_and_no_better_than_the_optimum(adversary, best):
+    band = best_band(adversary)
+    hertz = adversary.rival.hertz
+    for low, high in ((5, 300), (5, 60), (20, 120), (40, 90), (100, 300), (5, 20)):
+        inside = (hertz >= low) & (hertz <= high)
+        found = refitted(adversary.rival, inside / inside.sum(), adversary.points[:4])
+        # the edges that are tried lie a third of an octave apart
+        assert found <= band.noncentrality * 1.1
+    assert adversary.rival.noncentrality <= band.noncentrality <= best.bound
+
+
+def test_spectrum_to_be_run_has_all_lines_and_loses_a_tenth_at_most(adversary, best):
+    run = runnable(adversary, best)
+    assert run.lines == len(OMEGA) and run.shares.sum() == pytest.approx(1.0)
+    assert run.noncentrality >= (1 - KEPT) * best.noncentrality * (1 - CLOSE)
+
+
+@pytest.mark.slow
+def test_several_valleys_of_the_rival_do_not_lead_astray():
+    """Three masses: local fits alone end in a spectrum whose true noncentrality is far lower."""
+    model = Chain(3, damped=True, ground_dampers=(1,))
+    rival = Chain(3, damped=True, ground_dampers=(2,))
+    found = designed(plan(model, THREE, rival, OMEGA, alike(0.2)))
+    assert found.optimum.noncentrality <= found.optimum.bound
+    assert found.optimum.bound <= found.optimum.noncentrality * (1 + 3 * CLOSE)
+    assert found.run.noncentrality >= (1 - KEPT) * found.optimum.noncentrality * (1 - CLOSE)
