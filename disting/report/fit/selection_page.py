@@ -253,7 +253,7 @@ def choices(selection: Selection) -> list[tuple[str, str]]:
     fixed = [f"{n} = {readable(value, 6)}" for n, value in sorted(task.fixed.items())]
     rows = [
         ("Cost", f"J adds {cost_in_words(task.cost)}"),
-        ("Weights of lines", "equal" if task.cost.lines is None else "one for each line"),
+        ("Weights of lines", "equal" if task.cost.parts[0].lines is None else "one for each line"),
         ("Sign of the sensor", f"{task.sign:+d}".replace("-", "−")),
         ("Bounds", listed(bounds) or "none"),
         ("Fixed", listed(fixed) or "none"),

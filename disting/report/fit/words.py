@@ -2,8 +2,9 @@
 
 from math import floor, inf, isfinite, log10, pi
 
-from disting.fit.cost import Case, Cost
+from disting.fit.cost import Case
 from disting.fit.fitted import fit_percent
+from disting.fit.joint import AnyCost
 from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
@@ -184,14 +185,16 @@ def typeset(text: str) -> str:
     return text.replace("^2", "²").replace("^3", "³")
 
 
-def cost_in_words(cost: Cost) -> str:
+def cost_in_words(cost: AnyCost) -> str:
     """What J adds up.
 
     >>> import numpy as np
+    >>> from disting.fit.cost import Cost
     >>> cost_in_words(Cost(FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex))))
     'the squares of the amplitude errors [decades] and of the phase errors [rad], weighted π : 1'
     """
-    first, second = cost.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
+    alone = cost.parts[0]
+    first, second = alone.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
     if first == second:
         return CASES[cost.case]
     return (
