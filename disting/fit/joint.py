@@ -26,7 +26,7 @@ from disting.model.structure import Structure
 Lines = Callable[[FrequencyResponse], Real]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Further:
     """A further response of the machine, how it was measured, and independent data of it."""
 

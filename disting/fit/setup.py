@@ -50,7 +50,7 @@ class Setup:
         said = [f"sensor {self.sensor}"] * bool(self.sensor)
         said += [f"mass {at} locked" for at in self.locked]
         said += [f"inertia {size:g} at mass {at}" for at, size in self.inertias]
-        return ", ".join(said) or "as it is"
+        return ", ".join(said) or "the first response"
 
     def still(self, n: int) -> tuple[int, ...]:
         """The masses of a chain of n masses that do not move; raises InputError."""

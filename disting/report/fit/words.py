@@ -208,10 +208,11 @@ def fit_in_words(
 ) -> str:
     """How much of the data the described candidate reproduces, see `fit_percent`."""
     candidate, task = selection.described, selection.task
+    of = " of the first response" * (len(task.cost.parts) > 1)
     named = [("training", train), *([("test", test)] if test is not None else [])]
     sizes = [(label, fit_percent(candidate, task, data)) for label, data in named]
     each = [
-        f"{size:.4g} % of the {label} data" if isfinite(size) else f"{label} data are constant"
+        f"{size:.4g} % of the {label} data{of}" if isfinite(size) else f"{label} data are constant"
         for label, size in sizes
     ]
     return (
