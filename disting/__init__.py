@@ -21,11 +21,16 @@ from disting.errors import ConstraintViolation as ConstraintViolation
 from disting.errors import ContradictionError as ContradictionError
 from disting.errors import DistingError as DistingError
 from disting.errors import InputError as InputError
+from disting.experiments import Experiment as Experiment
+from disting.files import __version__ as __version__
 from disting.general import Alternatives as Alternatives
 from disting.general import Model as Model
+from disting.general import ModelList as ModelList
 from disting.general import alternatives as alternatives
 from disting.general import global_identifiability as global_identifiability
 from disting.general import local_identifiability as local_identifiability
+from disting.general import read_models as read_models
+from disting.general import write_models as write_models
 from disting.model.chain import Chain as Chain
 from disting.model.chain import Sensor as Sensor
 from disting.model.domain import Domain as Domain
@@ -45,6 +50,5 @@ from disting.verdict import Verdict as Verdict
 from disting.verdict import View as View
 from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
+from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.proof import prove as prove
-
-__version__ = "0.1.0"

@@ -8,6 +8,7 @@ and numbers before sums. What users compute with is evaluated, in symbols that a
 parameters are, but for the frequency variable s.
 """
 
+import re
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
@@ -117,8 +118,26 @@ def _printed_latex(unevaluated: Expr) -> str:
 
 
 def latex_symbol(name: str) -> str:
-    """m_{1} for m1, k_{9,10} for k9_10, s for s."""
-    return name if len(name) == 1 else f"{name[0]}_{{{name[1:].replace('_', ',')}}}"
+    r"""m_{1} for m1, k_{9,10} for k9_10, s for s; names of several letters are upright.
+
+    >>> latex_symbol("k9_10"), latex_symbol("gain"), latex_symbol("k_on2")
+    ('k_{9,10}', '\\mathrm{gain}', 'k_{on2}')
+    """
+    head, index = split_name(name)
+    letter = head if len(head) == 1 else rf"\mathrm{{{head.replace('_', chr(92) + '_')}}}"
+    return f"{letter}_{{{index}}}" if index else letter
+
+
+def split_name(name: str) -> tuple[str, str]:
+    """The letters of a name, and its index: what follows from a digit or an underscore on.
+
+    >>> split_name("k9_10"), split_name("tau_m"), split_name("s"), split_name("_x")
+    (('k', '9,10'), ('tau', 'm'), ('s', ''), ('_x', ''))
+    """
+    head = re.match(r"[^\W\d_]+", name)
+    if head is None:
+        return name, ""
+    return head[0], name[head.end() :].strip("_").replace("_", ",")
 
 
 def _in_s(coefficients: Sequence[Polynomial], evaluate: bool) -> Product:

@@ -32,7 +32,8 @@ class Profile:
     """What one model reveals in one representation.
 
     `labels` of the moment invariants; `free` marks the non-constant ones; `constants` holds the
-    values of the others ("" where free); `degrees` (numerator, denominator) of (25); `count` of
+    values of the others ("" where free); `degrees` (numerator, denominator) of (25), of several
+    transfer functions one pair after the other, (-1, 0) for one that is zero; `count` of
     Markov parameters (0 for transfer functions); `rank` = number of determinable parameters. The
     degrees, that the invariants in `proven_zeros` vanish, that free ones are free and, with
     `rank_proven`, the rank hold without any error probability; all else is wrong with a
@@ -45,7 +46,7 @@ class Profile:
     labels: tuple[str, ...]
     free: tuple[bool, ...]
     constants: tuple[str, ...]
-    degrees: tuple[int, int]
+    degrees: tuple[int, ...]
     count: int
     n_states: int
     n_parameters: int
@@ -99,7 +100,7 @@ def from_samples(
     seen: Sequence[Sample],
     searches: Iterable[Sample],
     proven: frozenset[str],
-    degrees: tuple[int, int],
+    degrees: tuple[int, ...],
     count: int,
     n_states: int,
     size: Size,
@@ -120,7 +121,9 @@ def from_samples(
     rank = max(s.rank(everything) for s in seen)
     shape, claims = _matroid(seen, searches, rank, settings.subset_limit)
     return Profile(
-        representation=Representation.TF if labels[0].startswith("b") else Representation.MARKOV,
+        representation=Representation.MARKOV
+        if labels[:1] and labels[0][0] == "G"
+        else Representation.TF,
         labels=labels,
         free=free,
         constants=constants,

@@ -9,9 +9,10 @@ which they are smaller is special and drawn again; with 31 bits that happens wit
 about 2^-20.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 
 from flint import nmod_mat
 
@@ -26,7 +27,7 @@ from disting.algebra.quotient import (
 )
 from disting.algebra.sampling import PROOF_BITS, about, prime, residues
 from disting.behaviour.powers import degrees
-from disting.behaviour.transfer import receptance, values_at
+from disting.behaviour.transfer import Arrangement, receptance, values_at
 from disting.errors import InputError
 from disting.model.structure import Structure
 
@@ -88,18 +89,24 @@ def drawn(structure: Structure, label: str, bits: int = PROOF_BITS) -> Drawn:
     raise InputError("numerator and denominator have a common factor for all parameters")
 
 
-def quotient(structure: Structure, point: Sequence[int], modulus: int) -> Quotient:
+def quotient(
+    structure: Arrangement,
+    point: Sequence[int],
+    modulus: int,
+    known: Mapping[str, int] = MappingProxyType({}),
+) -> Quotient:
     """The transfer function (24), without dead time, in lowest terms at a point given in the
-    order of the parameters.
+    order of the parameters; `known` are residues of what has a known size, by name.
     """
     values = values_at(structure, point, lambda number: constant(number, modulus))
+    values |= {name: constant(number, modulus) for name, number in known.items()}
     rational = receptance(structure, values, variable(modulus), constant(1, modulus))
-    order = structure.sensor_order
+    order, names = structure.sensor_order, [p for p in structure.parameters if p != "Td"]
     return lowest_terms(
         rational.num.left_shift(order),
         rational.den,
-        [d.left_shift(order) for d in rational.num_gradient.values()],
-        list(rational.den_gradient.values()),
+        [rational.num_gradient[p].left_shift(order) for p in names],
+        [rational.den_gradient[p] for p in names],
     )
 
 
@@ -127,7 +134,7 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     factors are determined.
     """
     if representation is Representation.TF:
-        labels, values, rows = _coefficients(where.quotient)
+        labels, values, rows = coefficients(where.quotient)
     else:
         labels = [f"G{i}" for i in range(count + 1)]
         values, rows = series_rows(where.quotient, count)
@@ -140,7 +147,8 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     )
 
 
-def _coefficients(q: Quotient) -> tuple[list[str], list[int], list[list[int]]]:
+def coefficients(q: Quotient) -> tuple[list[str], list[int], list[list[int]]]:
+    """Labels, values and rows of derivatives of the coefficients b_i and a_i of (25)."""
     n, m = q.num.degree(), q.den.degree()
     num_values, num_rows = coefficient_rows(q.num, q.num_derivatives, n + 1)
     den_values, den_rows = coefficient_rows(q.den, q.den_derivatives, m)

@@ -9,15 +9,45 @@ since d(A^-1) = -w A^-1 v v' A^-1,
     dP_c = w (P_c v' adj v - (v' adj e_act)(v' adj e_meas)) / D_c       (an exact quotient)
 
 so one pair of adjugate columns gives the whole gradient.
+
+A joint whose other end does not move (the ground, a locked mass) acts on one mass alone.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 from disting.algebra.tridiagonal import Ring, Tridiagonal
-from disting.model.structure import POWER, Element, Structure
+from disting.model.structure import POWER, Element, Ports
+
+
+class Arrangement(Protocol):
+    """Rows of masses with elements and ports: a structure, or what an experiment makes of it."""
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+
+    @property
+    def elements(self) -> tuple[Element, ...]:
+        """What adds a term to A(s), by the name of its value."""
+
+    @property
+    def ports(self) -> Ports:
+        """Where force and sensor attach; 0 does not move."""
+
+    @property
+    def row_ends(self) -> tuple[tuple[int, int], ...]:
+        """Connected rows of moving masses (first, last)."""
+
+    @property
+    def sensor_order(self) -> int:
+        """Differentiations of the measured position."""
+
+    @property
+    def lag(self) -> bool:
+        """Whether the force has a lag."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +92,7 @@ class _RowMatrix:
         return _difference(self.act, *self.ports[2:])
 
 
-def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring) -> Rational:
+def receptance(structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring) -> Rational:
     """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong
     to the same ring.
 
@@ -86,7 +116,7 @@ def receptance(structure: Structure, values: Mapping[str, Ring], s: Ring, one: R
 
 
 def plain_receptance(
-    structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
 ) -> tuple[Ring, Ring]:
     """num and den of `receptance` without the gradients, which are most of its work."""
     den, num = _sum(_matrices(structure, values, s, one), one)
@@ -94,46 +124,49 @@ def plain_receptance(
 
 
 def values_at(
-    structure: Structure, numbers: Sequence[int], lift: Callable[[int], Any]
+    structure: Arrangement, numbers: Sequence[int], lift: Callable[[int], Any]
 ) -> dict[str, Any]:
     """Parameter values from numbers, in the structure's order, lifted into the ring."""
     return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
 
 
 def _matrices(
-    structure: Structure, values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
 ) -> list[_RowMatrix]:
-    return [
-        _matrix(structure, ends, values, s, one)
-        for ends in structure.row_ends
-        if _touched(structure, ends)
-    ]
+    return [_matrix(structure, ends, values, s, one) for ends in touched(structure)]
 
 
-def _touched(structure: Structure, ends: tuple[int, int]) -> bool:
+def touched(structure: Arrangement) -> tuple[tuple[int, int], ...]:
+    """The rows that the force moves and the sensor sees."""
     p = structure.ports
-    inside = [ends[0] <= port <= ends[1] for port in p]
-    return (inside[0] or inside[1]) and (inside[2] or inside[3])
+    inside = {ends: [ends[0] <= port <= ends[1] for port in p] for ends in structure.row_ends}
+    return tuple(ends for ends, (a, b, c, d) in inside.items() if (a or b) and (c or d))
 
 
 def _matrix(
-    structure: Structure, ends: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, ends: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
 ) -> _RowMatrix:
     first, last = ends
-    elements = tuple(e for e in structure.elements if first <= e.at + (e.kind in "kd") <= last)
+    elements = tuple(e for e in structure.elements if _nodes(e, ends))
     powers = [one, s, s * s]
     diagonal, off = [one - one] * (last - first + 1), [one - one] * (last - first)
     for e in elements:
         term = values[e.parameter] * powers[POWER[e.kind]]
-        for node in (e.at, e.at + 1) if e.kind in "kd" else (e.at,):
-            if node >= first:
-                diagonal[node - first] = diagonal[node - first] + term
-        if e.kind in "kd" and e.at >= first:
+        nodes = _nodes(e, ends)
+        for node in nodes:
+            diagonal[node - first] = diagonal[node - first] + term
+        if len(nodes) == 2:
             off[e.at - first] = off[e.at - first] + term
     matrix = Tridiagonal(tuple(diagonal), tuple(off), one)
     p = structure.ports
     ports = (p.act_plus - first, p.act_minus - first, p.meas_plus - first, p.meas_minus - first)
     return _RowMatrix(first, matrix, ports, elements)
+
+
+def _nodes(element: Element, span: tuple[int, int]) -> tuple[int, ...]:
+    """The masses of a row on which an element acts."""
+    ends = (element.at, element.at + 1) if element.kind in "kd" else (element.at,)
+    return tuple(node for node in ends if span[0] <= node <= span[1])
 
 
 def _response(matrix: Tridiagonal, plus: int, minus: int) -> list[Ring]:
@@ -154,15 +187,15 @@ def _difference(vector: list[Ring], plus: int, minus: int) -> Ring:
 
 def _gradient(row: _RowMatrix, element: Element, s: Ring) -> tuple[Ring, Ring]:
     """(dP_c, dD_c) for one element."""
-    matrix, i = row.matrix, element.at - row.first
-    if element.kind in "kd" and i >= 0:
+    matrix = row.matrix
+    nodes = _nodes(element, (row.first, row.first + len(matrix.diagonal) - 1))
+    i = nodes[0] - row.first
+    if len(nodes) == 2:
         beside = matrix.adjugate_beside(i)
         square = matrix.adjugate_diagonal(i) + matrix.adjugate_diagonal(i + 1) - beside - beside
         act, meas = row.act[i] - row.act[i + 1], row.meas[i] - row.meas[i + 1]
     else:
-        # a joint to the ground acts on the row's first mass alone
-        at = i + 1 if element.kind in "kd" else i
-        square, act, meas = matrix.adjugate_diagonal(at), row.act[at], row.meas[at]
+        square, act, meas = matrix.adjugate_diagonal(i), row.act[i], row.meas[i]
     d_num = (row.num * square - act * meas) // matrix.determinant
     for _ in range(POWER[element.kind]):
         d_num, square = d_num * s, square * s

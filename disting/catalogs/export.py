@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 from collections.abc import Iterable, Sequence
 
 from disting.algebra.certainty import Certainty
@@ -11,6 +12,7 @@ from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.verdict import Decisions, Relation, error_bound, family_safety
 
+FORMULA = re.compile(r"(?:^|(?<=[,;])|(?<=[,;] ))[=+@-]")
 CSV_COLUMNS = (
     "left",
     "right",
@@ -54,7 +56,7 @@ def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1, or named N:I where they are of several
     sizes.
     """
-    names = _names(decided)
+    names = [_cell(name) for name in _names(decided)]
 
     def rest(i: int, j: int) -> tuple[Domain, str, str, str, str]:
         """Domain, image, closure and the positive equivalents of both sides."""
@@ -89,6 +91,18 @@ def _names(decided: Decisions) -> Sequence[int | str]:
     return (
         range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
     )
+
+
+def _cell(name: int | str) -> int | str:
+    """A name that no spreadsheet takes for a formula: = + - @ at its beginning, or behind what may
+    part cells, are written as \\u003d and the like.
+
+    >>> _cell("=1+1"), _cell("x;@SUM(A1)"), _cell("a-b")
+    ('\\\\u003d1+1', 'x;\\\\u0040SUM(A1)', 'a-b')
+    """
+    if isinstance(name, int):
+        return name
+    return FORMULA.sub(lambda sign: f"\\u{ord(sign[0]):04x}", name)
 
 
 def inclusion_text(inclusion: Inclusion) -> str:

@@ -10,11 +10,10 @@ import platform
 from importlib.metadata import version
 from pathlib import Path
 
-import disting
 from disting.catalogs.damper_settled import FILE as SETTLED
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest
 from disting.fibres.ideals.row_answers import ROWS
-from disting.files import write_whole
+from disting.files import __version__, write_whole
 
 GROWING = (ROWS, SETTLED)
 
@@ -25,7 +24,7 @@ def provenance_of(folder: Path) -> Record:
         "schema": SCHEMA,
         "command": "disting catalog build 1 2 3 4 5",
         "software": (
-            {"disting": disting.__version__, "python": platform.python_version()}
+            {"disting": __version__, "python": platform.python_version()}
             | {name: version(name) for name in ("numpy", "python-flint")}
         ),
         "files": {p.name: _told(p) for p in sorted(folder.glob("*.jsonl"))},

@@ -7,18 +7,25 @@ from collections.abc import Iterator
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import query, reference
+from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
-from disting.equivalence import chain_of
 from disting.errors import InputError, listed
 from disting.evidence.real import BothWays
+from disting.experiments import Places, named
+from disting.general import Model, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Query, Relation, Verdict, View
 from disting.verdict.comparison import compare
+from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere
 from disting.verdict.proof import prove
+
+FILE = ".json:"  # between a file and the name of a model in it
+MOST_TERMS = 30  # of a transfer function that is written out
 
 
 def run(options: argparse.Namespace) -> int:
@@ -27,11 +34,17 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             "what holds within ranges is told in words only: leave --json or --range away"
         )
-    sensor = Sensor(options.sensor)
     texts = (options.left, options.right)
+    if any(FILE in text for text in texts):
+        if options.also:
+            raise InputError("--also belongs to chains: a model of a file has no masses to name")
+        return _of_files(options, texts)
+    sensor = Sensor(options.sensor)
     references = [reference(text.partition("+")[0]) for text in texts]
     chains = [chain_of(text, Family(1, options.damped, sensor)) for text in texts]
     asked = query(options.conditions, View.EXACT, options.domain)
+    if options.also:
+        return _under_experiments(chains, asked, options)
     plain = sensor is Sensor.ACCELERATION and "+" not in "".join(texts)
     verdict = _shipped(references, options.damped, asked) if plain else None
     if verdict is not None and references[0] > references[1]:
@@ -42,11 +55,101 @@ def run(options: argparse.Namespace) -> int:
     if options.prove:
         verdict = prove(verdict, chains[0], chains[1])
     if options.json:
-        print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False))
-        return 0
+        return _as_json(verdict)
     ways = _both_ways(verdict, chains, dict(options.range)) if _tells_ways(verdict, options) else ()
-    print("\n".join([_explained(verdict, chains), *ways]))
+    print("\n".join([_explained(verdict, list(map(text_drawing, chains))), *ways]))
     return 0
+
+
+def _of_files(options: argparse.Namespace, texts: tuple[str, str]) -> int:
+    """Explain the verdict on models of files, named file.json:name, or on one and a chain."""
+    for name in ("range", "prove"):
+        if getattr(options, name):
+            raise InputError(f"--{name} belongs to numbered chains: leave it away")
+    if all(FILE in text for text in texts):
+        refuse_chain_options(options)
+    family = Family(1, options.damped, Sensor(options.sensor))
+    sides = [_of_file(text) if FILE in text else chain_of(text, family) for text in texts]
+    asked = query(options.conditions, View.EXACT, options.domain)
+    with engine_for(options) as (engine, _, _progress):
+        verdict = compare(*sides, query=asked, engine=engine)
+    if options.json:
+        return _as_json(verdict)
+    print(_explained(verdict, list(map(_in_letters, sides))))
+    return 0
+
+
+def _of_file(text: str) -> Model:
+    path, name = text.split(FILE, 1)
+    return read_models(f"{path}{FILE[:-1]}")[name]
+
+
+def _in_letters(side: Chain | Model) -> str:
+    """A chain's drawing, or a transfer function that fits a few lines."""
+    if isinstance(side, Chain):
+        return text_drawing(side)
+    if sum(map(len, (*side.numerator_terms, *side.denominator_terms))) <= MOST_TERMS:
+        return str(side)
+    return "G(s) of degree {} over {}".format(*side.degrees)
+
+
+def _as_json(verdict: Verdict) -> int:
+    print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False))
+    return 0
+
+
+def _under_experiments(chains: list[Chain], asked: Query, options: argparse.Namespace) -> int:
+    """Explain what further experiments tell, the chains as they are included."""
+    if options.prove or options.range:
+        raise InputError(
+            "with --also the verdict is on several experiments: leave --prove and --range away"
+        )
+    with engine_for(options) as (engine, _, _progress):
+        found = compare_everywhere(chains[0], chains[1], options.also, query=asked, engine=engine)
+    experiments = list(dict.fromkeys(named(text).experiment.text for text in options.also))
+    if options.json:
+        data = {
+            "answer": found.answer.value,
+            "experiments": ["as it is", *experiments],
+            "verdicts": [
+                {"places": {str(a): b for a, b in places}, **verdict.to_dict()}
+                for places, verdict in found.verdicts
+            ],
+        }
+        print(json.dumps(data, indent=1, ensure_ascii=False))
+        return 0
+    lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
+    print("\n".join([*_every_way(found, chains), "", *lines]))
+    return 0
+
+
+def _every_way(found: Everywhere, chains: list[Chain]) -> Iterator[str]:
+    """One way in full, several with what is common to them."""
+    if len(found.verdicts) == 1:
+        places, verdict = found.verdicts[0]
+        yield _explained(verdict, list(map(text_drawing, chains)))
+        yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
+        yield f"places     {_placed(places, verdict)}"
+        return
+    verdicts = [verdict for _, verdict in found.verdicts]
+    first = verdicts[0]
+    told = {
+        Answer.SURELY: "told apart, wherever the places are in {}",
+        Answer.NEVER: "not told apart, wherever the places are in {}",
+        Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
+        Answer.UNKNOWN: "not known for all places in {}",
+    }[found.answer]
+    yield f"{found.answer.upper()}: {first.left} and {first.right} are {told.format(first.right)}"
+    yield ""
+    for places, verdict in found.verdicts:
+        yield f"  {_placed(places, verdict)}: {verdict.sentence}"
+        yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
+
+
+def _placed(places: Places, verdict: Verdict) -> str:
+    """Which mass is which."""
+    pairs = ", ".join(f"{a}/{b}" for a, b in places)
+    return f"masses {pairs} of {verdict.left}/{verdict.right}"
 
 
 def _shipped(references: list[tuple[int, int]], damped: bool, asked: Query) -> Verdict | None:
@@ -98,13 +201,11 @@ def _both_ways(
         yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
 
 
-def _explained(verdict: Verdict, chains: list[Chain]) -> str:
+def _explained(verdict: Verdict, drawn: list[str]) -> str:
     """Relation, drawings, sentence, evidence, certainty, domain, inclusion."""
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
-    drawings = [
-        f"  {name:{width}}  {text_drawing(c)}" for name, c in zip(names, chains, strict=True)
-    ]
+    drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
     lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"

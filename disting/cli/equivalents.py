@@ -17,7 +17,6 @@ from disting.equivalence import (
     Signs,
     among,
     assignments,
-    chain_of,
     chains_of,
     explicit_map,
 )
@@ -26,6 +25,7 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.verdict.comparison import name_of
 
 ABREAST = 3  # parameter sets beside each other

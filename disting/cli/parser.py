@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from disting import __version__
 from disting.catalogs.files import shipped_folder
 from disting.cli import (
     catalogs,
@@ -25,13 +24,14 @@ from disting.cli.paths import written_file, written_folder
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
 from disting.errors import LONGEST_ECHO, shown
+from disting.files import __version__
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
-    " ground; +lag; +delay"
+    " ground; +lag; +delay; or file.json:name, a model of your own"
 )
 NAMES = [c.rule.name for c in CONDITIONS]
 LIST = (
@@ -77,6 +77,16 @@ def _sizes(text: str) -> range:
             f"families of at most {MOST_MASSES} masses are listed, not of {match[2] or match[1]}"
         )
     return range(int(match[1]), int(match[2] or match[1]) + 1)
+
+
+def _sizes_or_file(text: str) -> range | Path:
+    """Sizes, or a file of models."""
+    return Path(text) if text.endswith(".json") else _sizes(text)
+
+
+def _size_or_file(text: str) -> int | Path:
+    """One number of masses, or a file of models."""
+    return Path(text) if text.endswith(".json") else MASSES(text)
 
 
 def _bounds(text: str) -> tuple[str, tuple[str, str]]:
@@ -152,6 +162,11 @@ def _add_compare(groups: Groups) -> None:
     p.add_argument(
         "--range", type=_bounds, action="append", default=[], metavar="NAME=LOW..HIGH", help=text
     )
+    text = (
+        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
+        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
+    )
+    p.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     p.add_argument(
         "--json", action="store_true", help="print the verdict with its evidence as JSON"
     )
@@ -160,13 +175,16 @@ def _add_compare(groups: Groups) -> None:
 
 def _add_verdicts(groups: Groups) -> None:
     p = _command(
-        groups, "verdicts", verdicts.run, "all pairs of one size, or of several sizes together"
+        groups,
+        "verdicts",
+        verdicts.run,
+        "all pairs of one size, of several sizes together, or of your own models in a file",
     )
     p.add_argument(
         "masses",
-        type=_sizes,
-        metavar="N|N-M",
-        help="number of masses, or several sizes such as 1-4 in one matrix",
+        type=_sizes_or_file,
+        metavar="N|N-M|FILE.json",
+        help="number of masses, or several sizes such as 1-4 in one matrix, or a file of models",
     )
     _shared(p, damped=True, sensor=True, work=True)
     p.add_argument("--conditions", type=_conditions, metavar="LIST", help=LIST)
@@ -242,8 +260,10 @@ def _add_simulate(groups: Groups) -> None:
 
 
 def _add_report(groups: Groups) -> None:
-    p = _command(groups, "report", report.run, "HTML pages, figures and tables of whole catalogues")
-    p.add_argument("masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses")
+    what = "HTML pages, figures and tables of whole catalogues, or of your own models in a file"
+    p = _command(groups, "report", report.run, what)
+    text = "numbers of masses, or files of models"
+    p.add_argument("masses", type=_size_or_file, nargs="*", metavar="N|FILE.json", help=text)
     text = (
         "the paper's figures and tables from our own data, and its claims one by one, into the"
         " folder paper below DIR"

@@ -11,23 +11,54 @@ from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.common import relations_in_words
+from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.verdict import Engine, Progress
+from disting.general import ModelList
+from disting.verdict import Engine, Progress, View
 
 MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 
 
 def run(options: argparse.Namespace) -> int:
     """Write pages, figures and tables."""
-    from disting.report.write import write_report
+    from disting.report.model_list import page_name
 
     if not (options.masses or options.paper):
-        raise InputError("name at least one number of masses, or --paper")
+        raise InputError("name at least one number of masses, a file of models, or --paper")
+    files = [x for x in options.masses if isinstance(x, Path)]
+    options.masses = [x for x in options.masses if not isinstance(x, Path)]
+    lists = [(page_name(path), path, list_of(path)) for path in files]
+    if files and not options.masses and options.damping != "both":
+        raise InputError(f"--{options.damping} belongs to numbered chains: leave it away")
+    names = [name for name, *_ in lists]
+    if len(set(names)) < len(names):
+        raise InputError("two files would have one page: rename one of them")
     if options.paper:
         _paper(options)
-    if not options.masses:
-        return 0
+    if options.masses:
+        _catalogues(options)
+    for name, path, found in lists:
+        _model_list(options, found, found.title or path.stem, name)
+    return 0
+
+
+def _model_list(options: argparse.Namespace, found: ModelList, title: str, name: str) -> None:
+    """Write the page of a file of models."""
+    from disting.report.model_list import judged, write_model_list
+
+    with engine_for(options) as (engine, pool, progress):
+        decided = judged(found, engine, executor=pool, progress=progress)
+    paths = write_model_list(decided, title, name, options.out)
+    relations = relations_in_words(v.relation for *_, v in decided.pairs(View.POSITIVE))
+    print(f"{title}, over positive parameters: {relations}")
+    print(f"{len(paths)} files in {options.out}; open {paths[0]}")
+
+
+def _catalogues(options: argparse.Namespace) -> None:
+    """Write the pages of catalogues."""
+    from disting.report.write import write_report
+
     choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
     with engine_for(options) as (engine, pool, progress):
         catalogs = [
@@ -47,7 +78,6 @@ def run(options: argparse.Namespace) -> int:
             " indistinguishable models"
         )
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
-    return 0
 
 
 def _together(options: argparse.Namespace, choices: Sequence[bool]) -> Iterator[Path]:

@@ -7,6 +7,7 @@ from disting.cli.paths import written_file
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
+from disting.model.names import chain_of
 
 KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
@@ -108,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
     """The chain and its parameters; of the demonstration drive if none is named."""
-    from disting.equivalence.given import assignments, chain_of, point_of
+    from disting.equivalence.given import assignments, point_of
     from disting.simulation import DEMO_MODEL
 
     if options.model is None:

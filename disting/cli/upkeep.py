@@ -2,7 +2,7 @@
 
 import argparse
 
-from disting import __version__
+from disting.files import __version__
 from disting.store import Store
 
 

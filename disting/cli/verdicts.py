@@ -1,7 +1,9 @@
-"""disting verdicts: all pairs of one size, or of several sizes together."""
+"""disting verdicts: all pairs of one size, of several sizes together, or of a file of models."""
 
 import argparse
+from collections.abc import Iterator, Sequence
 from itertools import combinations
+from pathlib import Path
 
 from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
@@ -15,24 +17,34 @@ from disting.cli.common import (
 )
 from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.model.chain import Sensor
+from disting.general import ModelList, read_models
+from disting.model.chain import Chain, Sensor
 from disting.questions.inclusion import ONE_SIDED, Sense
-from disting.verdict import Decisions, family_safety
+from disting.verdict import Decisions, Relation, family_safety
+from disting.verdict.compared import Compared
+from disting.verdict.engine import Engine
 from disting.verdict.proof import prove_all
+
+MOST_TOLD = 20  # pairs that are told one by one
 
 
 def run(options: argparse.Namespace) -> int:
-    """Decide all pairs of one size, or of several."""
+    """Decide all pairs of one size, of several, or of a file."""
     if options.csv == options.json == "-":
         raise InputError(
             "one of --csv and --json can be standard output, not both: name a file for the other"
         )
     asked = query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
-    named = combined_family(options.masses, damped=options.damped, sensor=Sensor(options.sensor))
-    if len(options.masses) == 1:
-        named = tuple((f"A{number}", chain) for number, (_, chain) in enumerate(named, 1))
+    file = options.masses if isinstance(options.masses, Path) else None
+    if file:
+        refuse_chain_options(options, "prove")
+    models = list_of(file) if file else None
     with engine_for(options) as (engine, pool, progress):
-        subjects = [engine.subject(name, chain) for name, chain in named]
+        subjects: Sequence[Compared] = (
+            [engine.general_subject(model.name, model) for model in models]
+            if models
+            else _of_sizes(options, engine)
+        )
         decided = engine.decisions(subjects, asked, executor=pool, progress=progress)
         if options.prove:
             decided = prove_all(decided, progress=progress)
@@ -41,8 +53,42 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         emitted(options.json, decisions_json(decided))
     if "-" not in (options.csv, options.json):
-        print(_summary(decided))
+        print("\n".join([_summary(decided), *(_groups(decided) if file else ())]))
+        print(joint_in_words(family_safety(decided)))
     return 0
+
+
+def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
+    """Raises InputError for options that speak of numbered chains, where models are a file's."""
+    if options.damped:
+        raise InputError(
+            '--damped belongs to numbered chains: write "damped": true at the chains of the file'
+        )
+    if options.sensor != Sensor.ACCELERATION:
+        raise InputError(
+            '--sensor belongs to numbered chains: write "sensor" at the chains of the file'
+        )
+    for name in names:
+        if getattr(options, name):
+            raise InputError(f"--{name} belongs to numbered chains: leave it away")
+
+
+def list_of(path: Path) -> ModelList:
+    """The models of a file, two at least."""
+    found = read_models(path)
+    if len(found) < 2:
+        raise InputError(f"{path} has one model: there is nothing to compare; add another one")
+    return found
+
+
+def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:
+    """Numbered chains: A1, A2, .. of one size, N:I of several."""
+    named: Sequence[tuple[str, Chain]] = combined_family(
+        options.masses, damped=options.damped, sensor=Sensor(options.sensor)
+    )
+    if len(options.masses) == 1:
+        named = [(f"A{number}", chain) for number, (_, chain) in enumerate(named, 1)]
+    return [engine.subject(name, chain) for name, chain in named]
 
 
 def _summary(decided: Decisions) -> str:
@@ -65,7 +111,23 @@ def _summary(decided: Decisions) -> str:
         if inside
         else ""
     )
-    return f"{told}{limits}\n{joint_in_words(family_safety(decided))}"
+    return f"{told}{limits}"
+
+
+def _groups(decided: Decisions) -> Iterator[str]:
+    """Which models are the same, which sometimes, and what is open, with its reason."""
+    names = [s.name for s in decided.subjects]
+    for members in decided.classes():
+        yield f"these are the same: {', '.join(names[i] for i in members)}"
+    for relation in (Relation.SOMETIMES, Relation.UNDECIDED):
+        found = [
+            (i, j)
+            for i, j in combinations(range(len(names)), 2)
+            if decided.relation(i, j) is relation
+        ]
+        yield from (decided.verdict(i, j).sentence for i, j in found[:MOST_TOLD])
+        if len(found) > MOST_TOLD:
+            yield f"and {len(found) - MOST_TOLD} more pairs that are {relation} (--csv lists them)"
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:

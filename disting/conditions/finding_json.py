@@ -1,12 +1,10 @@
-"""Findings of the exact decision as JSON text and back, for a cache and for files of settled
-decisions.
-"""
+"""Findings of decisions as JSON text and back, for a cache and for files of settled decisions."""
 
 import json
 
 from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Rule
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 
@@ -16,19 +14,21 @@ WRITTEN = 10
 
 
 def finding_to_json(finding: Finding) -> str:
-    """Compact JSON text of a finding of the exact decision."""
+    """Compact JSON text of a finding of a decision; its rule is known to whoever asked."""
     evidence = to_dict(finding.evidence) if finding.evidence else None
     data = [WRITTEN, finding.outcome, finding.certainty, finding.safety, evidence, finding.note]
     return json.dumps(data, separators=(",", ":"))
 
 
-def finding_from_json(text: str) -> Finding:
-    """Inverse of `finding_to_json`; raises ValueError, KeyError or TypeError for what is none."""
+def finding_from_json(text: str, rule: Rule = EXACT) -> Finding:
+    """Inverse of `finding_to_json`, for a finding by this rule; raises ValueError, KeyError or
+    TypeError for what is none.
+    """
     written, outcome, certainty, safety, evidence, note = json.loads(text)
     if written != WRITTEN:
-        raise ValueError("not a finding of the exact decision")
+        raise ValueError("not a finding of a decision")
     return Finding(
-        rule=EXACT,
+        rule=rule,
         outcome=Outcome(outcome),
         certainty=Certainty(certainty),
         safety=safety,

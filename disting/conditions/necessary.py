@@ -32,9 +32,11 @@ NO_DEGREES = (
 
 def number_of_invariants(profile: Profile) -> Hashable:
     """N_MI = n + m + 1 by degree, zero coefficients included; the fixed leading one is not
-    counted.
+    counted. Of several transfer functions the sum.
     """
-    return sum(profile.degrees) + 1 if profile.representation is Representation.TF else 0
+    if profile.representation is Representation.MARKOV:
+        return 0
+    return sum(profile.degrees) + len(profile.degrees) // 2
 
 
 def numbers_of_coefficients(profile: Profile) -> Hashable:

@@ -22,7 +22,7 @@ SUBMODEL = Rule(
 SUPERMODEL = Rule(
     "9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank"
 )
-NO_ELEMENTS = "general models have no elements to be left out"
+NO_ELEMENTS = "of general models, and under several experiments, no elements are left out"
 
 
 def condition_8(left: Side, right: Side) -> Finding:

@@ -5,7 +5,6 @@ formulas.
 from disting.equivalence.completeness import NONE as NONE
 from disting.equivalence.completeness import among as among
 from disting.equivalence.given import assignments as assignments
-from disting.equivalence.given import chain_of as chain_of
 from disting.equivalence.given import chains_of as chains_of
 from disting.equivalence.listing import Equivalent as Equivalent
 from disting.equivalence.listing import Equivalents as Equivalents

@@ -1,9 +1,8 @@
-"""What a user gives: models as chains or text such as 3:1+b2, values as numbers or text, taken
-exactly as fractions.
+"""What a user gives: the structures to look at as chains or text such as 3+b*, values as numbers
+or text, taken exactly as fractions.
 
-Behind masses and number +b2 stands for a damper from mass 2 to the ground, +lag for a first-order
-lag, +delay for a dead time. A lag and a dead time belong to the actuator and the bench: other
-structures inherit them from the given model.
+A lag and a dead time belong to the actuator and the bench: other structures inherit them from the
+given model.
 """
 
 import re
@@ -19,30 +18,10 @@ from flint import fmpq
 from disting.errors import InputError, shown
 from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
-from disting.model.family import MOST_MASSES, Family
+from disting.model.family import Family
+from disting.model.names import EXTRAS, chain_of, extended, sized
 
-EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
 Value = Number | str
-
-
-def chain_of(model: Chain | str, family: Family) -> Chain:
-    """A chain as it is; text such as 3:11 is model 11 of the 3-mass family, with damping and
-    sensor of the given family.
-
-    Raises InputError.
-
-    >>> chain_of("3:1+b1+b3+lag", Family(3)).parameters
-    ('m1', 'm2', 'm3', 'k12', 'k23', 'b1', 'b3', 'T1')
-    """
-    if isinstance(model, Chain):
-        return model
-    match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
-    if not match:
-        raise InputError(
-            "a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not"
-            f" {shown(model)}"
-        )
-    return _extended(_sized(family, match[1])[int(match[2])], match[3])
 
 
 def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
@@ -74,22 +53,8 @@ def _named(to: Family | str, given: Chain) -> tuple[Chain, ...]:
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
         return (chain_of(to, family),)
-    plain = [_extended(chain, match[3]) for chain in _sized(family, match[1]).models]
+    plain = [extended(chain, match[3]) for chain in sized(family, match[1]).models]
     return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
-
-
-def _sized(family: Family, masses: str) -> Family:
-    """The family with as many masses as the text says."""
-    if int(masses) > MOST_MASSES:
-        raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {masses}")
-    return replace(family, n_masses=int(masses))
-
-
-def _extended(chain: Chain, extras: str) -> Chain:
-    """The chain with +b1, +lag, +delay."""
-    words = extras.split("+")[1:]
-    dampers = tuple(int(word[1:]) for word in words if word[0] == "b")
-    return replace(chain, ground_dampers=dampers, lag="lag" in words, dead_time="delay" in words)
 
 
 def _rubbed(chain: Chain) -> Iterator[Chain]:

@@ -15,7 +15,7 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from disting.equivalence.completeness import not_covered, sentence, special
-from disting.equivalence.given import Value, chain_of, chains_of, point_of
+from disting.equivalence.given import Value, chains_of, point_of
 from disting.equivalence.images import DUALITY, Image, images
 from disting.equivalence.listing import Equivalent, Equivalents, Listing, Origin, Signs
 from disting.equivalence.proportional import common_ratio, proportional_solutions
@@ -26,6 +26,7 @@ from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.verdict.comparison import name_of
 
 Point = Mapping[str, fmpq]

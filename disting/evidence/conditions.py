@@ -2,6 +2,7 @@
 masses.
 """
 
+import re
 from dataclasses import dataclass
 from itertools import groupby
 from typing import ClassVar
@@ -14,25 +15,32 @@ TRANSCENDENTAL = (
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """Conditions 1 and 2: degrees (numerator n, denominator m) of both transfer functions."""
+    """Conditions 1 and 2: degrees (numerator n, denominator m) of both transfer functions; of
+    several experiments one pair after the other, (-1, 0) where nothing moves the sensor.
+    """
 
     kind: ClassVar[str] = "counts"
-    left: tuple[int, int]
-    right: tuple[int, int]
+    left: tuple[int, ...]
+    right: tuple[int, ...]
 
     def sentence(self, left: str, right: str) -> str:
-        """Both degrees in words."""
-        a, b = (
-            f"a numerator of degree {n} over a denominator of degree {m}"
-            for n, m in (self.left, self.right)
-        )
-        return f"{left} has {a}, {right} {b}."
+        """The first degrees that differ, in words."""
+        at, (a, b) = self._first
+        where = f"In experiment {at + 1} " if len(self.left) > 2 else ""
+        return f"{where}{left} has {_degrees_in_words(a)}, {right} {_degrees_in_words(b)}."
 
     @property
     def formula(self) -> str:
         """N_MI = n + m + 1 on both sides."""
-        (n1, m1), (n2, m2) = self.left, self.right
+        (n1, m1), (n2, m2) = self._first[1]
         return f"n + m + 1 = {n1} + {m1} + 1 = {n1 + m1 + 1},  {n2} + {m2} + 1 = {n2 + m2 + 1}"
+
+    @property
+    def _first(self) -> tuple[int, tuple[tuple[int, ...], tuple[int, ...]]]:
+        """Number of the first transfer function, from 0, of which the degrees differ, and both."""
+        sides = ([s[i : i + 2] for i in range(0, len(s), 2)] for s in (self.left, self.right))
+        pairs = list(enumerate(zip(*sides, strict=True)))
+        return next((found for found in pairs if found[1][0] != found[1][1]), pairs[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,16 +196,24 @@ ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supe
 def spelled(labels: Labels) -> str:
     """Labels with runs shortened.
 
-    >>> spelled(("b0", "b1", "b2", "a1"))
-    'b0–b2, a1'
+    >>> spelled(("b0", "b1", "b2", "a1")), spelled(("b0[2]", "b1[2]"))
+    ('b0–b2, a1', 'b0[2]–b1[2]')
     """
-    numbered = [(label[0], int(label[1:]) if label[1:].isdigit() else -1) for label in labels]
+    found = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
+    numbered = [(m[1] + m[3], int(m[2])) if m else ("", -1) for m in found]
     runs = [
         list(run)
         for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))
     ]
     ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
     return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)
+
+
+def _degrees_in_words(degrees: tuple[int, ...]) -> str:
+    n, m = degrees
+    if n < 0:
+        return "a sensor that does not move"
+    return f"a numerator of degree {n} over a denominator of degree {m}"
 
 
 def _varies(labels: Labels, here: str, there: str) -> str:

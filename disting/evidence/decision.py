@@ -71,6 +71,42 @@ class DeadTime:
 
 
 @dataclass(frozen=True, slots=True)
+class FibreUnder:
+    """Exact decision under several experiments: at a rational point of one model all parameters
+    of the other one that fit experiment `listed`, and for each an experiment that it misses.
+
+    `left_given`: the point (name, fraction) is of the left model and the right one was searched;
+    experiments are counted from 1.
+    """
+
+    kind: ClassVar[str] = "fibre under experiments"
+    left_given: bool
+    point: tuple[tuple[str, str], ...]
+    listed: int
+    missed: tuple[int, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """How many were listed and what refutes them."""
+        given, searched = (left, right) if self.left_given else (right, left)
+        start = f"For one choice of rational parameters of {given}, {searched} has "
+        if not self.missed:
+            return f"{start}no parameters, real or complex, that fit experiment {self.listed}."
+        count = len(self.missed)
+        fit = "1 parameter vector" if count == 1 else f"{count} parameter vectors"
+        where = " or ".join(map(str, sorted(set(self.missed))))
+        each = "it gives" if count == 1 else "each gives"
+        return (
+            f"{start}{fit}, complex ones included, with the same transfer function in experiment"
+            f" {self.listed}, and {each} another one in experiment {where}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The stacked fibre is empty."""
+        return f"q ∈ Φ₂,{self.listed}⁻¹(Φ₁,{self.listed}(p₀)) ⇒ Φ₂(q) ≠ Φ₁(p₀)"
+
+
+@dataclass(frozen=True, slots=True)
 class FibreAt:
     """Exact decision: the fibre of one model over the transfer function of the other at a rational
     parameter point.

@@ -16,7 +16,7 @@ from disting.evidence.across_sizes import (
     TooLarge,
 )
 from disting.evidence.conditions import ByConditions, Counts
-from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import OfGeneralModels
 from disting.evidence.ideals import ByRow, ByRows, FullRows, Refuted, Shared, Solved
 from disting.evidence.limits import (
@@ -28,7 +28,9 @@ from disting.evidence.limits import (
 )
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 
-ByDecision = Theorem | DeadTime | FibreAt | FullRows | Solved | ByRow | Refuted | Shared
+ByDecision = (
+    Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | ByRow | Refuted | Shared
+)
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
 )
@@ -48,6 +50,7 @@ GROUNDS = {
     "theorem": "a theorem",
     "dead time": "dead time",
     "fibre": "one fibre",
+    "fibre under experiments": "one fibre",
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
     "row": "a row of masses decided once for all",

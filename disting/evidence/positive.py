@@ -193,7 +193,30 @@ class BoxMap:
         return ", ".join(f"{a} → {b}" for a, b in self.pairs)
 
 
-PositiveEvidence = Theorem | Excluded | EmptyFibre | Interlacing | Points | BoxMap
+@dataclass(frozen=True, slots=True)
+class OnlyOne:
+    """ALWAYS, of models under several experiments: in one of them (counted from 1) there is always
+    a positive equivalent and no other, complex ones included.
+    """
+
+    kind: ClassVar[str] = "only one"
+    experiment: int
+
+    def sentence(self, given: str, other: str) -> str:
+        """Why the equivalent under one experiment is that under all."""
+        return (
+            f"In experiment {self.experiment} alone every positive {given} has a positive"
+            f" equivalent in {other}, and generic ones have no other, so it is that of all"
+            " experiments."
+        )
+
+    @property
+    def formula(self) -> str:
+        """The fibre of one experiment is one positive point."""
+        return f"|Φ₂,{self.experiment}⁻¹(Φ₁,{self.experiment}(p))| = 1, ⊂ ℝ₊ⁿ"
+
+
+PositiveEvidence = Theorem | Excluded | EmptyFibre | Interlacing | Points | BoxMap | OnlyOne
 
 
 class Share(StrEnum):

@@ -43,18 +43,21 @@ and a point of a case gives an equivalent if no `nonzero` polynomial, and so no 
 lead(q) and none of the values required to be positive, is zero there.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import combinations
+from itertools import combinations, permutations
 
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
+from disting.algebra.sampling import residues
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.model.domain import Domain
 
 CASES = 300  # that are opened before the search is given up
+ORDERS = 24  # in which unknowns are solved for
+ALL_ORDERS = 4  # unknowns: these have 24 orders
 RESULTANTS = 24  # sum of total degrees: resultants stay a matter of milliseconds
 
 
@@ -84,6 +87,22 @@ class Search:
     generic: list[fmpz_mpoly] = field(default_factory=list)
     closed: list[str] = field(default_factory=list)
     opened: int = 0
+
+
+def orders(unknowns: Sequence[int]) -> Iterator[tuple[int, ...]]:
+    """Yield the orders in which unknowns are solved for: all of up to four of them; of more, their
+    own one and drawn ones, the same in every run.
+
+    In most orders a search of seven unknowns grows too large, in some it ends at once; neighbours
+    in the alphabet begin with the same unknowns, and so fail together.
+    """
+    if len(unknowns) <= ALL_ORDERS:
+        yield from permutations(unknowns)
+        return
+    yield tuple(unknowns)
+    for k in range(1, ORDERS):
+        keys = residues(f"order:{k}", len(unknowns), 1 << 61)
+        yield tuple(x for _, x in sorted(zip(keys, unknowns, strict=True)))
 
 
 def searched(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -> Search:

@@ -7,9 +7,10 @@ identical, and points with and without an admissible equivalent are looked for o
 `admissible`).
 """
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from disting.algebra.colouring import Colouring, colouring
@@ -54,12 +55,16 @@ def _over_positive(left: Model, right: Model, settings: Settings) -> Finding:
 EXACTLY = Question(
     "exact decisions on general models", _exactly, finding_to_json, finding_from_json
 )
+_admissible_from_json = partial(finding_from_json, rule=ADMISSIBLE)
 ADMISSIBLY = {
     Domain.REAL: Question(
-        "real equivalents of general models", _over_real, finding_to_json, finding_from_json
+        "real equivalents of general models", _over_real, finding_to_json, _admissible_from_json
     ),
     Domain.POSITIVE: Question(
-        "positive equivalents of general models", _over_positive, finding_to_json, finding_from_json
+        "positive equivalents of general models",
+        _over_positive,
+        finding_to_json,
+        _admissible_from_json,
     ),
 }
 Profiles = Callable[[Model, Representation, int, Settings], Profile]
@@ -158,7 +163,8 @@ class ComparedModel:
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
-        note = found.note.replace(LEFT, self.name).replace(RIGHT, other.name)
+        names = {LEFT: self.name, RIGHT: other.name}
+        note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
         return replace(found, note=note)
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:

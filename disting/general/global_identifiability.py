@@ -13,24 +13,27 @@ together they determine all that is. Of them, and of parameters that are globall
 many independent ones as the rank are listed, the shortest first.
 """
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import islice, permutations
+from dataclasses import asdict, dataclass
+from itertools import islice
 
 from flint import fmpz_mpoly, nmod_mat
 
+from disting.algebra.certainty import Certainty
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
-from disting.general.cases import Case, Search, searched
+from disting.general.cases import ORDERS, Case, Search, orders, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.samples import evaluated
 from disting.general.spelled import text_of
 from disting.model.domain import Domain
+from disting.model.question import Question
 from disting.model.settings import Settings
 
-ORDERS = 24  # in which unknowns are solved for
+CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
 SETTINGS = Settings()
 
 
@@ -67,8 +70,11 @@ class GlobalIdentifiability:
         return f"All {n} parameters are locally identifiable, {many}{some}."
 
 
-def global_identifiability(model: Model, settings: Settings = SETTINGS) -> GlobalIdentifiability:
-    """How many parameter vectors fit, and what is determined.
+def global_identifiability(
+    model: Model, settings: Settings = SETTINGS, *, tries: int = ORDERS
+) -> GlobalIdentifiability:
+    """How many parameter vectors fit, and what is determined, from so many `tries` of orders in
+    which unknowns are solved for.
 
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     >>> found.count, found.unique, found.combinations
@@ -76,7 +82,7 @@ def global_identifiability(model: Model, settings: Settings = SETTINGS) -> Globa
     """
     local = local_identifiability(model, settings)
     ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
-    search = _best(ring, model)
+    search = _best(ring, model, tries)
     vectors = [v for case in search.cases if (v := _vector(ring, model, case))] if search else []
     count, infinite = _counted(ring, search.cases if search else (), vectors)
     unique = tuple(
@@ -93,6 +99,36 @@ def global_identifiability(model: Model, settings: Settings = SETTINGS) -> Globa
     )
 
 
+def _encoded(found: GlobalIdentifiability) -> str:
+    return json.dumps(asdict(found), separators=(",", ":"))
+
+
+def _decoded(text: str) -> GlobalIdentifiability:
+    data = json.loads(text)
+    local = data["local"]
+    return GlobalIdentifiability(
+        local=LocalIdentifiability(
+            parameters=tuple(local["parameters"]),
+            rank=local["rank"],
+            identifiable=tuple(local["identifiable"]),
+            certainty=Certainty(local["certainty"]),
+            safety=local["safety"],
+        ),
+        count=data["count"],
+        is_infinite=data["is_infinite"],
+        unique=tuple(data["unique"]),
+        combinations=tuple(data["combinations"]),
+    )
+
+
+def _cheaply(model: Model, settings: Settings) -> GlobalIdentifiability:
+    few = len(model.parameters) <= CHEAP_UP_TO
+    return global_identifiability(model, settings, tries=TRIES if few else 0)
+
+
+IDENTIFIABILITY = Question("identifiability of general models", _cheaply, _encoded, _decoded)
+
+
 @dataclass(frozen=True, slots=True)
 class _Vector:
     """Values of all unknowns, None for those that are free; the equation of a root among them,
@@ -104,10 +140,10 @@ class _Vector:
     at: int
 
 
-def _best(ring: Orthant, model: Model) -> Search | None:
+def _best(ring: Orthant, model: Model, tries: int) -> Search | None:
     """The search with the fewest equations left."""
     found: list[Search] = []
-    for order in islice(permutations(ring.unknowns), ORDERS):
+    for order in islice(orders(ring.unknowns), tries):
         try:
             found.append(searched(ring, model, model, order))
         except TooMuch:

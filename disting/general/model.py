@@ -158,7 +158,10 @@ class Model:
 def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
     """The model of a transfer function in the ring of s and the parameters, s first."""
     if ratio.num.is_zero():
-        raise InputError("the transfer function is zero: the output does not depend on the input")
+        raise InputError(
+            "the transfer function is zero: the output does not depend on the input; mend B, C or"
+            " the numerator, or leave the model away"
+        )
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
     top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))

@@ -9,17 +9,14 @@ looked for with `robust`.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice, permutations
 
 from disting.general.between import Path, odd_path, path, without_equations
-from disting.general.cases import Case, searched
+from disting.general.cases import Case, orders, searched
 from disting.general.model import Model
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
 from disting.model.domain import Domain
-
-ORDERS = 24  # in which unknowns are solved for
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +81,7 @@ def way(given: Model, other: Model, domain: Domain) -> Way | None:
     the fewest other cases is kept.
     """
     ring, best = Orthant(len(given.parameters), len(other.parameters), domain), list[Parted]()
-    for order in islice(permutations(ring.unknowns), ORDERS):
+    for order in orders(ring.unknowns):
         try:
             found = _parted(ring, given, other, order)
         except TooMuch:

@@ -75,8 +75,28 @@ class GroundDamper(NamedTuple):
         return f"b{self.at}"
 
 
-Element = Mass | Spring | Damper | GroundDamper
-POWER = {"m": 2, "k": 0, "d": 1, "b": 1}  # of s, with which an element's parameter enters A(s)
+class Known(NamedTuple):
+    """Inertia ("m") or spring to the ground ("g") at mass `at`, of a size that is known: no
+    parameter.
+    """
+
+    at: int
+    kind: str
+
+    @property
+    def parameter(self) -> str:
+        """Name of its value, such as +m2."""
+        return f"+{self.kind}{self.at}"
+
+
+Element = Mass | Spring | Damper | GroundDamper | Known
+POWER = {
+    "m": 2,
+    "k": 0,
+    "g": 0,
+    "d": 1,
+    "b": 1,
+}  # of s, with which an element's parameter enters A(s)
 
 
 class Ports(NamedTuple):

@@ -10,9 +10,9 @@ other in the order by groups.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from disting.catalogs import Catalog
 from disting.evidence.positive import Share
 from disting.model.domain import Domain
+from disting.report.decided import Decided
 from disting.report.words import totals
 from disting.verdict import Relation, View
 
@@ -54,17 +54,17 @@ class Over:
         return self.view.domain
 
 
-def over(catalog: Catalog, view: View) -> Over:
+def over(decided: Decided, view: View) -> Over:
     """What pages say over the domain of a view, one of VIEWS."""
-    groups = catalog.classes(view)
-    sides = tuple(one_sided(catalog)) if view is View.POSITIVE else ()
+    groups = decided.classes(view)
+    sides = tuple(one_sided(decided)) if view is View.POSITIVE else ()
     return Over(
         view=view,
-        totals=totals(catalog, view),
+        totals=totals(decided, view),
         groups=groups,
-        depending=catalog.depending(view),
+        depending=decided.depending(view),
         one_sided=sides,
-        blocks=blocks(catalog.classes(View.EXACT), groups),
+        blocks=blocks(decided.classes(View.EXACT), groups),
     )
 
 
@@ -83,11 +83,11 @@ def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[M
     return tuple(found)
 
 
-def one_sided(catalog: Catalog) -> Iterator[OneSided]:
+def one_sided(decided: Decided) -> Iterator[OneSided]:
     """The distinguishable pairs of which positive models on one side have equivalents on the
     other.
     """
-    for left, right, v in catalog.pairs(View.POSITIVE):
+    for left, right, v in decided.pairs(View.POSITIVE):
         if v.relation is Relation.DISTINGUISHABLE:
             for found, given, other in (
                 (v.left_positive, left, right),

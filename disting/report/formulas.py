@@ -27,6 +27,7 @@ from disting.algebra.symbols import (
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
+from disting.general import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination
 from disting.report.mathml import (
@@ -44,10 +45,13 @@ from disting.report.words import LARGEST_SPELLED_OUT
 
 # masses of maps by continued fractions; those of 4 masses have thousands of letters
 CAUER_UP_TO = 3
+MOST_TERMS = 300  # of a general model whose coefficients are written out
 LONGEST_BRACKET = 9  # letters of a sum in parentheses; a browser cannot break it
 G_OF_S = '<mi>G</mi><mo stretchy="false">(</mo><mi>s</mi><mo stretchy="false">)</mo>'
 Coefficient = tuple[int, Polynomial]
 """Power of s and its coefficient."""
+Side = tuple[str, Sequence[Coefficient]]
+"""Numerator or denominator: the letter of its coefficients, and those that are not zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,11 +89,28 @@ def written(chain: Chain) -> TransferFunction:
     found = expanded((replace(chain, damped=False) if stiffness else chain).structure)
     names = ("B", "A") if stiffness else ("b", "a")
     sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
+    return _transfer(sides, stiffness=stiffness)
+
+
+def written_model(model: Model) -> TransferFunction:
+    """The transfer function of a general model; of a large one the head alone."""
+    sides = [
+        (letter, [(power, p) for power, p in enumerate(side) if not p.is_zero()])
+        for letter, side in (("b", model.numerator), ("a", model.denominator))
+    ]
+    size = sum(len(p) for _, found in sides for _, p in found)
+    return _transfer(sides, spelled_out=size <= MOST_TERMS)
+
+
+def _transfer(
+    sides: Sequence[Side], *, stiffness: bool = False, spelled_out: bool = True
+) -> TransferFunction:
+    """Numerator and denominator as a quotient and, spelled out, by their coefficients."""
     head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
     flat = [
         (f"{letter}{power}", _shown(content(p)))
         for letter, coefficients in sides
-        for power, p in coefficients
+        for power, p in (coefficients if spelled_out else ())
     ]
     lines = tuple(
         (math(f"{symbol(label)}<mo>=</mo>"), _typeset(parts, stiffness))
@@ -159,9 +180,7 @@ def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
     )
 
 
-def _latex(
-    sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tuple[str, str]]
-) -> str:
+def _latex(sides: Sequence[Side], flat: Sequence[tuple[str, str]]) -> str:
     top, bottom = (_latex_in_s(letter, tuple(n for n, _ in found)) for letter, found in sides)
     rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [
         f"{latex_symbol(label)} &= {of}" for label, of in flat

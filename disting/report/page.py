@@ -84,7 +84,13 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         models=models,
         sample=example(catalog),
         dampers=dampers,
-        payload=payload(catalog, domains, dampers=bool(dampers)),
+        payload=payload(
+            catalog,
+            domains,
+            masses=catalog.n_masses,
+            damped=catalog.damped,
+            dampers=bool(dampers),
+        ),
         plural=plural,
     )
 

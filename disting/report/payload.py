@@ -13,10 +13,10 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from disting.catalogs import Catalog
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.table import RULES
 from disting.evidence.positive import Share
+from disting.report.decided import Decided
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, probability
@@ -57,20 +57,23 @@ class Pool:
         return self.numbers.setdefault(value, len(self.numbers))
 
 
-def payload(catalog: Catalog, domains: Sequence[Over], **more: object) -> Markup:
+def payload(
+    decided: Decided,
+    domains: Sequence[Over],
+    views: Iterable[View] = VIEW_TITLES,
+    **more: object,
+) -> Markup:
     """JSON text that is safe inside a script element: the views, groups by domain, and what
     else the script is to know.
     """
     texts, entries = Pool(), Pool()
-    views = {
-        view.value: packed([entries.number(_entry(v)) for v in _triangle(catalog, view)])
-        for view in VIEW_TITLES
+    numbers = {
+        view.value: packed([entries.number(_entry(v)) for v in _triangle(decided, view)])
+        for view in views
     }
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
     data = more | {
-        "masses": catalog.n_masses,
-        "damped": catalog.damped,
-        "models": len(catalog.family),
+        "models": len(decided.family),
         "groups": {of.view.value: of.groups for of in domains},
         "blocks": {of.view.value: of.blocks for of in domains},
         "said": RELATIONS_SAID,
@@ -78,7 +81,7 @@ def payload(catalog: Catalog, domains: Sequence[Over], **more: object) -> Markup
         "signs": {rule.name: rule.sign for rule in RULES.values()},
         "texts": list(texts.numbers),
         "entries": rows,
-        "views": views,
+        "views": numbers,
     }
     return script_json(data)
 
@@ -109,9 +112,9 @@ def script_json(data: object) -> Markup:
     return Markup(text)
 
 
-def _triangle(catalog: Catalog, view: View) -> Iterable[Verdict]:
-    numbers = range(1, len(catalog.family) + 1)
-    return (catalog.verdict(low, high, view) for high in numbers for low in range(1, high))
+def _triangle(decided: Decided, view: View) -> Iterable[Verdict]:
+    numbers = range(1, len(decided.family) + 1)
+    return (decided.verdict(low, high, view) for high in numbers for low in range(1, high))
 
 
 def _entry(verdict: Verdict) -> Entry:
@@ -152,5 +155,7 @@ def _shares(verdict: Verdict) -> Iterator[str]:
 
 
 def _undecided(verdict: Verdict) -> str:
-    notes = f" ({'; '.join(verdict.notes)})" if verdict.notes else ""
+    # notes name models, and a name may look like a place for a name: a word joiner parts it
+    told = "; ".join(verdict.notes).replace("{", "{\u2060")
+    notes = f" ({told})" if told else ""
     return f"Nothing here settles {{L}} and {{R}} over {verdict.domain} parameters{notes}."

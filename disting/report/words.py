@@ -3,6 +3,7 @@
 from disting.catalogs import Catalog
 from disting.conditions.table import RULES
 from disting.model.domain import Domain
+from disting.report.decided import Decided
 from disting.verdict import Relation, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
@@ -55,10 +56,10 @@ def headline(catalog: Catalog) -> str:
     return f"{head}: {', '.join(said)}"
 
 
-def totals(catalog: Catalog, view: View = View.POSITIVE) -> dict[Relation, int]:
+def totals(decided: Decided, view: View = View.POSITIVE) -> dict[Relation, int]:
     """Number of pairs by relation; SOMETIMES only where it can occur."""
-    numbers = range(1, len(catalog.family) + 1)
-    found = [catalog.relation(low, high, view) for high in numbers for low in range(1, high)]
+    numbers = range(1, len(decided.family) + 1)
+    found = [decided.relation(low, high, view) for high in numbers for low in range(1, high)]
     shown = [
         r for r in Relation if r is not Relation.SOMETIMES or view.domain is not Domain.COMPLEX
     ]

@@ -1,6 +1,7 @@
 """What a verdict asks of a model beyond the conditions: the Protocol that `verdict` folds over.
 
-Chains implement it in `chains`, any other parametric models in `disting.general.compared`.
+Chains implement it in `chains`, chains under several experiments in
+`disting.experiments.compared`, any other parametric models in `disting.general.compared`.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,6 +11,7 @@ from disting.conditions.finding import Finding
 from disting.conditions.side import Side
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding
+from disting.experiments import MeasuredChain
 from disting.general import Model
 from disting.model.domain import Domain
 from disting.model.question import Models, Question
@@ -18,7 +20,7 @@ from disting.questions.inclusion import Inclusions
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
-Profiled = Structure | Model
+Profiled = Structure | Model | MeasuredChain
 """What profiles are computed of."""
 
 

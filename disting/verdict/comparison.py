@@ -1,6 +1,10 @@
 """`compare` and `findings`: any two chains, named as the paper names them, or general models."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from disting.errors import InputError
+from disting.experiments import Experiment, MeasuredChain
 from disting.general import Model
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -12,12 +16,14 @@ from disting.verdict.result import Verdict
 
 # masses; larger families are long to list, so their chains are named by their indices
 NUMBERED_UP_TO = 8
+NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
 def compare(
     left: Chain | Model,
     right: Chain | Model,
     *,
+    experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
     query: Query | None = None,
     audit: bool = False,
     engine: Engine | None = None,
@@ -31,13 +37,23 @@ def compare(
     representation and raises ContradictionError where two decide differently; `engine` brings
     settings and a store (default: none).
 
-    >>> from disting import Family
+    `experiments`: all ways in which both machines are measured, with one parameter vector for all;
+    `Experiment()` is that of the chains as they are. A pair of experiments names the places of the
+    left and of the right chain; a single one means the same places in both.
+
+    >>> from disting import Experiment, Family
     >>> a = Family(3, damped=True)
     >>> compare(a[2], a[5]).relation.value, compare(a[1], a[4]).relation.value
     ('indistinguishable', 'distinguishable')
+    >>> compare(a[1], a[11]).relation.value
+    'indistinguishable'
+    >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
+    'distinguishable'
     """
-    sides = _sides(left, right, engine := engine or Engine())
-    return engine.verdict(*sides, query or Query(), audited=audit)
+    engine = engine or Engine()
+    if experiments:
+        return _measured(left, right, experiments, query or Query(), audit, engine)
+    return engine.verdict(*_sides(left, right, engine), query or Query(), audited=audit)
 
 
 def findings(
@@ -54,6 +70,35 @@ def findings(
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
     return tuple(steps(*_sides(left, right, engine or Engine()), query or Query()))
+
+
+def _measured(
+    left: Chain | Model,
+    right: Chain | Model,
+    experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
+    query: Query,
+    audit: bool,
+    engine: Engine,
+) -> Verdict:
+    """The verdict under experiments, with what is to be known of those that tell nothing."""
+    if isinstance(left, Model) or isinstance(right, Model):
+        raise InputError(NOT_CHAINS)
+    pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
+    chains = zip((left, right), zip(*pairs, strict=True), strict=True)
+    a, b = (MeasuredChain(chain, side) for chain, side in chains)
+    names = [side.name for side in _sides(left, right, engine)]
+    silent = [i for i in a.silent if i in b.silent]
+    telling = [i for i in range(len(pairs)) if i not in silent]
+    # as they are: what a verdict's evidence says is then of the chains that were given
+    as_they_are = len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b))
+    sides: tuple[Compared, Compared] = (
+        (engine.subject(names[0], left), engine.subject(names[1], right))
+        if as_they_are
+        else (engine.measured_subject(names[0], a), engine.measured_subject(names[1], b))
+    )
+    found = engine.verdict(*sides, query, audited=audit)
+    notes = [f"nothing is learned from experiment {i + 1}: its sensor never moves" for i in silent]
+    return replace(found, notes=(*found.notes, *notes))
 
 
 def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[Compared, Compared]:

@@ -16,6 +16,7 @@ from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, Stage
 from disting.conditions.table import NECESSARY, RULES
+from disting.errors import ContradictionError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
@@ -155,6 +156,24 @@ class Decisions:
             elif rule:
                 grade = GRADES[rule].grade(profile(where, i), profile(where, j))
             yield i, j, rule, STAGES[where], str(grade[0]), grade[1]
+
+    def classes(self) -> tuple[tuple[int, ...], ...]:
+        """Groups of two or more subjects, counted from 0, that are mutually indistinguishable.
+
+        That is transitive over every domain (see `catalogs.catalog`), so an undecided pair of one
+        group is none; raises ContradictionError where the verdicts contradict it.
+        """
+        import networkx as nx
+
+        graph: nx.Graph[int] = nx.Graph()
+        pairs = list(combinations(range(len(self.subjects)), 2))
+        graph.add_edges_from(p for p in pairs if self.relation(*p) is Relation.INDISTINGUISHABLE)
+        groups = sorted(tuple(sorted(members)) for members in nx.connected_components(graph))
+        for i, j in (pair for members in groups for pair in combinations(members, 2)):
+            if self.relation(i, j) in (Relation.DISTINGUISHABLE, Relation.SOMETIMES):
+                names = self.subjects[i].name, self.subjects[j].name
+                raise ContradictionError(f"{names[0]} and {names[1]} are one group, but told apart")
+        return tuple(groups)
 
     def counts(self) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the

@@ -16,6 +16,8 @@ from typing import Any, TypeVar
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
+from disting.experiments import ComparedMachine, MeasuredChain
+from disting.experiments.profiles import profile as measured_profile
 from disting.general import ComparedModel, Model
 from disting.general.profiles import profile as general_profile
 from disting.model.chain import Chain
@@ -74,6 +76,10 @@ class Engine:
             source=self.profile,
             answerer=self.answer,
         )
+
+    def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
+        """The same for a chain under several experiments."""
+        return ComparedMachine(name, measured, self.settings, self.profile, self.answer)
 
     def profile(
         self, what: Profiled, representation: Representation, count: int, settings: Settings
@@ -235,9 +241,11 @@ def question_key(question: Question[Any], models: Models, settings: Settings) ->
 
 
 def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:
-    """The profile of a chain's structure or of a general model."""
+    """The profile of a chain's structure, of a general model or of a chain under experiments."""
     if isinstance(what, Model):
         return general_profile(what, r, count, settings)
+    if isinstance(what, MeasuredChain):
+        return measured_profile(what, r, count, settings)
     return profile(what, r, count, settings)
 
 

@@ -71,6 +71,8 @@ def _claim(verdict: Verdict, left: Chain, right: Chain) -> Claim | None:
     evidence = verdict.evidence
     if verdict.certainty is not Certainty.BOUNDED or not isinstance(evidence, Ranks):
         return None
+    if any("[" in row for row in evidence.rows):  # of several experiments, not of these chains
+        return None
     smaller = left if evidence.left < evidence.right else right
     rows = () if evidence.all_rows else evidence.rows
     return canonical(smaller).chain.structure, rows, min(evidence.left, evidence.right)

@@ -123,7 +123,10 @@ def _effect(engine: Engine, chain: Chain) -> SensorEffect:
     zeros = tuple(
         label for label, free in zip(profile.labels, profile.free, strict=True) if not free
     )
-    return SensorEffect(chain.sensor, *profile.degrees, zeros, len(profile.form), profile.rank)
+    numerator, denominator = profile.degrees
+    return SensorEffect(
+        chain.sensor, numerator, denominator, zeros, len(profile.form), profile.rank
+    )
 
 
 def _zeros(labels: tuple[str, ...]) -> str:

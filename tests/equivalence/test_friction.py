@@ -7,11 +7,12 @@ from fractions import Fraction
 
 import pytest
 
-from disting.equivalence import Origin, Signs, assignments, chain_of, chains_of, equivalents
+from disting.equivalence import Origin, Signs, assignments, chains_of, equivalents
 from disting.errors import InputError
 from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.names import chain_of
 from tests.equivalence.mechanics import agree
 
 VALUES = assignments(

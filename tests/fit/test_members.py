@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting.equivalence import chain_of
 from disting.fit.admissible import Rule, undetermined
 from disting.fit.alternatives import limits_of
 from disting.fit.candidates import as_listed, reference
@@ -22,6 +21,7 @@ from disting.fit.select import select
 from disting.fit.telling import commands, first_lines, renamed
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.model.symmetry import forms
 from tests.fit.drives import OMEGA, response
 

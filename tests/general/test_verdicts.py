@@ -7,11 +7,24 @@ from itertools import combinations
 import pytest
 import sympy as sp
 
-from disting import Certainty, Family, Query, Relation, View, compare, findings
+from disting import (
+    Certainty,
+    Domain,
+    Engine,
+    Family,
+    Query,
+    Relation,
+    Store,
+    View,
+    compare,
+    findings,
+)
 from disting import compare as compare_chains
 from disting.behaviour.sample import Representation
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.conditions import Renaming
-from disting.general import Model, local_identifiability
+from disting.general import ComparedModel, Model, local_identifiability
 from disting.general.profiles import profile, proven_constants
 from disting.general.renaming import is_renaming
 from disting.model.settings import Settings
@@ -195,3 +208,27 @@ def test_any_name_may_be_a_parameter():
         Model.from_transfer_function("p1**3", "s + p1"),
     )
     assert compare(one, other, audit=True).relation is DIFFERENT
+
+
+def test_what_a_store_kept_names_the_rule_that_decided():
+    with Store.open(":memory:") as store:
+        told = [
+            compare(IRREVERSIBLE, REVERSIBLE, engine=Engine(store=store)).decided_by
+            for _ in range(2)
+        ]
+        engine = Engine(store=store)
+        sides = [engine.general_subject(m.name, m) for m in (IRREVERSIBLE, REVERSIBLE)]
+        told.append(engine.decisions(sides, Query()).rule(0, 1))
+    assert told == ["admissible"] * 3
+
+
+def test_names_that_look_like_places_for_names_stay_as_they_are():
+    def answerer(question, models, settings):
+        return Finding(ADMISSIBLE, Outcome.ABANDONED, note="at no points of {left} and of {right}")
+
+    sides = [
+        ComparedModel(name, model, answerer=answerer)
+        for name, model in (("{right}", IRREVERSIBLE), ("{left}", REVERSIBLE))
+    ]
+    found = sides[0].admissible(sides[1], Domain.REAL)
+    assert found.note == "at no points of {right} and of {left}"

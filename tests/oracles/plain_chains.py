@@ -74,3 +74,32 @@ def drawn_chain(draw: Random, masses: int, damped: bool) -> dict[str, Any]:
         "lag": draw.random() < 0.2,
         "dead_time": draw.random() < 0.1,
     }
+
+
+def plain_state_space(chain: Any) -> tuple[list[list[str]], list[str], list[str], str]:
+    """A, B, C, D of x'' = -M^-1 (K x + D x') + M^-1 b F with an acceleration sensor, as texts; the
+    masses are on the diagonal of M.
+    """
+    n = chain.n_masses
+    stiffness, damping = ([[list[str]() for _ in range(n)] for _ in range(n)] for _ in range(2))
+    elements = [("k", i, i + 1, stiffness) for i in range(n) if i != chain.gap]
+    elements += [("d", i, i + 1, damping) for i in range(n) if i != chain.gap and chain.damped]
+    elements += [("b", i, 0, damping) for i in chain.ground_dampers]
+    for letter, i, j, into in elements:
+        name = f"{letter}{i}{j or ''}"
+        for a, b, sign in ((i, i, "-"), (j, j, "-"), (i, j, "+"), (j, i, "+")):
+            if a and b:
+                into[a - 1][b - 1].append(sign + name)
+    force, sensor = (
+        [(i == plus) - (i == minus) for i in range(1, n + 1)]
+        for plus, minus in ((chain.act_plus, chain.act_minus), (chain.meas_plus, chain.meas_minus))
+    )
+    lower = [
+        [f"({''.join(cell) or '0'})/m{i}" for side in (stiffness, damping) for cell in side[i - 1]]
+        for i in range(1, n + 1)
+    ]
+    upper = [[str(int(j == n + i)) for j in range(2 * n)] for i in range(n)]
+    column = ["0"] * n + [f"{force[i]}/m{i + 1}" for i in range(n)]
+    seen = ["+".join(f"({sensor[i]})*{lower[i][j]}" for i in range(n)) for j in range(2 * n)]
+    through = "+".join(f"({sensor[i] * force[i]})/m{i + 1}" for i in range(n))
+    return [*upper, *lower], column, seen, through

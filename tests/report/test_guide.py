@@ -25,7 +25,15 @@ TEXTS = {
     **{path.name: path.read_text(encoding="utf-8") for path in sorted(FOLDER.glob("*.md"))},
     "README.md": README.read_text("utf-8"),
 }
-CHEAP = ("compare 3:", "compare 4:", "equivalents", "dampers 3:", "verdicts", "models 3")
+CHEAP = (
+    "compare 3:",
+    "compare 4:",
+    'compare "leaks.json',
+    "equivalents",
+    "dampers 3:",
+    "verdicts",
+    "models 3",
+)
 PLACEHOLDER = re.compile(r"[\[\]|]|\.\.|\b[A-Z]+\b")
 MARKUP = """<script>alert(1)</script> <b onclick="x()">bold</b> [a](javascript:alert(1)) ![i](http://a.b/c.png) {{ 7*7 }} &lt;"""
 
@@ -214,7 +222,12 @@ def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
     ("page", "command", "output"),
     [t for t in transcripts() if t[1].startswith(tuple(f"disting {c}" for c in CHEAP))],
 )
-def test_what_is_shown_is_what_is_said(page: str, command: str, output: str) -> None:
+def test_what_is_shown_is_what_is_said(
+    page: str, command: str, output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for block in re.findall(r"^```json\n(.*?)^```", TEXTS[page], re.MULTILINE | re.DOTALL):
+        (tmp_path / "leaks.json").write_text(block, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
     said = called(*shlex.split(command)[1:]).stdout
     assert said.rstrip("\n") == output.rstrip("\n"), page
 

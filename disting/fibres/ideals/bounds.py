@@ -63,7 +63,7 @@ from math import log, log2, prod
 from disting.algebra.sampling import Size
 from disting.fibres.ideals.fibre_ideal import BITS
 from disting.fibres.ideals.relations import Bounded, Relation, relation
-from disting.fibres.ideals.system import CoefficientMap, Terms
+from disting.fibres.ideals.system import PolynomialMap, Terms
 
 VARIABLE = Bounded(1, 0.0)
 
@@ -79,7 +79,7 @@ class _Shape:
 
 
 def safety_of_empty(
-    given: CoefficientMap, other: CoefficientMap, equal_rank: bool, bits: int = BITS
+    given: PolynomialMap, other: PolynomialMap, equal_rank: bool, bits: int = BITS
 ) -> int:
     """Bits of error probability of "generic models of `given` are no models of `other`" from one
     empty fibre.
@@ -97,7 +97,7 @@ def safety_of_empty(
     )
 
 
-def safety_of_member(given: CoefficientMap, other: CoefficientMap, bits: int = BITS) -> int:
+def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BITS) -> int:
     """Bits of error probability of "the models of `given` lie in the closure of those of `other`"
     from one solution.
 

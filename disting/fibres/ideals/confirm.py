@@ -9,8 +9,8 @@ from flint import fmpz_mpoly, nmod_poly
 
 from disting.algebra.groebner.macaulay import reaches_one
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.ideals.fibre_ideal import drawn, fibre_ideal
-from disting.fibres.ideals.system import CoefficientMap, matched
+from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
+from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 
 
 def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: CoefficientMap) -> bool:
@@ -26,6 +26,21 @@ def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: Coefficien
         return bool(evidence.labels) and all(_agree(given, other, label, q) for label, q in runs)
     return bool(evidence.labels) and all(
         _refuted(evidence, given, other, label) for label in evidence.labels
+    )
+
+
+def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap) -> bool:
+    """The same for maps whose coordinates can be compared, of whatever they are."""
+    given, other = (left, right) if evidence.left_given else (right, left)
+    if isinstance(evidence, Solved):
+        runs = zip(evidence.labels, evidence.solutions, strict=True)
+        return bool(evidence.labels) and all(
+            len(q) == len(other.parameters) and agree(given, point, other, q, modulus)
+            for (modulus, point), q in ((drawn(given, label), q) for label, q in runs)
+        )
+    ideals = (fibre_ideal(given, other, label, evidence.tangent) for label in evidence.labels)
+    return bool(evidence.labels) and all(
+        reaches_one(i.generators, len(i.unknowns), i.modulus, evidence.degree) for i in ideals
     )
 
 

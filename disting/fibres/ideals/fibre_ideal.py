@@ -21,7 +21,7 @@ from functools import lru_cache
 from flint import nmod_mat
 
 from disting.algebra.sampling import about, prime, residues
-from disting.fibres.ideals.system import CoefficientMap, Terms
+from disting.fibres.ideals.system import PolynomialMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
 REMEMBERED = 512  # ranks: a row is asked for in many pairs
@@ -43,7 +43,7 @@ class FibreIdeal:
 
 
 def fibre_ideal(
-    given: CoefficientMap, other: CoefficientMap, label: str, equal_rank: bool, bits: int = BITS
+    given: PolynomialMap, other: PolynomialMap, label: str, equal_rank: bool, bits: int = BITS
 ) -> FibreIdeal:
     """The fibre of `other` over a random point of `given`, modulo a random prime, both determined
     by the label.
@@ -73,7 +73,7 @@ def fibre_ideal(
     )
 
 
-def drawn(given: CoefficientMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
+def drawn(given: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
     """The random prime and point that a label stands for; values are drawn by name, so a scale
     factor changes no other.
 
@@ -84,7 +84,7 @@ def drawn(given: CoefficientMap, label: str, bits: int = BITS) -> tuple[int, tup
 
 
 @lru_cache(maxsize=REMEMBERED)
-def generic_rank(model: CoefficientMap, label: str) -> int:
+def generic_rank(model: PolynomialMap, label: str) -> int:
     """Rank of the Jacobian matrix at a random point: a lower bound of the generic rank, and
     equal to it but for bad luck.
     """
@@ -104,9 +104,9 @@ def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> int:
 
 
 def agree(
-    given: CoefficientMap,
+    given: PolynomialMap,
     point: Sequence[int],
-    other: CoefficientMap,
+    other: PolynomialMap,
     values: Sequence[int],
     modulus: int,
 ) -> bool:
@@ -122,7 +122,7 @@ def derivative(terms: Terms, at: int) -> Terms:
     return tuple(((*e[:at], e[at] - 1, *e[at + 1 :]), c * e[at]) for e, c in terms if e[at])
 
 
-def jacobian(model: CoefficientMap, point: Sequence[int], modulus: int) -> nmod_mat:
+def jacobian(model: PolynomialMap, point: Sequence[int], modulus: int) -> nmod_mat:
     """Jacobian matrix (coordinates x parameters) at a point modulo a prime."""
     rows = [_gradient(c, point, modulus) for c in model.coordinates]
     return nmod_mat(len(rows), len(point), [x for row in rows for x in row], modulus)
@@ -151,7 +151,7 @@ def pivots(echelon: nmod_mat, rank: int) -> list[int]:
     return [next(j for j in range(echelon.ncols()) if echelon[i, j]) for i in range(rank)]
 
 
-def _slice(model: CoefficientMap, there: Sequence[int], modulus: int) -> dict[str, int]:
+def _slice(model: PolynomialMap, there: Sequence[int], modulus: int) -> dict[str, int]:
     free = pivots(*jacobian(model, there, modulus).rref())
     return {
         name: x
@@ -161,7 +161,7 @@ def _slice(model: CoefficientMap, there: Sequence[int], modulus: int) -> dict[st
 
 
 def _tangents(
-    given: CoefficientMap, other: CoefficientMap, point: Sequence[int], modulus: int
+    given: PolynomialMap, other: PolynomialMap, point: Sequence[int], modulus: int
 ) -> list[Polynomial]:
     order = sorted(range(len(other.coordinates)), key=lambda i: -_degree(other.coordinates[i]))
     normals, rank = _left_null_space(jacobian(given, point, modulus), order, modulus)

@@ -28,7 +28,7 @@ from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.decision import Decision
 from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
-from disting.fibres.ideals.system import CoefficientMap, matched
+from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 from disting.model.question import Membership
 
 LEAST = 8  # bits of one run: with fewer, too many runs would be needed
@@ -72,8 +72,8 @@ class _Run:
 
 @dataclass(frozen=True, slots=True)
 class _Question:
-    left: CoefficientMap
-    right: CoefficientMap
+    left: PolynomialMap
+    right: PolynomialMap
     equal_rank: bool
     limits: Limits
     deadline: float
@@ -83,7 +83,7 @@ class _Question:
         """Bits for the choice between two directions."""
         return int(self.equal_rank)
 
-    def sides(self, left_given: bool) -> tuple[CoefficientMap, CoefficientMap]:
+    def sides(self, left_given: bool) -> tuple[PolynomialMap, PolynomialMap]:
         """The model whose point is given, and the one that is searched."""
         return (self.left, self.right) if left_given else (self.right, self.left)
 
@@ -117,7 +117,20 @@ def decide(
     """
     if given.degrees[1] != other.degrees[1]:
         return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
-    left, right = matched(given, other)
+    return decide_matched(*matched(given, other), equal_rank=equal_rank, seed=seed, limits=limits)
+
+
+def decide_matched(
+    left: PolynomialMap,
+    right: PolynomialMap,
+    *,
+    equal_rank: bool,
+    seed: str = "disting",
+    limits: Limits = Limits(),
+) -> Told:
+    """The same for two maps whose coordinates can be compared, whatever they are of: several
+    transfer functions of one model, for instance. The bounds rest on nothing else.
+    """
     _refuse(left, right, equal_rank, seed)
     seed = about(f"ideals:{seed}", left.content, right.content)
     if safety_of_empty(left, right, equal_rank) < LEAST:
@@ -144,7 +157,7 @@ def decide(
         return Decision(Membership.UNKNOWN, reason=str(why))
 
 
-def _refuse(left: CoefficientMap, right: CoefficientMap, equal_rank: bool, seed: str) -> None:
+def _refuse(left: PolynomialMap, right: PolynomialMap, equal_rank: bool, seed: str) -> None:
     ranks = [generic_rank(model, f"rank:{seed}") for model in (left, right)]
     if ranks[0] > ranks[1] or equal_rank != (ranks[0] == ranks[1]):
         raise InputError(f"the ranks are {ranks[0]} and {ranks[1]}")

@@ -25,6 +25,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from operator import mul
+from typing import Protocol
 
 from flint import fmpz_mpoly, fmpz_mpoly_ctx
 
@@ -38,6 +39,27 @@ from disting.model.structure import Structure
 SCALE = "scale"  # the unknown common factor of numerator and denominator
 Term = tuple[tuple[int, ...], int]  # exponents and coefficient
 Terms = tuple[Term, ...]
+
+
+class PolynomialMap(Protocol):
+    """Parameters -> coordinates, polynomials with integer coefficients: equal behaviours are equal
+    coordinates.
+    """
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+
+    @property
+    def coordinates(self) -> tuple[Terms, ...]:
+        """Terms of the polynomials in them."""
+
+    @property
+    def content(self) -> str:
+        """A digest of all that tells two maps apart, for the labels of their points and primes."""
+
+    def __hash__(self) -> int:
+        """Of the content."""
 
 
 @dataclass(frozen=True)

@@ -115,7 +115,7 @@ def decide(left: Chain, right: Chain, seed: str = "disting") -> Exact:
     that leaves it unknown.
     """
     ways = sorted(
-        Direction, key=lambda way: _cost(right if way is Direction.LEFT_IN_RIGHT else left)
+        Direction, key=lambda way: dearest(right if way is Direction.LEFT_IN_RIGHT else left)
     )
     findings = (member(left, right, seed, way) for way in ways)
     first = next(findings)
@@ -195,7 +195,7 @@ def _refuse(given: Chain, other: Chain) -> None:
         raise InputError("chains with the same sensor quantity and without dead time are compared")
 
 
-def _cost(chain: Chain) -> int:
+def dearest(chain: Chain) -> int:
     """Rank of the dearest method that the chain needs; those without any last."""
     return max(map(cost, rows_of(canonical(chain).chain.structure)))
 

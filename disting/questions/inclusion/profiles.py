@@ -51,7 +51,7 @@ def by_profiles(
     return None
 
 
-def degrees_refute(small: tuple[int, int], large: tuple[int, int]) -> bool:
+def degrees_refute(small: tuple[int, ...], large: tuple[int, ...]) -> bool:
     """More poles, or a smaller relative degree, than any model of the larger rank has."""
     return small[1] > large[1] or small[1] - small[0] < large[1] - large[0]
 

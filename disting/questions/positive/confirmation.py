@@ -7,6 +7,7 @@ from disting.evidence.positive import (
     EmptyFibre,
     Excluded,
     Interlacing,
+    OnlyOne,
     Points,
     PositiveEvidence,
     PositiveFinding,
@@ -47,8 +48,8 @@ def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
             return _answers(evidence.with_one, given, other, Answer.YES) and _answers(
                 evidence.without, given, other, Answer.NO
             )
-        case BoxMap():
-            return False
+        case BoxMap() | OnlyOne():
+            return False  # of ranges, and of chains under several experiments
 
 
 def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
@@ -77,6 +78,8 @@ def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
             ), Certainty.THEOREM
         case Points():
             return Share.SOMETIMES, Certainty.PROVEN
+        case OnlyOne():
+            return Share.ALWAYS, Certainty.BOUNDED
 
 
 def _excluded(evidence: Excluded, given: Chain, other: Chain) -> bool:

@@ -18,7 +18,7 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
-from disting.evidence.decision import DeadTime, FibreAt, Theorem
+from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
 from disting.evidence.kinds import Evidence
@@ -89,6 +89,8 @@ class Witness:
                 return real_factors(canonical(left).chain, canonical(right).chain)
             case RealWitnesses():
                 return _real_witnesses(evidence, canonical(left).chain, canonical(right).chain)
+            case FibreUnder():
+                return False  # of chains under several experiments
             case Witnesses() | Explicit() | NoEquivalent() | Constants():
                 return False  # these speak of general models, see `general.confirms`
         return self._by_condition(evidence, representation, left.structure, right.structure)

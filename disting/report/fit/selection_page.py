@@ -4,7 +4,7 @@ sure.
 
 from collections.abc import Sequence
 
-import disting
+from disting.files import __version__
 from disting.fit.alternatives import Alternative
 from disting.fit.explained import LARGEST
 from disting.fit.judged import Candidate
@@ -258,6 +258,6 @@ def choices(selection: Selection) -> list[tuple[str, str]]:
         ("Bounds", listed(bounds) or "none"),
         ("Fixed", listed(fixed) or "none"),
         ("Seed", task.seed),
-        ("disting", disting.__version__),
+        ("disting", __version__),
     ]
     return rows

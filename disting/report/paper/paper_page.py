@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
-import disting
 from disting.catalogs import ModelRow
+from disting.files import __version__
 from disting.model.family import Family
 from disting.paper import Claim, Findings, Found, Outcome
 from disting.paper.claims import SECTIONS
@@ -90,7 +90,7 @@ def paper_page(findings: Findings, pictures: Sequence[Picture]) -> str:
         drawing=drawing,
         raised=raised,
         plural=plural,
-        version=disting.__version__,
+        version=__version__,
     )
 
 

@@ -4,6 +4,8 @@
   const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
   const kind = data.damped ? "damped" : "undamped";
   const folder = `models/${data.masses}-${kind}`;
+  const nameOf = (i) => (data.names ? data.names[i - 1] : `A${i}`); // of general models, or of a catalogue
+  const pageOf = (i) => (data.names ? `#model-${i}` : `${folder}/${i}.html`);
   const said = { above: byId("above"), below: byId("below") };
   const views = () => [said.below.value, said.above.value];
   const domain = () => document.querySelector('[name="domain"]:checked').value; // a view: positive, or exact for complex parameters
@@ -18,13 +20,13 @@
   const verdict = (i, j, view) => {
     const [low, high] = inOrder(i, j);
     const found = Object.fromEntries(NAMES.map((name, at) => [name, data.texts[data.entries[entry(i, j, view)][at]]]));
-    found.why = found.why.replaceAll("{L}", `A${low}`).replaceAll("{R}", `A${high}`);
+    found.why = found.why.replace(/\{([LR])\}/g, (_, side) => nameOf(side === "L" ? low : high));
     return found;
   };
   const short = (v) => (v.by ? `${data.said[v.relation]}, ${v.rule}` : data.said[v.relation]);
   const label = (i, j, view) => {
-    if (i === j) return `A${i}, the model itself`;
-    return `A${Math.min(i, j)} and A${Math.max(i, j)}: ${short(verdict(i, j, view))} (${data.titles[view].toLowerCase()})`;
+    if (i === j) return `${nameOf(i)}, the model itself`;
+    return `${inOrder(i, j).map(nameOf).join(" and ")}: ${short(verdict(i, j, view))} (${data.titles[view].toLowerCase()})`;
   };
 
   // ---- the panel of a pair or of a model
@@ -32,15 +34,16 @@
     const source = document.querySelector(`#row-${number} .chain`);
     const svg = slot(side);
     svg.hidden = !source; // a page of thousands of models has no drawings
+    svg.style.display = source ? "" : "none";
     for (const name of ["viewBox", "aria-label", "width"]) if (source) svg.setAttribute(name, source.getAttribute(name));
     svg.firstElementChild.setAttribute("href", `#chain-${number}`);
     const link = slot(`${side}-name`);
-    link.textContent = `A${number}`;
-    link.href = `${folder}/${number}.html`;
+    link.textContent = nameOf(number);
+    link.href = pageOf(number);
   };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `A${low} and A${high}`, badge: data.said[v.relation], why: v.why, formula: v.formula, link: "" });
+    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], why: v.why, formula: v.formula, link: "" });
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
     slot("certainty").textContent = v.by ? v.certainty : "";
@@ -48,21 +51,21 @@
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
     for (const other of Object.keys(data.views)) slot(`in-${other}`).textContent = short(verdict(low, high, other));
-    byId("status").textContent = `A${low} and A${high}: ${short(v)}. ${v.why}`;
+    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${v.why}`;
   };
   const fillModel = (model, view) => {
     const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
-    const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map((i) => `A${i}`).join(", ")})`}`);
-    put({ title: `A${model}`, badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "" });
+    const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map(nameOf).join(", ")})`}`);
+    put({ title: nameOf(model), badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "" });
     slot("badge").className = "badge";
     draw("left", model);
     slot("right-figure").hidden = slot("views").hidden = true;
     const link = document.createElement("a");
-    link.href = `${folder}/${model}.html`;
-    link.textContent = `Formulas and identifiability of A${model}`;
+    link.href = pageOf(model);
+    link.textContent = `Formulas and identifiability of ${nameOf(model)}`;
     slot("link").replaceChildren(link);
-    byId("status").textContent = `A${model}. ${slot("why").textContent}`;
+    byId("status").textContent = `${nameOf(model)}. ${slot("why").textContent}`;
   };
   const fill = ({ models, view }) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
   const select = (models, view) => bench.select({ models, view, address: models.length === 2 ? pairHash(models) : `#A${models[0]}` });
@@ -71,7 +74,10 @@
   const matrix = createMatrix(byId("matrix"), {
     order: natural,
     views: views(),
-    name: (i) => `A${i}`,
+    name: (i) => { // at the edges there is room for some letters only
+      const letters = [...nameOf(i)];
+      return letters.length > 16 ? `${letters.slice(0, 15).join("")}…` : letters.join("");
+    },
     relation: (view) => {
       const codes = Uint8Array.from(entriesOf(view), (number) => relations[number]);
       return (i, j) => codes[place(i, j)];
@@ -98,7 +104,7 @@
     matrix.filter((i, j, code) => shown[code] && (!members || (members.has(i) && members.has(j))));
   };
   const offerGroups = () => {
-    const named = (of) => `${of.slice(0, 6).map((i) => `A${i}`).join(" ")}${of.length > 6 ? " …" : ""}`;
+    const named = (of) => `${of.slice(0, 6).map(nameOf).join(data.names ? ", " : " ")}${of.length > 6 ? " …" : ""}`;
     byId("group").replaceChildren(new Option("all", ""), ...data.groups[domain()].map((of, at) => new Option(`${at + 1}: ${named(of)}`, at + 1)));
   };
   byId("filter").addEventListener("change", filter);
@@ -127,7 +133,17 @@
     matrix.go(numbers[numbers.length - 1], numbers[0]);
     select(numbers, views()[0]);
   };
+  const findByName = (text) => { // in full, or its beginning
+    const names = data.names.map((name) => name.toLowerCase());
+    const number = (word) => 1 + (names.includes(word) ? names.indexOf(word) : names.findIndex((name) => word && name.startsWith(word)));
+    const whole = number(text.trim().toLowerCase()); // a name may have a comma of its own
+    const found = whole ? [whole] : [...new Set(text.split(/[,;/]/).map((part) => number(part.trim().toLowerCase())))];
+    if (found.length > 2 || found.includes(0)) return "Type the name of a model, or two names with a comma between them.";
+    show(found.sort((a, b) => a - b));
+    return "";
+  };
   const find = (text) => {
+    if (data.names) return findByName(text);
     const models = parseModels(text);
     if (!models) return `Type a model such as ${data.masses}:2, or two numbers for a pair.`;
     const masses = models.map((m) => m.masses || models[0].masses || data.masses);

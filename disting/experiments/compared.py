@@ -1,0 +1,183 @@
+"""A measured chain as one side of a comparison: what conditions and verdicts ask of it.
+
+Conditions 1 to 7 are asked of the stacked summary word for word. Conditions 8 and 9 look at one
+pair of ports and are not asked. Which models lie in others of larger rank is not asked either.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+from disting.algebra.certainty import weakest
+from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.sampling import prime
+from disting.behaviour.profile import Profile
+from disting.behaviour.sample import Representation, coefficients
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding_json import finding_from_json, finding_to_json
+from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.evidence.conditions import FreeChoice, Renaming
+from disting.evidence.kinds import Evidence
+from disting.evidence.positive import PositiveFinding
+from disting.experiments.exact import exact_finding
+from disting.experiments.experiment import MeasuredChain
+from disting.experiments.polynomials import is_renaming
+from disting.experiments.positive import positive_finding
+from disting.experiments.profiles import drawn_at, profile
+from disting.model.domain import Domain
+from disting.model.question import Answerer, Question, computed
+from disting.model.settings import Settings
+from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.questions.same.exact import resting_on_ranks
+from disting.questions.same.real_and_positive import positive_ways
+
+NOT_ASKED = "under several experiments only equality is asked for"
+NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
+NOT_KNOWN = "whether equivalents under these experiments are {} is not known"
+EXACTLY = Question(
+    "exact decisions under experiments", exact_finding, finding_to_json, finding_from_json
+)
+POSITIVELY = Question(
+    "positive equivalents under experiments",
+    positive_finding,
+    PositiveFinding.to_json,
+    PositiveFinding.from_json,
+)
+Profiles = Callable[[MeasuredChain, Representation, int, Settings], Profile]
+Pair = tuple["ComparedMachine", "ComparedMachine"]
+
+
+@dataclass(frozen=True)
+class ComparedMachine:
+    """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both."""
+
+    name: str
+    measured: MeasuredChain
+    settings: Settings = field(default_factory=Settings)
+    source: Profiles = profile
+    answerer: Answerer = computed
+    _known: dict[tuple[Representation, int], Profile] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+
+    def profile(self, representation: Representation, count: int) -> Profile:
+        """What all experiments together reveal."""
+        if (representation, count) not in self._known:
+            found = self.source(self.measured, representation, count, self.settings)
+            self._known[representation, count] = found
+        return self._known[representation, count]
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return self.measured.chain.parameters
+
+    @property
+    def structure(self) -> None:
+        """None that conditions 8 and 9 could look at."""
+        return
+
+    @property
+    def n_states(self) -> int:
+        """Order of each transfer function, at most."""
+        return self.measured.chain.structure.n_states
+
+    @property
+    def content(self) -> tuple[str, ...]:
+        """All that verdicts on it depend on."""
+        return self.name, repr(self.measured)
+
+    @property
+    def profiled(self) -> MeasuredChain:
+        """The chain and its experiments."""
+        return self.measured
+
+    @property
+    def rank(self) -> int:
+        """Number of parameters that all experiments together determine."""
+        return self.profile(Representation.TF, 0).rank
+
+    @cached_property
+    def colouring(self) -> Colouring:
+        """Stable colours of the parameters in all coefficients."""
+        return colouring(self.columns, ("",) * len(self.parameters))
+
+    def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
+        """Values and Jacobian columns of all coefficients."""
+        n = len(point) - self.measured.chain.dead_time
+        found = drawn_at(self.measured, point, prime("renaming")).quotients
+        known = [coefficients(q) for q in found if q is not None]
+        values = tuple(v for _, numbers, _ in known for v in numbers)
+        rows = [[*row, *[0] * (len(point) - n)] for _, _, each in known for row in each]
+        return values, [tuple(row[j] for row in rows) for j in range(len(point))]
+
+    def symmetry_with(self, other: "ComparedMachine") -> Renaming | None:
+        """None: symmetries of a chain may move a sensor."""
+        return None
+
+    def is_renamed(self, other: "ComparedMachine", renaming: dict[str, str]) -> bool:
+        """Whether renaming the parameters turns all transfer functions into the others: exact."""
+        return is_renaming(self.measured, other.measured, renaming)
+
+    def exact(self, other: "ComparedMachine") -> Finding:
+        """The exact decision, for equal ranks and degrees."""
+        one, there = (side.profile(Representation.TF, 0) for side in (self, other))
+        if not _comparable(self, other):
+            return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
+        found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
+        return resting_on_ranks(found, one, there)
+
+    def admissible(
+        self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None
+    ) -> Finding:
+        """Over real or positive parameters: a renaming is a bijection there too; positive ones are
+        asked for both ways, and what is found is no surer than that the models are the same.
+        """
+        if isinstance(why, Renaming) or domain is not Domain.POSITIVE:
+            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_KNOWN.format(domain))
+        found = positive_ways(self.positive(other), other.positive(self))
+        if found.outcome is Outcome.ABANDONED or isinstance(why, FreeChoice):
+            return found
+        same = self.exact(other)
+        grades = (found.certainty, found.safety), (same.certainty, same.safety)
+        certainty, safety = weakest(*grades)
+        return replace(found, certainty=certainty, safety=safety)
+
+    def inclusions(self, other: "ComparedMachine") -> Inclusions:
+        """Not asked."""
+        return Inclusions(*(InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED),) * 2)
+
+    def tells_shares(self, other: "ComparedMachine") -> bool:
+        """No."""
+        return False
+
+    def positive(self, other: "ComparedMachine") -> PositiveFinding:
+        """Which positive models of the one have a positive equivalent in the other, where generic
+        complex ones have equivalents.
+        """
+        return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
+
+    @staticmethod
+    def prepare_exact(pairs: Sequence[Pair], ask: Callable[..., Any]) -> None:
+        """Have the exact decisions on pairs of equal rank and degrees computed."""
+        ask(EXACTLY, [(a.measured, b.measured) for a, b in pairs if _comparable(a, b)])
+
+    @staticmethod
+    def prepare_positive(ways: Sequence[Pair], ask: Callable[..., Any]) -> None:
+        """Nothing is needed."""
+
+    @staticmethod
+    def prepare_admissible(pairs: Sequence[Pair], domain: Domain, ask: Callable[..., Any]) -> None:
+        """Nothing is needed."""
+
+    @staticmethod
+    def all_inclusions(pairs: Sequence[Pair], ask: Callable[..., Any]) -> list[Inclusions]:
+        """Not asked."""
+        return [a.inclusions(b) for a, b in pairs]
+
+
+def _comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
+    one, other = (side.profile(Representation.TF, 0) for side in (left, right))
+    times = (side.measured.chain.dead_time for side in (left, right))
+    return one.rank == other.rank > 0 and one.degrees == other.degrees and len(set(times)) == 1

@@ -1,0 +1,177 @@
+"""The exact decision by a list: all parameters that fit one experiment, put into the others.
+
+Where an experiment is that of a chain of the class, inverse network synthesis lists every parameter
+vector of the searched chain, complex ones included, with the given transfer function at a random
+rational point of the other chain (`fibres.synthesis`). A listed ball that certainly gives another
+transfer function in some other experiment is none of the stacked fibre. If all are, no parameters
+of the searched chain have the behaviour of that point.
+
+What one point proves is what `questions.same.exact` says of one transfer function: the argument
+knows the equations by their degree alone. Equal transfer functions are equations N2 D1 = N1 D2 of
+degree 2 (N_B + 1) at most in the parameters of both, in every experiment: locked masses and what is
+known lower degrees. That is no more than the 3 N_B + 2 of `synthesis.decide.safety_of_point`, and
+the degree of a component, D^(n + 1) at most, does not depend on how many equations there are. The
+point is the same for all experiments that may be listed, so no more points are drawn than there.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from flint import acb_poly, ctx, fmpq, fmpq_poly
+
+from disting.algebra.certainty import Certainty
+from disting.algebra.sampling import about
+from disting.algebra.tridiagonal import Ring
+from disting.behaviour.transfer import plain_receptance
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
+from disting.evidence.decision import FibreUnder
+from disting.experiments.experiment import Entry, MeasuredChain
+from disting.fibres.synthesis.decide import (
+    DRAWS,
+    dearest,
+    point_bits,
+    rational_point,
+    safety_of_point,
+)
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.methods import is_covered
+from disting.fibres.synthesis.result import Fibre, Solution, Status
+from disting.fibres.synthesis.target import target
+from disting.model.chain import Chain
+from disting.model.row import rows_of
+from disting.model.settings import Settings
+from disting.model.symmetry import canonical
+
+Values = dict[str, Ring]
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """At the point `values` of the given chain: all solutions of experiment `at` (from 0), and
+    for each the first experiment whose transfer function it certainly misses, None if there is
+    none.
+    """
+
+    values: dict[str, fmpq]
+    at: int
+    found: Fibre
+    refuted_by: tuple[int | None, ...]
+
+    @property
+    def point(self) -> tuple[tuple[str, str], ...]:
+        """The values as text."""
+        return tuple((name, str(value)) for name, value in self.values.items())
+
+    @property
+    def kept(self) -> tuple[Solution, ...]:
+        """The solutions that no experiment refutes."""
+        pairs = zip(self.found.solutions, self.refuted_by, strict=True)
+        return tuple(s for s, missed in pairs if missed is None)
+
+
+def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
+    """FAILS where one list is refuted, the cheaper direction first; None where nothing is."""
+    left, right = without_dead_time(left), without_dead_time(right)
+    ways = [(True, left, right), (False, right, left)]
+    ways.sort(key=lambda way: dearest(way[2].chain))
+    for left_given, given, searched in ways:
+        listed = next(lists(given, searched, settings.seed), None)
+        if listed is not None and None not in listed.refuted_by:
+            evidence = FibreUnder(
+                left_given,
+                listed.point,
+                listed.at + 1,
+                tuple(k + 1 for k in listed.refuted_by if k is not None),
+            )
+            safety = safety_of_point(searched.chain)
+            return Finding(
+                rule=EXACT,
+                outcome=Outcome.FAILS,
+                certainty=Certainty.BOUNDED,
+                safety=safety,
+                evidence=evidence,
+            )
+    return None
+
+
+def lists(given: MeasuredChain, searched: MeasuredChain, seed: str) -> Iterator[Listed]:
+    """Yield lists at random points, one for each experiment that can be listed."""
+    for at, _, _ in listable(given, searched):
+        for draw in range(DRAWS):
+            label = about(f"synthesis:{seed}:{draw}", given, searched)
+            values = rational_point(given.chain, label, point_bits(searched.chain))
+            listed = listed_at(given, searched, at, values)
+            if listed is not None:
+                yield listed
+                break
+
+
+def listed_at(
+    given: MeasuredChain, searched: MeasuredChain, at: int, values: dict[str, fmpq]
+) -> Listed | None:
+    """All solutions of one experiment at a point; None for an infinite or an open list."""
+    one, other = given.alone(at), searched.alone(at)
+    if one is None or other is None:
+        return None
+    found = fibre(other, target(one.structure, values), confirm=False)
+    whole = found.status in (Status.COMPLETE, Status.EMPTY)
+    if not whole or found.tests.boundary or found.tests.uncovered:
+        return None
+    missed = (missed_by(given, values, searched, s, found) for s in found.solutions)
+    return Listed(values, at, found, tuple(missed))
+
+
+def listable(given: MeasuredChain, searched: MeasuredChain) -> Iterator[tuple[int, Chain, Chain]]:
+    """Yield the experiments in which both are chains of the class, and that a method serves."""
+    for at in range(len(given.experiments)):
+        one, other = given.alone(at), searched.alone(at)
+        if (
+            one is not None
+            and other is not None
+            and (one.n_masses, one.sensor) == (other.n_masses, other.sensor)
+            and _is_covered(other)
+        ):
+            yield at, one, other
+
+
+def missed_by(
+    given: MeasuredChain,
+    point: dict[str, fmpq],
+    searched: MeasuredChain,
+    one: Solution,
+    all_: Fibre,
+) -> int | None:
+    """The first experiment whose transfer function no parameters in the solution's balls have."""
+    with ctx.workprec(max(all_.precision_bits, 64)):
+        for k, (here, there) in enumerate(zip(given.entries, searched.entries, strict=True)):
+            if _differs(here, point, there, one.values):
+                return k
+    return None
+
+
+def without_dead_time(measured: MeasuredChain) -> MeasuredChain:
+    """The measured chain without the factor that it shares with the other side."""
+    chain = measured.chain
+    return replace(measured, chain=replace(chain, dead_time=False)) if chain.dead_time else measured
+
+
+def _differs(here: Entry, point: dict[str, fmpq], there: Entry, balls: Values) -> bool:
+    """Whether N2 D1 - N1 D2 has a coefficient that is certainly not zero."""
+    rational = {name: fmpq_poly([value]) for name, value in point.items()}
+    num, den = _receptance(here, rational, fmpq_poly([0, 1]), fmpq_poly)
+    top, bottom = _receptance(
+        there, {n: acb_poly([v]) for n, v in balls.items()}, acb_poly([0, 1]), acb_poly
+    )
+    lift = here.sensor_order - there.sensor_order
+    gap = top * acb_poly(den) - acb_poly(num) * bottom if not lift else acb_poly([1])
+    return any(not gap[i].contains(0) for i in range(gap.length()))
+
+
+def _receptance(entry: Entry, values: Values, s: Ring, ring: type) -> tuple[Ring, Ring]:
+    known = {n: ring([fmpq(x.numerator, x.denominator)]) for n, x in entry.known.items()}
+    return plain_receptance(entry, values | known, s, ring([1]))
+
+
+def _is_covered(chain: Chain) -> bool:
+    return all(map(is_covered, rows_of(canonical(chain).chain.structure)))

@@ -1,0 +1,148 @@
+"""Which mass of one model is which of the other: on the bench it is one and the same thing.
+
+An experiment names masses of the left chain. A mass of the right chain that is the same thing may
+be known, written 3/2; where it is not, every mass that is left over may be it. Different things
+stay different, the ground stays the ground, and one thing is one mass in all experiments.
+"""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import permutations
+from math import perm
+from typing import Any
+
+from disting.errors import InputError, listed, shown
+from disting.experiments.experiment import Experiment, Place
+from disting.model.chain import Chain
+
+Places = tuple[tuple[int, int], ...]
+"""(mass of the left chain, the same thing in the right one), sorted."""
+MOST_WAYS = 200  # to place what is not known: each is a verdict
+SETTINGS = ("force", "sensor", "quantity", "lock", "inertia", "spring")
+FORM = (
+    "an experiment is written sensor=3, force=2, lock=2, inertia=1:0.5 or spring=1:100, joined by"
+    " commas; 3/2 is mass 3 of the left model and 2 of the right one"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """An experiment in masses of the left chain, and what is known of the right one."""
+
+    experiment: Experiment
+    places: Places = ()
+
+
+def named(text: str) -> Named:
+    """What `sensor=3/2,lock=1` says; raises InputError.
+
+    >>> named("sensor=3/2-1,lock=1").places, named("inertia=1:0.5").experiment.text
+    (((3, 2),), 'inertia 1/2 at mass 1')
+    """
+    given: dict[str, Any] = {}
+    places: list[tuple[int, int]] = []
+    for part in text.split(","):
+        key, _, value = part.strip().partition("=")
+        if key not in SETTINGS or not value:
+            raise InputError(f"{FORM}, not {shown(text)}")
+        if key == "quantity":
+            _once(given, key, value)
+        elif key in ("force", "sensor"):
+            ends = [_mass(end, places) for end in value.split("-")]
+            _once(given, key, ends[0] if len(ends) == 1 else tuple(ends))
+        elif key == "lock":
+            _once(given, "locked", tuple(_mass(end, places) for end in value.split("+")))
+        else:
+            mass, colon, size = value.partition(":")
+            if not colon:
+                raise InputError(f"the size of a known {key} is missing: write {key}={mass}:1")
+            name = {"inertia": "inertias", "spring": "springs"}[key]
+            given.setdefault(name, []).append((_mass(mass, places), size))
+    agreed = _agreed(places)
+    return Named(Experiment(**given), agreed)
+
+
+def ways(left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()) -> list[Places]:
+    """Every way to say which masses of the right chain the named ones of the left chain are;
+    raises InputError.
+    """
+    for one in asked:
+        one.experiment.refuse(left)
+    fixed = dict(_agreed([*known, *(pair for one in asked for pair in one.places)]))
+    used = sorted({i for one in asked for i in one.experiment.masses})
+    open_ones = [i for i in used if i not in fixed]
+    wrong = [r for r in fixed.values() if r > right.n_masses]
+    if wrong:
+        raise InputError(
+            f"there is no mass {wrong[0]} in the right model with masses 1 to {right.n_masses}"
+        )
+    free = [r for r in range(1, right.n_masses + 1) if r not in fixed.values()]
+    count = perm(len(free), len(open_ones))
+    if not count:
+        raise InputError(
+            f"the right model has {right.n_masses} masses, so masses {listed(map(str, used))} of"
+            " the left one cannot all be different ones of it"
+        )
+    if count > MOST_WAYS:
+        raise InputError(
+            f"the places are not known in {count} ways, {MOST_WAYS} at most are asked for: name"
+            f" some, for instance {open_ones[0]}/{free[0]}"
+        )
+    found = (
+        dict(zip(open_ones, chosen, strict=True)) for chosen in permutations(free, len(open_ones))
+    )
+    return [tuple(sorted((fixed | one).items())) for one in found]
+
+
+def moved(experiment: Experiment, places: Places) -> Experiment:
+    """The experiment at the places of the right chain."""
+    there = {0: 0} | dict(places)
+
+    def port(place: Place | None) -> Place | None:
+        """The port of the same things."""
+        return None if place is None else (there[place[0]], there[place[1]])
+
+    return replace(
+        experiment,
+        force=port(experiment.force),
+        sensor=port(experiment.sensor),
+        locked=tuple(there[i] for i in experiment.locked),
+        inertias=tuple((there[i], size) for i, size in experiment.inertias),
+        springs=tuple((there[i], size) for i, size in experiment.springs),
+    )
+
+
+def _once(given: dict[str, object], key: str, value: object) -> None:
+    if key in given:
+        raise InputError(f"an experiment has one {key}: repeat the whole option for another one")
+    given[key] = value
+
+
+def _mass(text: str, places: list[tuple[int, int]]) -> int:
+    found = re.fullmatch(r"(\d{1,3})(?:/(\d{1,3}))?", text.strip())
+    if not found:
+        raise InputError(f"a place is a mass such as 3, or 3/2 for left/right, not {shown(text)}")
+    left = int(found[1])
+    if found[2] is not None:
+        places.append((left, int(found[2])))
+    return left
+
+
+def _agreed(pairs: Iterable[tuple[int, int]]) -> Places:
+    """The pairs, each once; raises InputError where one thing would be two, or two would be one."""
+    agreed = tuple(sorted(set(pairs)))
+    for side, name, other in ((0, "left", "right"), (1, "right", "left")):
+        met: dict[int, tuple[int, int]] = {}
+        for pair in agreed:
+            if pair[side] in met:
+                both = sorted((met[pair[side]][1 - side], pair[1 - side]))
+                raise InputError(
+                    f"mass {pair[side]} of the {name} model is both {both[0]} and {both[1]} of the"
+                    f" {other} one: a thing is one mass in each model"
+                )
+            met[pair[side]] = pair
+    zero = next((p for p in agreed if 0 in p and p != (0, 0)), None)
+    if zero:
+        raise InputError(f"0 is the ground, in both models: {zero[0]}/{zero[1]} is not possible")
+    return tuple(p for p in agreed if p != (0, 0))

@@ -1,0 +1,309 @@
+"""Lists of models as JSON files: state spaces, transfer functions, and chains by their names.
+
+    {"title": "Two compartments", "s": "s", "models": [
+      {"name": "two leaks", "A": [["-k12-k01", 0], ["k12", "-k02"]], "B": [1, 0], "C": [0, 1]},
+      {"name": "low pass", "num": ["k"], "den": ["T", 1]},
+      {"name": "notch", "G": "(s**2 + w**2)/(s**2 + 2*z*w*s + w**2)"},
+      {"name": "drive", "chain": "3:1+b2", "damped": true}]}
+
+Numbers are read as they are written: 0.1 is 1/10 and never a float. What is not understood is
+refused in one sentence that names the model: an unknown key or a doubled name would otherwise be a
+model that nobody meant.
+"""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+from disting.errors import InputError, listed, printable, shown
+from disting.files import write_whole
+from disting.general.model import Model
+from disting.general.spelled import polynomial_text
+from disting.model.chain import Sensor
+from disting.model.family import Family
+from disting.model.names import chain_of
+
+LARGEST = 5_000_000  # bytes of a file
+MOST_MODELS = 300  # 44,850 pairs
+LARGEST_CHAIN = 6  # masses: coefficients of some hundred terms
+LONGEST_NAME = 40  # characters, of a name that stands at the edge of a figure
+LONGEST_TITLE = 200
+KINDS = {
+    "A": ("A", "B", "C", "D"),
+    "num": ("num", "den"),
+    "G": ("G",),
+    "chain": ("chain", "damped", "sensor"),
+}  # by the key that a model of this kind always has: all its keys
+FORMS = (
+    'a state space "A", "B", "C", "D", a transfer function "num" and "den" or "G", or a "chain"'
+    ' such as "3:1+b2"'
+)
+Plain = Mapping[str, Any]
+
+
+class _Number(str):
+    """A number as it stands in the file."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ModelList:
+    """Models with different names, in order."""
+
+    models: tuple[Model, ...]
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        names = [model.name for model in self.models]
+        for name in names:
+            _refuse_name(name, "the name of a model", LONGEST_NAME)
+        doubled = sorted({name for name in names if names.count(name) > 1})
+        if doubled:
+            raise InputError(
+                f"{shown(doubled[0])} names {names.count(doubled[0])} models; give each its own"
+                " name"
+            )
+        if self.title:
+            _refuse_name(self.title, "the title", LONGEST_TITLE)
+
+    def __len__(self) -> int:
+        return len(self.models)
+
+    def __iter__(self) -> Iterator[Model]:
+        return iter(self.models)
+
+    def __getitem__(self, name: str) -> Model:
+        """The model of this name; raises InputError."""
+        for model in self.models:
+            if model.name == name:
+                return model
+        raise InputError(
+            f"no model is called {shown(name)}; there are {listed(m.name for m in self.models)}"
+        )
+
+
+def read_models(path: Path | str) -> ModelList:
+    """The models of a file, see `disting/guide/general-models.md`; raises InputError.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "a.json")
+    ...     _ = file.write_text('{"models": [{"name": "lag", "num": ["k"], "den": ["T", 1]}]}')
+    ...     str(read_models(file)["lag"])
+    'G(s) = k/(1 + T*s)'
+    """
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except (OSError, ValueError) as reason:
+        why = getattr(reason, "strerror", None) or reason
+        raise InputError(f"{_file(path)} cannot be read ({why}); name a file of models") from None
+    if len(content) > LARGEST:
+        raise InputError(
+            f"{_file(path)} is larger than {LARGEST // 10**6} MB; split it into several lists"
+        )
+    try:
+        return models_of(_plain(content))
+    except InputError as reason:
+        raise InputError(f"{_file(path)}: {reason}") from None
+
+
+def write_models(path: Path | str, found: ModelList) -> Path:
+    """Write the models as transfer functions in lowest terms, which `read_models` reads back as
+    they were; returns the path.
+    """
+    return write_whole(Path(path), [models_text(found)])
+
+
+def models_text(found: ModelList) -> str:
+    """The text of a file, a line a model.
+
+    >>> lag = Model.from_transfer_function(["k"], ["T", 1], name="lag")
+    >>> print(models_text(ModelList((lag,))), end="")
+    {"title": "", "models": [
+      {"name": "lag", "num": ["k"], "den": ["T", "1"]}
+    ]}
+    """
+    for model in found.models:
+        _refuse_s(model)
+    lines = [f"  {json.dumps(_written(model), ensure_ascii=False)}" for model in found.models]
+    head = f'{{"title": {json.dumps(found.title, ensure_ascii=False)}, "models": [\n'
+    return head + ",\n".join(lines) + "\n]}\n"
+
+
+def models_of(data: object) -> ModelList:
+    """The models of what a file holds; raises InputError."""
+    whole = _object(data, ("title", "s", "models"), "the file")
+    entries = whole.get("models")
+    if not isinstance(entries, list) or not entries:
+        raise InputError('"models" is a list of models, each in braces, at least one')
+    if len(entries) > MOST_MODELS:
+        raise InputError(
+            f"{len(entries)} models are more than {MOST_MODELS}; split them into several lists"
+        )
+    variable = _text(whole, "s", "s")
+    if not variable.isidentifier() or not variable.isascii():
+        raise InputError(
+            f'"s" is the name of the frequency variable, such as "s", not {shown(variable)}'
+        )
+    models = tuple(_model(entry, place, variable) for place, entry in enumerate(entries, 1))
+    return ModelList(models, _text(whole, "title", ""))
+
+
+def _model(entry: object, place: int, variable: str) -> Model:
+    if not isinstance(entry, dict):
+        raise InputError(f"model {place} is no object; write it in braces, with a name and {FORMS}")
+    name = entry.get("name")
+    if type(name) is not str:
+        raise InputError(f'model {place} has no name; give it one, such as "name": "two leaks"')
+    try:
+        _refuse_name(name, "its name", LONGEST_NAME)
+        found = _of_kind(entry, name, variable)
+        _refuse_s(found)
+    except InputError as reason:
+        raise InputError(f"model {shown(name)}: {reason}") from None
+    return found
+
+
+def _of_kind(entry: Plain, name: str, variable: str) -> Model:
+    kinds = [kind for kind in KINDS if kind in entry]
+    if len(kinds) != 1:
+        raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")
+    known = KINDS[kinds[0]]
+    given = _object(entry, ("name", *known), f'a model with "{kinds[0]}"')
+    match kinds[0]:
+        case "A":
+            _refuse_missing(given, ("B", "C"))
+            a, b, c, d = given["A"], given["B"], given["C"], given.get("D", 0)
+            return Model.from_state_space(a, b, c, d, s=variable, name=name)
+        case "num":
+            return Model.from_transfer_function(
+                given["num"], given.get("den", 1), s=variable, name=name
+            )
+        case "G":
+            if isinstance(given["G"], list):
+                raise InputError('"G" is one expression; lists are "num" and "den"')
+            return Model.from_transfer_function(given["G"], s=variable, name=name)
+    return _of_chain(given, name)
+
+
+def _of_chain(given: Plain, name: str) -> Model:
+    damped = given.get("damped", False)
+    if not isinstance(damped, bool):
+        raise InputError('"damped" is true or false')
+    quantity = _text(given, "sensor", Sensor.ACCELERATION.value)
+    if quantity not in tuple(Sensor):
+        raise InputError(f'"sensor" is {", ".join(Sensor)}, not {shown(quantity)}')
+    reference = _text(given, "chain", "")
+    masses = reference.partition(":")[0].strip()
+    if masses.isdecimal() and int(masses[:9]) > LARGEST_CHAIN:
+        raise InputError(
+            f"a chain of more than {LARGEST_CHAIN} masses is too large for a list; compare chains"
+            " with 'disting compare'"
+        )
+    chain = chain_of(reference, Family(1, damped, Sensor(quantity)))
+    if chain.dead_time:
+        raise InputError("a dead time is no rational function of s; leave +delay away")
+    return Model.from_chain(chain, name=name)
+
+
+def _written(model: Model) -> dict[str, object]:
+    """Coefficients of falling powers; parameters that they lack stand there times zero."""
+    num, den = (
+        [polynomial_text(p, model.parameters) for p in reversed(side)]
+        for side in (model.numerator, model.denominator)
+    )
+    used = {
+        j
+        for terms in (*model.numerator_terms, *model.denominator_terms)
+        for exponents, _ in terms
+        for j, e in enumerate(exponents)
+        if e
+    }
+    for j, name in enumerate(model.parameters):
+        if j not in used:
+            den[-1] += f" + 0*{name}"
+    return {"name": model.name, "num": num, "den": den}
+
+
+def _plain(content: bytes) -> object:
+    """What the bytes hold, numbers as their texts."""
+    try:
+        return json.loads(
+            content.decode("utf-8-sig"),
+            object_pairs_hook=_once,
+            parse_float=_Number,
+            parse_int=_Number,
+            parse_constant=_refuse_constant,
+        )
+    except UnicodeDecodeError:
+        raise InputError("this is no text in UTF-8; save it so") from None
+    except json.JSONDecodeError as reason:
+        raise InputError(
+            f"this is no JSON: {reason.msg}, line {reason.lineno}, column {reason.colno}; the guide"
+            " shows a whole file"
+        ) from None
+    except RecursionError:
+        raise InputError("brackets are nested too deeply; the guide shows a whole file") from None
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object in which no key is doubled: of two values one would be lost."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        name = next((value for key, value in pairs if key == "name"), None)
+        where = f"model {shown(name)}: " if name is not None else ""
+        doubled = next(key for key in keys if keys.count(key) > 1)
+        raise InputError(f"{where}{shown(doubled)} is given twice; leave one of them away")
+    return found
+
+
+def _refuse_constant(text: str) -> NoReturn:
+    raise InputError(f"{text} is no number of a model; write a number or an expression")
+
+
+def _object(data: object, known: Iterable[str], what: str) -> Plain:
+    """A JSON object with these keys only."""
+    keys = listed(f'"{key}"' for key in known)
+    if not isinstance(data, dict):
+        raise InputError(f"{what} is one object in braces with the keys {keys}")
+    unknown = [key for key in data if key not in known]
+    if unknown:
+        raise InputError(f"{shown(unknown[0])} is no key of {what}; known are {keys}")
+    return data
+
+
+def _refuse_s(model: Model) -> None:
+    """What is told of a model is written in s, whatever the file calls it."""
+    if "s" in model.parameters:
+        raise InputError("s is a parameter, but stands for the frequency variable; rename it")
+
+
+def _refuse_missing(given: Plain, keys: Iterable[str]) -> None:
+    for key in keys:
+        if key not in given:
+            raise InputError(f'"{key}" is missing')
+
+
+def _refuse_name(name: str, what: str, most: int) -> None:
+    """Names stand in one line of tables and pages, and are typed on a command line."""
+    if not name.strip() or name != name.strip() or not name.isprintable() or len(name) > most:
+        raise InputError(
+            f"{what} has 1 to {most} printable characters, with no spaces around them, not"
+            f" {shown(name)}"
+        )
+
+
+def _text(given: Plain, key: str, default: str) -> str:
+    value = given.get(key, default)
+    if type(value) is not str:
+        raise InputError(f'"{key}" is a text in quotation marks, not {shown(value)}')
+    return value
+
+
+def _file(path: Path | str) -> str:
+    return printable(str(path))

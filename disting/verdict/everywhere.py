@@ -1,0 +1,78 @@
+"""Whether further experiments tell two chains apart, where it is not known which mass of the one is
+which of the other: every way to place them is asked.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from disting.errors import InputError
+from disting.experiments import Experiment, Named, Places, moved, named, ways
+from disting.model.chain import Chain
+from disting.verdict.comparison import NOT_CHAINS, compare
+from disting.verdict.engine import Engine
+from disting.verdict.query import Query
+from disting.verdict.result import Relation, Verdict
+
+
+class Answer(StrEnum):
+    """Whether the experiments tell the models apart: wherever the places are, nowhere, or
+    depending on them; UNKNOWN where what is undecided could make a difference.
+    """
+
+    SURELY = "surely"
+    NEVER = "never"
+    DEPENDS = "depends on the places"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Everywhere:
+    """The verdict of every way to place the experiments, the chains as they are included."""
+
+    verdicts: tuple[tuple[Places, Verdict], ...]
+
+    @property
+    def answer(self) -> Answer:
+        """Whether they tell the models apart."""
+        found = {verdict.relation for _, verdict in self.verdicts}
+        if found == {Relation.DISTINGUISHABLE}:
+            return Answer.SURELY
+        if Relation.DISTINGUISHABLE in found and len(found - {Relation.UNDECIDED}) > 1:
+            return Answer.DEPENDS
+        return Answer.UNKNOWN if Relation.UNDECIDED in found else Answer.NEVER
+
+
+def compare_everywhere(
+    left: Chain,
+    right: Chain,
+    also: Sequence[str | Experiment],
+    *,
+    places: Places = (),
+    query: Query | None = None,
+    engine: Engine | None = None,
+) -> Everywhere:
+    """Verdicts on two chains as they are and under the experiments `also`, for every way to place
+    those on the right.
+
+    Experiments name masses of the left chain, as `Experiment` or as text such as "sensor=3/2,
+    lock=1", where 3/2 is mass 3 of the left chain and 2 of the right one; `places` names more such
+    pairs. Masses of the right chain that are not named are tried, each in every place that is
+    left over. Raises InputError.
+
+    >>> from disting import Family
+    >>> a = Family(3, damped=True)
+    >>> compare_everywhere(a[1], a[11], ["sensor=2"]).answer.value
+    'surely'
+    """
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
+        raise InputError(NOT_CHAINS)
+    engine = engine or Engine()
+    asked = [named(e) if isinstance(e, str) else Named(e) for e in also]
+    found = []
+    for way in ways(left, right, asked, places):
+        pairs = [(one.experiment, moved(one.experiment, way)) for one in asked]
+        experiments = [(Experiment(), Experiment()), *pairs]
+        verdict = compare(left, right, experiments=experiments, query=query, engine=engine)
+        found.append((way, verdict))
+    return Everywhere(tuple(found))

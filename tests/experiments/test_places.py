@@ -1,0 +1,134 @@
+import json
+
+import pytest
+
+from disting import Chain, Experiment, Family, InputError, Query, View, compare_everywhere
+from disting.cli import main
+from disting.experiments import moved, named, ways
+
+A = Family(3, damped=True)
+COMPLEX = Query(View.EXACT)
+
+
+@pytest.mark.parametrize(
+    ("text", "experiment", "places"),
+    [
+        ("sensor=3", Experiment(sensor=3), ()),
+        ("sensor=3/2", Experiment(sensor=3), ((3, 2),)),
+        ("sensor=3/2-1", Experiment(sensor=(3, 1)), ((3, 2),)),
+        ("sensor=3-0", Experiment(sensor=3), ()),
+        ("force=2,sensor=3,quantity=position", Experiment(2, 3, "position"), ()),
+        ("lock=1/3+2", Experiment(locked=(1, 2)), ((1, 3),)),
+        ("inertia=1:0.5,inertia=2:1/3", Experiment(inertias={1: "1/2", 2: "1/3"}), ()),
+        ("spring=2/1:100", Experiment(springs={2: 100}), ((2, 1),)),
+        ("inertia=1:generic", Experiment(inertias={1: "generic"}), ()),
+    ],
+)
+def test_what_is_written(text, experiment, places):
+    found = named(text)
+    assert (found.experiment, found.places) == (experiment, places)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "an experiment is written"),
+        ("sensor", "an experiment is written"),
+        ("look=3", "an experiment is written"),
+        ("sensor=three", "a place is a mass such as 3"),
+        ("sensor=1,sensor=2", "one sensor"),
+        ("sensor=1-2-3", "at a mass or between two"),
+        ("inertia=1", "inertia=1:1"),
+        ("sensor=0/1", "0 is the ground"),
+        ("lock=1/2,sensor=1/3", "both 2 and 3 of the right"),
+        ("lock=1/2,sensor=3/2", "both 1 and 3 of the left"),
+    ],
+)
+def test_what_cannot_be_read_is_refused(text, said):
+    with pytest.raises(InputError, match=said):
+        named(text)
+
+
+def test_places_that_are_not_known_are_all_that_are_left_over():
+    asked = [named("sensor=3"), named("lock=1/2")]
+    assert ways(A[1], A[11], asked) == [((1, 2), (3, 1)), ((1, 2), (3, 3))]
+    assert ways(A[1], A[11], asked, ((3, 3),)) == [((1, 2), (3, 3))]
+    assert ways(A[1], A[11], [named("quantity=position")]) == [()]
+
+
+def test_experiments_move_with_their_places():
+    one = named("force=1,sensor=3-2,lock=4,inertia=3:1,spring=2:1").experiment
+    there = moved(one, ((1, 4), (2, 3), (3, 2), (4, 1)))
+    assert there == named("force=4,sensor=2-3,lock=1,inertia=2:1,spring=3:1").experiment
+
+
+@pytest.mark.parametrize(
+    ("texts", "said"),
+    [
+        (["sensor=4"], "no mass 4 in a chain with masses 1 to 3"),
+        (["sensor=3/4"], "no mass 4 in the right model"),
+        (["lock=1+2+3"], "leave one that moves"),
+    ],
+)
+def test_places_that_do_not_exist(texts, said):
+    with pytest.raises(InputError, match=said):
+        compare_everywhere(A[1], A[11], texts)
+
+
+def test_more_things_than_the_right_model_has():
+    with pytest.raises(InputError, match="cannot all be different ones"):
+        compare_everywhere(A[1], Chain(1, damped=True), ["sensor=1", "lock=2"])
+    with pytest.raises(InputError, match="200 at most"):
+        compare_everywhere(Chain(6), Chain(6), [f"sensor={i}" for i in range(1, 7)])
+
+
+def test_one_second_sensor_anywhere_settles_the_first_pair():
+    for i in (1, 2, 3):
+        found = compare_everywhere(A[1], A[11], [f"sensor={i}"], query=COMPLEX)
+        assert found.answer.value == "surely" and len(found.verdicts) == 3
+
+
+def test_of_the_reciprocal_twins_it_depends_on_the_place():
+    found = compare_everywhere(A[2], A[5], ["sensor=2"], query=COMPLEX)
+    told = {places[0][1]: verdict.relation.value for places, verdict in found.verdicts}
+    assert told == {1: "distinguishable", 2: "distinguishable", 3: "indistinguishable"}
+    assert found.answer.value == "depends on the places"
+    known = compare_everywhere(A[2], A[5], ["sensor=2/3"], query=COMPLEX)
+    assert known.answer.value == "never"
+
+
+def told(capsys, *arguments):
+    code = main(["compare", *arguments, "--damped", "--no-cache"])
+    return code, capsys.readouterr()
+
+
+def test_command_line(capsys):
+    code, out = told(capsys, "3:1", "3:11", "--also", "sensor=3/2", "--also", "lock=2/1")
+    assert code == 0 and out.out.startswith("DISTINGUISHABLE")
+    assert "experiment 3  mass 2 locked" in out.out and "masses 2/1, 3/2 of A1/A11" in out.out
+    code, out = told(capsys, "3:2", "3:5", "--also", "sensor=2", "--domain", "complex")
+    assert code == 0 and out.out.startswith("DEPENDS ON THE PLACES: A2 and A5")
+    code, out = told(capsys, "3:2", "3:5", "--also", "lock=2/2", "--domain", "complex")
+    assert code == 0 and "nothing is learned from experiment 2" in out.out
+
+
+def test_command_line_as_json(capsys):
+    code, out = told(capsys, "3:1", "3:11", "--also", "sensor=3", "--json")
+    data = json.loads(out.out)
+    assert code == 0 and data["answer"] == "surely"
+    assert [v["places"] for v in data["verdicts"]] == [{"3": 1}, {"3": 2}, {"3": 3}]
+    assert data["experiments"] == ["as it is", "sensor 3"]
+
+
+@pytest.mark.parametrize(
+    ("also", "said"),
+    [
+        (("--also", "sensor=7"), "there is no mass 7 in a chain with masses 1 to 3"),
+        (("--also", "lock=1+2+3"), "leave one that moves"),
+        (("--also", "inertia=1:-2"), "a known inertia is positive"),
+        (("--also", "sensor=1", "--prove"), "leave --prove and --range away"),
+    ],
+)
+def test_command_line_errors_are_one_sentence(capsys, also, said):
+    code, out = told(capsys, "3:1", "3:11", *also)
+    assert code == 2 and said in out.err and "Traceback" not in out.err

@@ -1,0 +1,241 @@
+"""The page of a list of general models: what it says is what was decided, names are shown and
+never obeyed, and all can use it.
+"""
+
+import json
+import re
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from disting import Engine, InputError, Model, ModelList, Query, View, global_identifiability
+from disting.general.files import models_of
+from disting.general.global_identifiability import IDENTIFIABILITY
+from disting.report.formulas import written_model
+from disting.report.model_list import judged, model_list_page, page_name, write_model_list
+from tests.cli.process import called
+from tests.report.outline import Outline
+
+LEAKS = {"A": [["-k12-k01", "0"], ["k12", "-k02"]], "B": ["1", "0"], "C": ["0", "1"]}
+MODELS = [
+    {"name": "two leaks", **LEAKS},
+    {"name": "exchange", "num": ["k12"], "den": ["1", "k01 + k12 + k21", "k01*k21"]},
+    {"name": "low passes", "G": "k/((T1*s + 1)*(T2*s + 1))"},
+    {"name": "drive", "chain": "2:1", "damped": True},
+    {"name": "by hand", "num": ["J2", "d", "k"], "den": ["J1*J2", "d*(J1 + J2)", "k*(J1 + J2)"]},
+]  # fmt: skip
+HOSTILE = [
+    "<script>alert(1)</script>", "</script><img src=x onerror=alert(1)>", '"><svg onload=alert(1)>', "{{7*7}}", "{L}", "{R} and {L}",
+    "javascript:alert(1)", "&lt;b&gt;", "=1+1", "a, b",
+]  # fmt: skip
+NAME = "list-vessels"
+
+
+def of(entries):
+    return models_of({"models": entries})
+
+
+def hostile():
+    """Every second one is the same as the first; so sentences of all kinds name them."""
+    entries = [
+        {"name": name, "num": ["k"], "den": ["T", *["1"] * (1 + i % 2)]}
+        for i, name in enumerate(HOSTILE)
+    ]
+    return of(entries)
+
+
+@pytest.fixture(scope="module")
+def vessels():
+    return judged(of(MODELS), Engine())
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory, vessels) -> Path:  # type: ignore[no-untyped-def]
+    folder = tmp_path_factory.mktemp("lists")
+    write_model_list(vessels, "Two vessels", NAME, folder)
+    write_model_list(judged(hostile(), Engine()), HOSTILE[0], "list-hostile", folder)
+    return folder
+
+
+def data(page: str):
+    text = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)
+    return json.loads(text[1])
+
+
+def test_what_is_judged_is_what_compare_says(vessels) -> None:  # type: ignore[no-untyped-def]
+    engine, models = Engine(), vessels.family
+    for view in (View.POSITIVE, View.EXACT):
+        for i, j in combinations(range(len(models)), 2):
+            sides = [engine.general_subject(m.name, m) for m in (models[i], models[j])]
+            alone = engine.verdict(*sides, Query(view, inclusion=False))
+            found = vessels.verdict(i + 1, j + 1, view)
+            assert (found.relation, found.sentence) == (alone.relation, alone.sentence)
+            assert vessels.relation(j + 1, i + 1, view) is found.relation
+    assert vessels.classes(View.POSITIVE) == ((4, 5),)
+    assert vessels.classes(View.EXACT) == ((1, 2, 3), (4, 5))
+    assert vessels.depending(View.POSITIVE) == ((1, 2), (1, 3), (2, 3))
+
+
+def test_the_page_says_it_without_a_script(vessels) -> None:  # type: ignore[no-untyped-def]
+    page = model_list_page(vessels, "Two vessels", NAME)
+    outline = Outline(page)
+    assert outline.texts["h1"] == ["Two vessels"]
+    for card, model in enumerate(vessels.family, 1):
+        assert f'id="model-{card}-title">{model.name}<' in page
+        assert f"Parameters: {', '.join(model.parameters)}. " in page
+        assert global_identifiability(model).sentence in page
+    for left, right, verdict in vessels.pairs(View.POSITIVE):
+        assert f"{vessels.family[left - 1].name} and {vessels.family[right - 1].name}</th>" in page
+        assert verdict.evidence.sentence(verdict.left, verdict.right) in page
+    assert outline.count("math") >= 5 * 4
+    found = data(page)
+    assert found["names"] == [m.name for m in vessels.family] and found["models"] == 5
+    assert set(found["views"]) == {"positive", "exact"}
+
+
+def test_links_lead_to_pages_that_are_there(vessels, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    first = write_model_list(vessels, "Two vessels", NAME, tmp_path)[0].read_text("utf-8")
+    assert 'href="index.html"' not in first and "guide/" not in first
+    (tmp_path / "index.html").touch()
+    again = write_model_list(vessels, "Two vessels", NAME, tmp_path)
+    assert 'href="index.html"' in again[0].read_text("utf-8")
+    assert [p.name for p in again] == [f"{NAME}.{kind}" for kind in ("html", "csv", "json")]
+
+
+def test_names_are_text_in_the_page(site: Path) -> None:
+    tame, page = (Outline((site / f"{n}.html").read_text("utf-8")) for n in (NAME, "list-hostile"))
+    assert {tag for tag, _ in page.elements} <= {tag for tag, _ in tame.elements}
+    attributes = {a for _, found in page.elements for a in found}
+    assert not {a for a in attributes if a.startswith("on")}
+    assert data((site / "list-hostile.html").read_text("utf-8"))["names"] == HOSTILE
+
+
+def test_large_models_are_told_by_their_degrees() -> None:
+    long = Model.from_transfer_function("1", "*".join(f"(s + a{i} + b{i})" for i in range(8)))
+    assert written_model(long).lines == () and "b_{0}" in written_model(long).latex
+    short = Model.from_transfer_function(["gain"], ["tau_m", "1"])
+    assert "<mi>gain</mi>" in "".join(
+        part for _, parts in written_model(short).lines for part in parts
+    )
+    assert "a_{1} &= \\mathrm{tau}_{m}\n" in written_model(short).latex
+
+
+def test_identifiability_is_kept_as_it_is() -> None:
+    for model in of(MODELS):
+        found = global_identifiability(model)
+        assert IDENTIFIABILITY.decode(IDENTIFIABILITY.encode(found)) == found
+    many = Model.from_transfer_function(
+        [f"b{i}" for i in range(5)], [1, *(f"a{i}" for i in range(5))]
+    )
+    quick = global_identifiability(many, tries=0)
+    assert (quick.count, quick.local.rank, len(quick.combinations)) == (None, 10, 10)
+
+
+@pytest.mark.parametrize(
+    ("file", "name"),
+    [("leaks.json", "list-leaks"), ("../x/Ä b.C.json", "list-b-c"), ("index.json", "list-index")],
+)
+def test_page_names_stay_in_the_folder(file: str, name: str) -> None:
+    assert page_name(Path(file)) == name
+
+
+def test_a_name_without_letters_is_refused() -> None:
+    with pytest.raises(InputError, match="rename the file"):
+        page_name(Path("ä ö.json"))
+
+
+def test_the_command_writes_the_page_and_refuses_what_it_cannot(tmp_path: Path) -> None:
+    for folder in ("one", "two"):
+        (tmp_path / folder).mkdir()
+        text = json.dumps({"title": "Vessels & drives", "models": MODELS})
+        (tmp_path / folder / "vessels.json").write_text(text)
+    one, two = tmp_path / "one" / "vessels.json", tmp_path / "two" / "vessels.json"
+    out = tmp_path / "out"
+    done = called("report", one, "--out", out, cache=tmp_path / "cache.sqlite3")
+    assert done.returncode == 0
+    assert done.stdout.splitlines()[0] == (
+        "Vessels & drives, over positive parameters: 6 distinguishable, 1 indistinguishable, 3"
+        " sometimes, 0 undecided"
+    )
+    first = (out / "list-vessels.html").read_bytes()
+    assert b"<h1>Vessels &amp; drives</h1>" in first
+    called("report", one, "--out", out, cache=tmp_path / "cache.sqlite3")
+    assert (out / "list-vessels.html").read_bytes() == first
+    for arguments, cause in (
+        ((one, two), "two files would have one page"),
+        ((one, "--damped"), "--damped belongs to numbered chains"),
+        ((tmp_path / "no.json",), "cannot be read"),
+        ((), "a file of models, or --paper"),
+    ):
+        done = called("report", *arguments, "--out", tmp_path / "none")
+        assert done.returncode == 2 and cause in done.stderr and not (tmp_path / "none").exists()
+
+
+def test_a_list_is_no_iterable_of_numbers() -> None:
+    found = ModelList(of(MODELS).models[:2], "T")
+    assert [m.name for m in found] == ["two leaks", "exchange"] and len(found) == 2
+
+
+def _settle(tab) -> None:  # type: ignore[no-untyped-def]
+    tab.evaluate(
+        "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )
+
+
+def test_a_pair_is_found_by_its_names_and_told(visit, vessels) -> None:  # type: ignore[no-untyped-def]
+    tab = visit(f"{NAME}.html")
+    tab.fill("#find", "Two leaks, exch")
+    tab.press("#find", "Enter")
+    verdict = vessels.verdict(1, 2, View.POSITIVE)
+    assert tab.inner_text("#detail h3") == "two leaks and exchange"
+    assert tab.inner_text("#detail .why") == verdict.evidence.sentence("two leaks", "exchange")
+    assert (
+        tab.inner_text('[data-slot="in-exact"]')
+        == "indistinguishable, condition 7, transfer function"
+    )
+    assert tab.url.endswith("#1-2")
+    assert tab.get_attribute('[role="gridcell"]', "aria-label").startswith(
+        "two leaks and exchange: "
+    )
+    tab.focus('[role="gridcell"]')
+    tab.keyboard.press("ArrowDown")
+    tab.keyboard.press("Enter")
+    assert tab.inner_text("#detail h3") == "two leaks and low passes"
+    tab.click('#detail [data-slot="left-name"]')
+    assert tab.url.endswith("#model-1")
+    tab.fill("#find", "nobody")
+    tab.press("#find", "Enter")
+    assert tab.inner_text("#trouble").startswith("Type the name of a model")
+
+
+def test_the_domain_changes_groups_and_views(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit(f"{NAME}.html")
+    assert tab.locator("#groups .group:visible").count() == 1
+    tab.check('[name="domain"][value="exact"]', force=True)
+    assert tab.locator("#groups .group:visible").count() == 2
+    tab.check('[name="order"][value="group"]', force=True)
+    _settle(tab)
+    assert tab.locator("#group option").all_inner_texts()[1] == "1: two leaks, exchange, low passes"
+
+
+def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("list-hostile.html#1-2")
+    assert tab.inner_text("#detail h3") == f"{HOSTILE[0]} and {HOSTILE[1]}"
+    tab = visit("list-hostile.html#5-6")
+    assert tab.inner_text("#detail .why").startswith("{L} has a numerator of degree 0")
+    assert "{R} and {L} a numerator" in tab.inner_text("#detail .why")
+
+
+@pytest.mark.parametrize(
+    ("path", "scheme"), [(f"{NAME}.html#1-2", "light"), ("list-hostile.html", "dark")]
+)
+def test_pages_are_accessible_and_only_boxes_scroll(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
+    axe = pytest.importorskip(
+        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
+    )
+    width = 390 if scheme == "dark" else 1280
+    tab = visit(path, width, scheme)
+    found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
+    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found] == []
+    assert tab.evaluate("document.documentElement.scrollWidth") == width
