@@ -32,7 +32,7 @@ from disting.fit.readings import Reading, readings
 from disting.fit.repeatability import margin
 from disting.fit.scatter import Scatter
 from disting.fit.signs import signed
-from disting.fit.together import alternatives_under_all, learning
+from disting.fit.together import alternatives_under_all, learning, representatives_under_all
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
 from disting.store import Store
@@ -138,12 +138,9 @@ def select(
     task = task if sign else signed(task, candidates)
     cost = task.cost
     within = limits_of(task.bounds, task.fixed)
+    first = representatives(candidates, engine, within) if prune else {c: c for c in candidates}
     # what stands for another in the first response need not do so in the others
-    first = (
-        representatives(candidates, engine, within)
-        if prune and not further
-        else {c: c for c in candidates}
-    )
+    first = representatives_under_all(first, cost.setups, within)
     wanted = [c for c in candidates if first[c] == c]
     found = estimates(
         wanted, task, method=method, store=engine.store, executor=executor, progress=progress
@@ -166,6 +163,8 @@ def select(
                 selected.chain,
                 alternatives(selected.chain, candidates, engine, within),
                 cost.setups,
+                engine,
+                within,
             )
             if selected
             else ()

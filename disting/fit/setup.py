@@ -6,11 +6,13 @@ last or 1:3, since candidates of several sizes are asked.
 """
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import isfinite
 
 from disting.errors import InputError, shown
+from disting.experiments import Experiment, MeasuredChain
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Ports, Structure
 
@@ -103,6 +105,24 @@ def port(text: str, n: int) -> tuple[int, int]:
     if not match:
         raise InputError(f"a port is written like 2, last or 1:3, not {shown(text)}")
     return int(match[1] or 0), n if match[2] == "last" else int(match[2])
+
+
+def measured_chain(chain: Chain, setups: Sequence[Setup]) -> MeasuredChain:
+    """The chain under the experiments of all setups, for verdicts; quantities, signs and dead times
+    tell nothing more.
+    """
+    n = chain.n_masses
+    found = []
+    for setup in setups:
+        minus, plus = port(setup.sensor, n) if setup.sensor else (0, 0)
+        found.append(
+            Experiment(
+                sensor=(plus, minus) if plus else None,
+                locked=setup.still(n),
+                inertias=[(at, repr(size)) for at, size in setup.added(n)],
+            )
+        )
+    return MeasuredChain(chain, tuple(found))
 
 
 def measurable(chain: Chain, setups: tuple[Setup, ...]) -> tuple[bool, ...]:

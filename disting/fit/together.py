@@ -11,43 +11,82 @@ from itertools import permutations
 import numpy as np
 
 from disting.errors import InputError, listed
-from disting.fit.alternatives import Alternative
+from disting.experiments.polynomials import is_renaming
+from disting.fit.alternatives import Alternative, Limits, is_within
 from disting.fit.estimate import Task
 from disting.fit.joint import Further, JointCost
 from disting.fit.plant import Complex
-from disting.fit.setup import Setup, port
+from disting.fit.setup import Setup, measured_chain, port
 from disting.model.chain import Chain
-from disting.verdict import Relation
+from disting.questions.positive import renamings
+from disting.verdict import Engine, Query, Relation, View
 
 SAME = 1e-6  # largest relative difference of two responses that are one, at all lines
-OPEN = (
-    "the first response alone does not tell them apart; whether all together do for every"
-    " parameter is not decided"
-)
+OPEN = "Whether that holds for positive parameters is not decided."
+RENAMED = "A renaming of the parameters turns all responses of the one into those of the other."
 
 
-def under_all(chain: Chain, other: Chain, relation: Relation, setups: Sequence[Setup]) -> Relation:
-    """The relation of two structures under all setups, from that under the first one.
+def under_all(
+    chain: Chain, other: Chain, setups: Sequence[Setup], engine: Engine, limits: Limits
+) -> Alternative | None:
+    """What another structure that the first response may not tell apart is under all of them, with
+    the same places; None where they tell it apart.
 
-    Only what the first response tells apart is known for all of them.
+    By conditions and the exact decision over complex parameters. That all positive models are the
+    same is known where a renaming of the parameters, within the limits, turns all responses of the
+    one into those of the other.
     """
-    if len(setups) == 1 or relation is Relation.DISTINGUISHABLE:
-        return relation
-    return Relation.UNDECIDED
+    mine, there = (
+        engine.measured_subject(str(c), measured_chain(c, setups)) for c in (chain, other)
+    )
+    verdict = engine.verdict(mine, there, Query(View.COMBINED))
+    if verdict.relation is Relation.DISTINGUISHABLE:
+        return None
+    if is_same_under_all(chain, other, setups, limits):
+        return Alternative(other, Relation.INDISTINGUISHABLE, RENAMED)
+    return Alternative(other, Relation.UNDECIDED, f"{verdict.sentence} {OPEN}")
+
+
+def is_same_under_all(chain: Chain, other: Chain, setups: Sequence[Setup], limits: Limits) -> bool:
+    """Whether a renaming of the parameters turns all responses of a chain into those of another,
+    and takes every range into that of the parameter that it becomes; both ways.
+    """
+    return chain == other or all(
+        any(
+            is_within(renaming, limits)
+            and is_renaming(measured_chain(one, setups), measured_chain(two, setups), renaming)
+            for renaming in renamings(one, two)
+        )
+        for one, two in ((chain, other), (other, chain))
+    )
 
 
 def alternatives_under_all(
-    chain: Chain, found: Iterable[Alternative], setups: Sequence[Setup]
+    chain: Chain,
+    found: Iterable[Alternative],
+    setups: Sequence[Setup],
+    engine: Engine,
+    limits: Limits,
 ) -> tuple[Alternative, ...]:
-    """What may behave the same as a chain in all responses, from what does in the first one."""
-    whole = []
-    for one in found:
-        relation = under_all(chain, one.chain, one.relation, setups)
-        if relation is one.relation:
-            whole.append(one)
-        elif relation is not Relation.DISTINGUISHABLE:
-            whole.append(Alternative(one.chain, relation, f"{OPEN[0].upper()}{OPEN[1:]}."))
-    return tuple(whole)
+    """What may behave the same as a chain in all responses, from what may in the first one."""
+    if len(setups) == 1:
+        return tuple(found)
+    each = (under_all(chain, one.chain, setups, engine, limits) for one in found)
+    return tuple(one for one in each if one is not None)
+
+
+def representatives_under_all(
+    first: Mapping[Chain, Chain], setups: Sequence[Setup], limits: Limits
+) -> dict[Chain, Chain]:
+    """For each candidate the one that has the same positive models in all responses, from `first`,
+    which has them in the first one.
+    """
+    if len(setups) == 1:
+        return dict(first)
+    return {
+        chain: stands if is_same_under_all(chain, stands, setups, limits) else chain
+        for chain, stands in first.items()
+    }
 
 
 def behaves_alike(

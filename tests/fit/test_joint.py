@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting.errors import InputError
+from disting.fit.alternatives import representatives
 from disting.fit.cost import Case, Cost, lines_by_scatter
 from disting.fit.descent import fine
 from disting.fit.each import JointNoise, noises, scatters
@@ -21,10 +22,16 @@ from disting.fit.practical import covariance
 from disting.fit.select import select
 from disting.fit.setup import Setup
 from disting.fit.structural import stacked_rank
-from disting.fit.together import behaves_alike
+from disting.fit.together import (
+    behaves_alike,
+    is_same_under_all,
+    representatives_under_all,
+    under_all,
+)
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
-from disting.verdict import Relation
+from disting.store import Store
+from disting.verdict import Engine, Relation
 from tests.fit.drives import OMEGA, bench, response, truth
 
 TWO = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)
@@ -343,6 +350,41 @@ def test_what_behaves_alike_in_the_first_response_alone_is_not_merged():
     assert both.selected.chain == one
     assert all(a.relation is not Relation.INDISTINGUISHABLE for a in both.alternatives)
     assert all(t.chain != other for m in both.members for t in m.twins)
+
+
+MIRRORED = Chain(3, act_plus=2, meas_plus=2, damped=True, ground_dampers=(1,))
+MERGED = [
+    (Setup(inertias=(("2", 0.5),)), True),
+    (Setup(inertias=(("1", 0.5),)), False),
+    (Setup(sensor="3"), False),
+    (Setup(sensor="2", locked=("1",)), False),
+]
+
+
+@pytest.mark.parametrize(("setup", "same"), MERGED)
+def test_mirrored_candidates_are_merged_where_every_response_is_mirrored(setup, same):
+    """Force and sensor in the middle: a damper at either end is the same, until a response tells
+    the ends apart.
+    """
+    other, engine = replace(MIRRORED, ground_dampers=(3,)), Engine(store=Store.none())
+    assert representatives([MIRRORED, other], engine, {})[other] == MIRRORED
+    setups = (Setup(), setup)
+    found = representatives_under_all({MIRRORED: MIRRORED, other: MIRRORED}, setups, {})
+    assert found == {MIRRORED: MIRRORED, other: MIRRORED if same else other}
+    said = under_all(MIRRORED, other, setups, engine, {})
+    if same:
+        assert said.relation is Relation.INDISTINGUISHABLE
+    else:
+        assert said is None or said.relation is Relation.UNDECIDED
+    assert not is_same_under_all(MIRRORED, other, setups, {"b1": (1.0, 2.0)})
+
+
+def test_what_the_second_response_tells_apart_is_no_alternative():
+    """By the conditions on the stacked coefficients."""
+    one = Chain(2, meas_plus=2, damped=True, ground_dampers=(1,))
+    other, engine = replace(one, ground_dampers=(2,)), Engine(store=Store.none())
+    assert under_all(one, other, (Setup(),), engine, {}).relation is Relation.INDISTINGUISHABLE
+    assert under_all(one, other, (Setup(), Setup(sensor="1")), engine, {}) is None
 
 
 def test_a_twin_must_have_all_responses():

@@ -89,7 +89,11 @@ def fit_page(
         reasoning=reasoning(selection),
         measured="J test" if test is not None else "J cross-validated",
         cost=cost_in_words(selection.task.cost),
-        data=[("Training", train)] + ([("Test", test)] if test is not None else []),
+        data=[
+            ("Training", train),
+            *([("Test", test)] if test is not None else []),
+            *further(selection),
+        ],
         choices=choices(selection),
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
@@ -102,6 +106,12 @@ def fit_page(
         percent=percent,
         plural=plural,
     )
+
+
+def further(selection: Selection) -> list[tuple[str, FrequencyResponse]]:
+    """The data of further responses."""
+    each = zip(selection.task.cost.setups, selection.task.cost.parts, strict=True)
+    return [(f"Training ({setup.text})", part.measured) for setup, part in list(each)[1:]]
 
 
 def reasoning(selection: Selection) -> list[tuple[str, str]]:
