@@ -9,13 +9,13 @@ from math import isfinite
 from typing import Any
 
 from disting.cli.common import emitted
-from disting.cli.fit_data import measured
-from disting.cli.plain import complain
+from disting.cli.fit_data import Data, data, sensors
 from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
-from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
+from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation, lines_by_scatter
+from disting.fit.each import explanations
 from disting.fit.export import selection_to_dict, write_mat
 from disting.fit.members import Disagreement, Member
 from disting.fit.modes import Result, physical
@@ -23,9 +23,9 @@ from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.fit.swarm import by_swarm
-from disting.fit.telling import commands, first_lines, renamed, suspicions
+from disting.fit.telling import commands, first_lines, learned, renamed, suspicions
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.report.fit.words import UNDETERMINED, fit_in_words, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
@@ -45,19 +45,22 @@ OTHERWISE = {
 
 def run(options: argparse.Namespace) -> int:
     """Fit, select, print and write."""
-    train, test = _data(options)
-    candidates = _candidates(options, train.sensor)
+    given = data(options)
+    train, test = given.train, given.test
+    candidates = _candidates(options, given)
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
     with engine_for(options) as (engine, pool, progress):
         found = select(
             train,
             candidates,
             test=test,
+            further=given.further,
+            alike=options.weights == "none",
             thresholds=Thresholds(*options.thresholds),
             rule=Rule(options.rule),
             case=Case(options.case),
-            lines=_weights(options),
-            sign=SIGNS[options.sign],
+            lines=_weights(options, given),
+            sign=SIGNS[options.sign.split(",")[0]],
             bounds=dict(options.bound),
             fixed=dict(options.fix),
             seed=options.seed,
@@ -82,55 +85,32 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
-    """How the lines count; coherence tells it where Welch's method made them."""
-    chosen = options.weights
-    return WEIGHTS[
-        ("coherence" if "segment" in dict(options.read) else "none") if chosen == "auto" else chosen
-    ]
+def _weights(
+    options: argparse.Namespace, given: Data
+) -> Callable[[FrequencyResponse], Real] | None:
+    """How the lines count; coherence tells it where Welch's method made them, their scatter where
+    several responses are fitted.
+    """
+    if options.weights != "auto":
+        return WEIGHTS[options.weights]
+    if "segment" in dict(options.read):
+        return lines_by_coherence
+    return lines_by_scatter if given.further else None
 
 
-def _data(options: argparse.Namespace) -> tuple[FrequencyResponse, FrequencyResponse | None]:
-    """Training and test data, masked; what the readers noticed goes to standard error."""
-    if options.demo == bool(options.train):
-        raise InputError("give a file with measured data, or --demo for simulated data, not both")
-    if options.demo and (options.test or options.read or options.column):
-        raise InputError("--demo brings its own data: leave --test, --read and --column away")
-    if options.profiles and not options.out:
-        raise InputError("--profiles draws into the page: name its folder with --out")
-    if options.site and not options.out:
-        raise InputError(
-            "--site links the page to the catalogues: name the page's folder with --out"
-        )
-    both: tuple[FrequencyResponse, FrequencyResponse | None]
-    if options.demo:
-        from disting.simulation import demo
-
-        both = (demo(0).response("acceleration"), demo(1).response("acceleration"))
-    else:
-        train = measured([options.train, *options.repeat], options)
-        both = (train, measured([options.test], options) if options.test else None)
-    train, test = both
-    if options.band:
-        train, test = train.masked(*options.band), test.masked(*options.band) if test else None
-    for response in (train, test):
-        if response is not None:
-            for note in (*response.notes, *response.suspicions):
-                complain(f"{response.origin or 'data'}: {note}")
-    return train, test
-
-
-def _candidates(options: argparse.Namespace, quantity: Sensor) -> tuple[Chain, ...]:
+def _candidates(options: argparse.Namespace, given: Data) -> tuple[Chain, ...]:
     """The structures to fit; raises InputError where a parameter named by --fix or --bound is
     in none of them.
     """
+    quantity = given.train.sensor
     if options.family:
         found = whole_family(options.masses, quantity)
     else:
         found = chosen_ports(
-            options.masses, options.actuator, options.sensor, options.gap, quantity
+            options.masses, options.actuator, sensors(options)[0], options.gap, quantity
         )
     known = {name for chain in found for name in chain.parameters}
+    known |= {further.setup.delay for further in given.further} - {""}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
     if unknown:
         raise InputError(
@@ -145,8 +125,7 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield ""
     n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]
     yield (
-        f"{n} candidates fitted to {len(train)} frequency lines{_saved(found)}, validated on"
-        f" {found.validation}"
+        f"{n} candidates fitted to {_lines(found)}{_saved(found)}, validated on {found.validation}"
     )
     if found.selected is None:
         yield "none is admissible; the best ones:"
@@ -166,6 +145,7 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     )
     yield from [f"  {renamed(found)}"] if renamed(found) else []
     yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
+    yield from (f"  {line}" for line in _each(found))
     yield from (f"  {line}" for line in _parameters(found))
     yield ""
     yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
@@ -179,6 +159,26 @@ def _told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from (
         ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
     )
+
+
+def _lines(found: Selection) -> str:
+    """How much data there is."""
+    sizes = [str(len(part.measured)) for part in found.task.cost.parts]
+    several = f" of {len(sizes)} responses" * (len(sizes) > 1)
+    return f"{' + '.join(sizes)} frequency lines{several}"
+
+
+def _each(found: Selection) -> Iterator[str]:
+    """What the judged data of each of several responses say, and what says nothing."""
+    judging, c = found.judging, found.described
+    if len(judging.parts) > 1:
+        said = explanations(judging, c.residual, c.missed, found.explanation.scatter)
+        for setup, one in zip(judging.setups, said, strict=True):
+            yield (
+                f"{setup.text}: chi2 per line {one.chi2:.3g}, its lines scatter by"
+                f" {percent(one.scatter.typical)}"
+            )
+    yield from learned(found)
 
 
 def _excluded(found: Selection) -> Iterator[str]:

@@ -27,17 +27,22 @@ def _data(group: argparse._ArgumentGroup) -> None:
     """Files and how they are read."""
     group.add_argument(
         "train",
-        nargs="?",
+        nargs="*",
         type=Path,
         metavar="TRAIN",
-        help="measured frequency response, or time series",
+        help="measured frequency response, or time series; several: one for each --sensor",
+    )
+    text = "independent data of the drive, likewise; may be repeated (default: cross-validation)"
+    group.add_argument("--test", type=Path, action="append", default=[], metavar="TEST", help=text)
+    text = (
+        "another response of the same machine, fitted together: FILE:lock=2 (mass 2 does not"
+        " move), FILE:inertia=1:0.5 (known inertia added), FILE:sensor=3; may be repeated"
     )
     group.add_argument(
-        "--test",
-        type=Path,
-        metavar="TEST",
-        help="independent data of the drive (default: cross-validation)",
+        "--experiment", action="append", default=[], metavar="FILE:CHANGE", help=text
     )
+    text = "of several responses: one for all, or each its own (default: shared)"
+    group.add_argument("--dead-time", choices=("shared", "own"), default="shared", help=text)
     group.add_argument(
         "--demo", action="store_true", help="simulated data of a small drive instead of files"
     )
@@ -79,10 +84,10 @@ def _data(group: argparse._ArgumentGroup) -> None:
         "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
     )
     text = (
-        "sign of the sensor; auto takes what fits better among small and large candidates"
-        " (default: +)"
+        "sign of the sensor: +, - or auto, what fits better among small and large candidates; of"
+        " several --sign=+,- (default: +)"
     )
-    group.add_argument("--sign", choices=SIGNS, default="+", help=text)
+    group.add_argument("--sign", type=_signs, default="+", metavar="SIGN", help=text)
 
 
 def _candidates(group: argparse._ArgumentGroup) -> None:
@@ -104,7 +109,7 @@ def _candidates(group: argparse._ArgumentGroup) -> None:
         "--sensor",
         default="1",
         metavar="PORT",
-        help="mass that the sensor shows, likewise (default: 1)",
+        help="mass that the sensor shows; 1,2: two responses, fitted together (default: 1)",
     )
     group.add_argument(
         "--gap",
@@ -145,8 +150,8 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         help="cost function of the paper (default: 3)",
     )
     text = (
-        "of the frequency lines; auto: coherence for Welch's method (--read segment=..), else all"
-        " alike (default: auto)"
+        "of the frequency lines; auto: coherence for Welch's method (--read segment=..), for"
+        " several responses what their lines scatter by, else all alike (default: auto)"
     )
     group.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
@@ -220,6 +225,14 @@ def _unit(text: str) -> tuple[str, str]:
             f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}"
         )
     return name, unit
+
+
+def _signs(text: str) -> str:
+    if text != "auto" and not all(sign in ("+", "-") for sign in text.split(",")):
+        raise argparse.ArgumentTypeError(
+            f"a sign is {', '.join(SIGNS)}, of several sensors like +,-, not {shown(text)}"
+        )
+    return text
 
 
 def _number(text: str) -> int | float | str:

@@ -1,20 +1,134 @@
-"""Measured data of disting fit: files, repeats, units."""
+"""Measured data of disting fit: files, repeats, units; several responses of one machine."""
 
 import argparse
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from disting.measurement import FrequencyResponse, in_si, mean_of, read
+from disting.cli.plain import complain
+from disting.errors import InputError, shown
+from disting.fit.joint import Further
+from disting.fit.setup import Setup
+from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
 from disting.measurement.scaling import scaled, with_constant
 
+# options of the readers that tell which response of a file is meant: one for all, or one for each
+OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
+EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
+FORM = "an experiment is written FILE:lock=2, FILE:inertia=1:0.5 or FILE:sensor=2,lock=1"
 
-def measured(files: list[Path], options: argparse.Namespace) -> FrequencyResponse:
+
+@dataclass(frozen=True, slots=True)
+class Data:
+    """The first response with its test data, and what is fitted together with it."""
+
+    train: FrequencyResponse
+    test: FrequencyResponse | None
+    further: tuple[Further, ...]
+
+
+def data(options: argparse.Namespace) -> Data:
+    """All responses, masked; what the readers noticed goes to standard error."""
+    _check(options)
+    if options.demo:
+        from disting.simulation import demo
+
+        train, test = (demo(i).response("acceleration") for i in (0, 1))
+        found = Data(train, test, ())
+    else:
+        found = _from_files(options)
+    found = _masked(found, options.band) if options.band else found
+    both = [(found.train, found.test), *((f.measured, f.test) for f in found.further)]
+    for response in (one for pair in both for one in pair if one is not None):
+        for note in (*response.notes, *response.suspicions):
+            complain(f"{response.origin or 'data'}: {note}")
+    return found
+
+
+def sensors(options: argparse.Namespace) -> list[str]:
+    """The ports that the sensors show, the first one that of the candidates."""
+    text: str = options.sensor
+    return text.split(",")
+
+
+def _check(options: argparse.Namespace) -> None:
+    several = len(sensors(options)) > 1 or options.experiment
+    if options.demo == bool(options.train):
+        raise InputError("give a file with measured data, or --demo for simulated data, not both")
+    if options.demo and (options.test or options.read or options.column or several):
+        raise InputError(
+            "--demo brings its own data: leave --test, --read, --column, --experiment and several"
+            " sensors away"
+        )
+    if options.family and several:
+        raise InputError("--family moves the sensor: leave it away where several are fitted")
+    if options.profiles and not options.out:
+        raise InputError("--profiles draws into the page: name its folder with --out")
+    if options.site and not options.out:
+        raise InputError(
+            "--site links the page to the catalogues: name the page's folder with --out"
+        )
+    if options.repeat and len(options.train) > 1:
+        raise InputError("--repeat repeats one file: give the mean of each, or leave it away")
+
+
+def _from_files(options: argparse.Namespace) -> Data:
+    places = sensors(options)
+    train = list(_responses(options.train, options, "TRAIN"))
+    tests = list(_responses(options.test, options, "--test")) if options.test else []
+    signs = _signs(options, len(places))
+    setups = [Setup(sensor=place, sign=sign) for place, sign in zip(places, signs, strict=True)]
+    whole = [
+        Further(measured, setup, tests[k] if tests else None)
+        for k, (measured, setup) in enumerate(zip(train, setups, strict=True))
+    ][1:]
+    for text in options.experiment:
+        whole += _experiment(text, options, dict(zip(places, signs, strict=True)))
+    if options.dead_time == "own":
+        named = enumerate(whole, 2)
+        whole = [replace(f, setup=replace(f.setup, delay=f"Td{k}")) for k, f in named]
+    return Data(train[0], tests[0] if tests else None, tuple(whole))
+
+
+def _responses(
+    files: Sequence[Path], options: argparse.Namespace, what: str
+) -> Iterator[FrequencyResponse]:
+    """One for each sensor: the responses of one file in their order, or one file for each."""
+    count = len(sensors(options))
+    if len(files) not in (1, count):
+        raise InputError(
+            f"{len(files)} files of {what} and {count} sensor{'s' * (count > 1)}: name a place for"
+            " each file, as --sensor 1,2"
+        )
+    for k in range(count):
+        repeats = options.repeat if what == "TRAIN" else []
+        of_sensor = [files[0], *repeats] if len(files) == 1 else [files[k]]
+        yield measured(of_sensor, options, k, count, together=len(files) == 1)
+
+
+def measured(
+    files: list[Path],
+    options: argparse.Namespace,
+    which: int = 0,
+    count: int = 1,
+    *,
+    together: bool = False,
+    column: str = "",
+) -> FrequencyResponse:
     """The response in `files`, the mean of several, with the units and factors of the command
-    line.
+    line; `which` of `count` sensors, in one file `together`.
     """
     units = dict(options.unit)
     settings = dict(options.read) | ({"column": options.column} if options.column else {})
     settings |= {f"{name}_unit": units[name] for name in ("frequency", "phase") if name in units}
-    found = mean_of([read(file, **settings) for file in files])
+    if count > 1:
+        settings = _of_one(settings, which, count)
+    if column:
+        settings["column"] = column
+    each = [_begun(f, settings, which) if together and count > 1 else settings for f in files]
+    found = mean_of([read(file, **own) for file, own in zip(files, each, strict=True)])
     found = scaled(found, options.scale) if options.scale is not None else found
     found = in_si(found, input=units.get("input"), output=units.get("output"))
     return (
@@ -22,3 +136,93 @@ def measured(files: list[Path], options: argparse.Namespace) -> FrequencyRespons
         if options.torque_constant is not None
         else found
     )
+
+
+def _of_one(settings: dict[str, Any], which: int, count: int) -> dict[str, Any]:
+    """The settings of one response, where some are given for each."""
+    split = {
+        name: tuple(value.split(",")) if name == "column" and "," in value else value
+        for name, value in settings.items()
+    }
+    for name, value in split.items():
+        if name in OF_EACH and isinstance(value, tuple) and len(value) != count:
+            raise InputError(f"{name} is given for {len(value)} responses, there are {count}")
+    return {
+        name: value[which] if name in OF_EACH and isinstance(value, tuple) else value
+        for name, value in split.items()
+    }
+
+
+def _begun(file: Path, settings: dict[str, Any], which: int) -> dict[str, Any]:
+    """Settings that name a response of a text file by its number, where nothing else names it."""
+    if settings.keys() & {"column", "output", "input", "response", "record"}:
+        return settings
+    begin = beginnings(file, settings.get("columns"))
+    if begin is None:
+        raise InputError(
+            f"{file.name}: say which response is that of each sensor, as --read output=a,b"
+        )
+    if which >= len(begin):
+        raise InputError(
+            f"{file.name} holds {len(begin)} response{'s' * (len(begin) > 1)}, for"
+            f" {which + 1} sensors: give a file or a column for each"
+        )
+    return settings | {"column": begin[which]}
+
+
+def _signs(options: argparse.Namespace, count: int) -> list[int]:
+    """The sign of each sensor against the first one; 1 where they are found by the fit."""
+    given = options.sign.split(",")
+    if len(given) not in (1, count):
+        raise InputError(f"{len(given)} signs, {count} sensors: give one for each, as --sign=+,-")
+    numbers = [{"+": 1, "-": -1, "auto": 1}[sign] for sign in given]
+    return [sign * numbers[0] for sign in numbers * (count if len(numbers) == 1 else 1)]
+
+
+def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -> Iterator[Further]:
+    """The responses of one experiment: those of all sensors, or of the one that it names."""
+    found = EXPERIMENT.fullmatch(text)
+    if not found:
+        raise InputError(f"{FORM}, not {shown(text)}")
+    file, given = Path(found[1]), dict[str, list[str]]()
+    for part in found[2].split(","):
+        name, equals, value = part.partition("=")
+        if name not in ("sensor", "lock", "inertia", "column") or not (equals and value):
+            raise InputError(f"{FORM}, not {shown(text)}")
+        given.setdefault(name, []).append(value)
+    setup = Setup(
+        locked=tuple(at for one in given.get("lock", ()) for at in one.split("+")),
+        inertias=tuple(_inertia(one) for one in given.get("inertia", ())),
+    )
+    places = given.get("sensor", list(signs))
+    if not (setup.locked or setup.inertias or "sensor" in given):
+        raise InputError(f"{FORM}, not {shown(text)}")
+    for k, place in enumerate(places):
+        alone = "sensor" in given
+        response = measured(
+            [file],
+            options,
+            list(signs).index(place) if alone and place in signs else k,
+            len(signs),
+            together=not alone,
+            column=",".join(given.get("column", ())),
+        )
+        yield Further(response, replace(setup, sensor=place, sign=signs.get(place, 1)))
+
+
+def _inertia(text: str) -> tuple[str, float]:
+    at, colon, size = text.partition(":")
+    try:
+        return at, float(size)
+    except ValueError:
+        wrong = f"not {shown(text)}" if colon else "its size is missing"
+        raise InputError(f"a known inertia is written inertia=1:0.5, {wrong}") from None
+
+
+def _masked(found: Data, band: tuple[float, float]) -> Data:
+    further = tuple(
+        replace(f, measured=f.measured.masked(*band), test=f.test.masked(*band) if f.test else None)
+        for f in found.further
+    )
+    test = found.test.masked(*band) if found.test else None
+    return Data(found.train.masked(*band), test, further)

@@ -23,6 +23,7 @@ from disting.fit.cost import Case as Case
 from disting.fit.cost import Cost as Cost
 from disting.fit.cost import lines_by_coherence as lines_by_coherence
 from disting.fit.cost import lines_by_deviation as lines_by_deviation
+from disting.fit.cost import lines_by_scatter as lines_by_scatter
 from disting.fit.designed import Designed as Designed
 from disting.fit.designed import designed as designed
 from disting.fit.estimate import Estimate as Estimate
@@ -40,6 +41,9 @@ from disting.fit.export import write_mat as write_mat
 from disting.fit.fitted import Confidence as Confidence
 from disting.fit.fitted import confidence as confidence
 from disting.fit.fitted import fit_percent as fit_percent
+from disting.fit.joint import Further as Further
+from disting.fit.joint import JointCost as JointCost
+from disting.fit.joint import JointPlant as JointPlant
 from disting.fit.judged import Candidate as Candidate
 from disting.fit.members import Disagreement as Disagreement
 from disting.fit.members import Member as Member
@@ -64,6 +68,7 @@ from disting.fit.rival import gain as gain
 from disting.fit.scatter import Scatter as Scatter
 from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select
+from disting.fit.setup import Setup as Setup
 from disting.fit.sweep import Profile as Profile
 from disting.fit.sweep import Sweep as Sweep
 from disting.fit.sweep import profile as profile

@@ -77,7 +77,7 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
     """
     if set(limits) & {*chain.parameters, *other.parameters}:
         return all(
-            any(_inside(r, limits) for r in renamings(*pair))
+            any(is_within(r, limits) for r in renamings(*pair))
             for pair in ((chain, other), (other, chain))
         )
     here, there = (engine.subject(str(c), c) for c in (chain, other))
@@ -125,7 +125,7 @@ def _alternative(
     return Alternative(other.chain, Relation.UNDECIDED, cut)
 
 
-def _inside(renaming: Mapping[str, str], limits: Limits) -> bool:
+def is_within(renaming: Mapping[str, str], limits: Limits) -> bool:
     """Whether the renaming takes every range into that of the parameter that it becomes."""
     anything = (0.0, inf)
     pairs = [

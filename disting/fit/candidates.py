@@ -1,11 +1,11 @@
 """Candidate models of a fit: Fig. 1 of the paper, and wider classes."""
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 
-from disting.errors import ConstraintViolation, InputError, shown
+from disting.errors import ConstraintViolation, InputError
+from disting.fit.setup import port
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.symmetry import Form, forms
@@ -63,7 +63,7 @@ def chosen_ports(
     found, refused = list[Chain](), ""
     for n in sizes:
         (act_minus, act_plus), (meas_minus, meas_plus) = ports = tuple(
-            _port(text, n) for text in (actuator, shown)
+            port(text, n) for text in (actuator, shown)
         )
         if (actuator == "last") != (shown == "last") and ports[0] == ports[1]:
             refused = f"force {actuator} and sensor {shown} are the same mass"
@@ -106,11 +106,3 @@ def reference(chain: Chain) -> str:
 def _is_in(family: Family, chain: Chain) -> bool:
     plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
     return plain in family.models
-
-
-def _port(text: str, n: int) -> tuple[int, int]:
-    """(minus, plus) of a port's text."""
-    match = re.fullmatch(r"(?:(\d+):)?(\d+|last)", text)
-    if not match:
-        raise InputError(f"a port is written like 2, last or 1:3, not {shown(text)}")
-    return int(match[1] or 0), n if match[2] == "last" else int(match[2])

@@ -12,16 +12,22 @@ each unwrapping began. Case 3 sees d ln G only, to which s^n adds nothing: cost 
 depend on the sensor quantity.
 """
 
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
 from math import log, pi, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.fit.plant import Complex, Plant, Real
+from disting.fit.plant import Complex, Differentiable, Plant, Real
+from disting.fit.scatter import scatter
+from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.model.structure import Structure
 
 
 class Case(IntEnum):
@@ -34,8 +40,33 @@ class Case(IntEnum):
     LOGARITHM = 3
 
 
+class SquaredCost(ABC):
+    """J = |residual|^2, of one response or of several."""
+
+    @abstractmethod
+    def residual(self, response: Complex) -> Real:
+        """Weighted residuals, shape (..., 2 n_f), of responses of shape (..., n_f)."""
+
+    @abstractmethod
+    def sensitivity(self, response: Complex, gradient: Complex) -> Real:
+        """S, shape (..., 2 n_f, n_p), from G and d ln G / d p, shape (..., n_p, n_f)."""
+
+    def total(self, response: Complex) -> Real:
+        """J of (6), (12) or (14), shape (...)."""
+        residual = self.residual(response)
+        return np.asarray(np.einsum("...i,...i->...", residual, residual))
+
+    def of(self, plant: Differentiable, p: Real) -> tuple[Real, Real]:
+        """Residuals and S d p / d ln p, the sensitivity to logarithms of the parameters:
+        columns S_j p_j of (16).
+        """
+        response, gradient = plant.logarithmic_gradient(p)
+        gradient *= p[..., None]
+        return self.residual(response), self.sensitivity(response, gradient)
+
+
 @dataclass(frozen=True, eq=False)
-class Cost:
+class Cost(SquaredCost):
     """J = |residual|^2 of a measured response; `weights` of the two residuals of a line, `lines`
     of each line, shape (n_f,).
 
@@ -88,19 +119,6 @@ class Cost:
         np.multiply(gradient.imag, second, out=columns[..., n_f:])
         return columns.swapaxes(-1, -2)
 
-    def total(self, response: Complex) -> Real:
-        """J of (6), (12) or (14), shape (...)."""
-        residual = self.residual(response)
-        return np.asarray(np.einsum("...i,...i->...", residual, residual))
-
-    def of(self, plant: Plant, p: Real) -> tuple[Real, Real]:
-        """Residuals and S d p / d ln p, the sensitivity to logarithms of the parameters:
-        columns S_j p_j of (16).
-        """
-        response, gradient = plant.logarithmic_gradient(p)
-        gradient *= p[..., None]
-        return self.residual(response), self.sensitivity(response, gradient)
-
     def scatter(self, rho: Real) -> Real:
         """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation `rho`,
         shape (n_f,), of the data.
@@ -110,6 +128,42 @@ class Cost:
         return np.concatenate(
             [first * size * rho, second * rho * (size if self.case is Case.COMPLEX else 1.0)]
         )
+
+    @property
+    def parts(self) -> tuple["Cost", ...]:
+        """The costs of the single responses: this one."""
+        return (self,)
+
+    @property
+    def setups(self) -> tuple[Setup, ...]:
+        """How the responses were measured."""
+        return (Setup(),)
+
+    @property
+    def delays(self) -> tuple[str, ...]:
+        """Dead times beside that of the chain: none."""
+        return ()
+
+    def plant(self, structure: Structure, sign: int) -> Plant:
+        """The structure at the lines of the data."""
+        return Plant(structure, self.measured.omega, sign)
+
+    def on(self, chain: Chain) -> "Cost":
+        """Of the responses that a chain has: every chain has this one."""
+        return self
+
+    def without(self, out: NDArray[np.bool_]) -> "Cost":
+        """The cost with weight zero for some lines, shape (n_f,)."""
+        lines = np.ones(len(self.measured)) if self.lines is None else self.lines
+        return replace(self, lines=np.where(out, 0.0, lines))
+
+    def by_line(self, values: NDArray) -> list[NDArray]:  # type: ignore[type-arg]
+        """Values of lines for each response."""
+        return [values]
+
+    def by_residual(self, values: Real) -> list[Real]:
+        """Values of residuals for each response."""
+        return [values]
 
     @cached_property
     def _both(self) -> tuple[Real, Real]:
@@ -143,6 +197,13 @@ def lines_by_coherence(measured: FrequencyResponse) -> Real:
         )
     squared = np.clip(measured.coherence, 0.0, 1.0 - 1e-9)
     return _scaled(np.sqrt(squared / (1.0 - squared)))
+
+
+def lines_by_scatter(measured: FrequencyResponse) -> Real:
+    """Weight 1/rho of each line, rho what it scatters by (`scatter`), scaled to a mean square
+    of 1.
+    """
+    return _scaled(1.0 / scatter(measured).rho)
 
 
 def _scaled(weights: Real) -> Real:

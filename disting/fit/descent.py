@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from disting.fit.cost import Cost
-from disting.fit.plant import Plant, Real
+from disting.fit.joint import AnyCost, AnyPlant
+from disting.fit.plant import Real
 
 Indices = NDArray[np.intp]
 
@@ -53,7 +53,9 @@ class Box:
         return np.clip(p, self.low, self.high)
 
 
-def rough(plant: Plant, cost: Cost, box: Box, starts: Real, iterations: int) -> tuple[Real, Real]:
+def rough(
+    plant: AnyPlant, cost: AnyCost, box: Box, starts: Real, iterations: int
+) -> tuple[Real, Real]:
     """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each
     start.
 
@@ -92,7 +94,7 @@ def _batches(active: Indices) -> list[Indices]:
     return np.array_split(active, -(-len(active) // BATCH))
 
 
-def _normal(plant: Plant, cost: Cost, box: Box, points: Real) -> tuple[Real, Real, Real]:
+def _normal(plant: AnyPlant, cost: AnyCost, box: Box, points: Real) -> tuple[Real, Real, Real]:
     """Cost J = r'r, shape (n_s,), with S'S and S'r of the free logarithms, shapes (n_s, n_p,
     n_p) and (n_s, n_p).
     """
@@ -116,7 +118,7 @@ def _step(curvature: Real, slope: Real, damping: Real) -> Real:
     return np.asarray(np.clip(step, -LARGEST_STEP, LARGEST_STEP))
 
 
-def fine(plant: Plant, cost: Cost, box: Box, start: Real) -> tuple[Real, float]:
+def fine(plant: AnyPlant, cost: AnyCost, box: Box, start: Real) -> tuple[Real, float]:
     """A local minimum, shape (n_p,), and its cost: never above that of the start."""
     free = box.free
     origin = box.clipped(start)

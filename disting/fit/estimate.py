@@ -21,8 +21,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from disting.errors import InputError
-from disting.fit.cost import Cost
 from disting.fit.descent import Box, fine, rough
+from disting.fit.joint import AnyCost, AnyPlant
 from disting.fit.neighbours import carried, neighbours
 from disting.fit.pairs import conspicuous, paired
 from disting.fit.plant import Plant, Real
@@ -64,7 +64,7 @@ class Task:
     their fits, what one of them finds helps all, and together they try every kind of start.
     """
 
-    cost: Cost
+    cost: AnyCost
     sign: int = 1
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     fixed: Mapping[str, float] = field(default_factory=dict)
@@ -79,9 +79,19 @@ class Task:
             if not 0 < value < inf:
                 raise InputError(f"{name} is fixed to a positive number, not {value:g}")
 
-    def plant(self, chain: Chain) -> Plant:
+    def plant(self, chain: Chain) -> AnyPlant:
         """The chain at the frequencies of the data."""
-        return Plant(chain.structure, self.cost.measured.omega, self.sign)
+        return self.cost.plant(chain.structure, self.sign)
+
+    def names(self, chain: Chain) -> tuple[str, ...]:
+        """What is fitted, in the order of parameter vectors: the chain's parameters, then dead
+        times of single responses.
+        """
+        return (*chain.parameters, *(self.cost.delays if chain.dead_time else ()))
+
+    def on(self, chain: Chain) -> "Task":
+        """The task of a chain that may have fewer places: of the responses that it has."""
+        return replace(self, cost=self.cost.on(chain))
 
     def box(self, names: Sequence[str]) -> Box:
         """Bounds as arrays."""
@@ -122,8 +132,9 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     """Best parameters of one candidate, from the data and from the fits of smaller candidates
     in `known`.
     """
+    task = task.on(chain)
     first = sha256(str(chain).encode()).digest()[0] % task.divided
-    starts = stacked(list(_starts(chain, task, known))[first :: task.divided], chain.parameters)
+    starts = _stacked(list(_starts(chain, task, known))[first :: task.divided], chain, task)
     # One thread of linear algebra: matrices are small, and workers share the processors.
     with threadpool_limits(1):
         return _best(chain, task, known, starts)
@@ -131,18 +142,23 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
 
 def evaluated(chain: Chain, task: Task) -> Estimate:
     """The cost of a candidate whose parameters are all given: there is nothing to search."""
-    values = [task.fixed[name] for name in chain.parameters]
+    task = task.on(chain)
+    names = task.names(chain)
+    values = [task.fixed[name] for name in names]
     j = float(task.cost.total(task.plant(chain).response(np.array(values))))
-    return Estimate(chain, dict(zip(chain.parameters, values, strict=True)), j, (j,))
+    return Estimate(chain, dict(zip(names, values, strict=True)), j, (j,))
 
 
 def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
     """The candidate's estimate in `known`, or a better one that the fits of its neighbours
     there lead to.
     """
-    own, names, size = known[chain], chain.parameters, scale(task.cost.measured)
-    offered = [known[c].parameters for c in neighbours(chain) if c in known]
-    starts = stacked([start for fit in offered for start in carried(chain, fit, size)], names)
+    task = task.on(chain)
+    own, names, size = known[chain], task.names(chain), scale(task.cost.measured)
+    offered = [_common(known[c]) for c in neighbours(chain) if c in known]
+    starts = _stacked(
+        [start for fit in offered for start in carried(chain, fit, size)], chain, task
+    )
     plant, box = task.plant(chain), task.box(names)
     with threadpool_limits(1):
         points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
@@ -156,7 +172,7 @@ def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
 
 
 def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
-    names = chain.parameters
+    names = task.names(chain)
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
     ends, reached = rough(plant, task.cost, box, points[_different(costs)], ITERATIONS)
@@ -176,13 +192,31 @@ def _nested(
     )
     if contained is None or contained.j * (1 + NESTED) >= j:
         return p, j
-    plant, box = task.plant(chain), task.box(chain.parameters)
-    slight = stacked(
-        list(extended(chain, contained.parameters, scale(task.cost.measured), UNFELT)),
-        chain.parameters,
-    )
+    plant, box = task.plant(chain), task.box(task.names(chain))
+    felt = extended(chain, _common(contained), scale(task.cost.measured), UNFELT)
+    slight = _stacked([_own(contained) | dict(start) for start in felt], chain, task)
     unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
     return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda found: found[1])
+
+
+def _stacked(starts: Sequence[Values], chain: Chain, task: Task) -> Real:
+    """Starts as an array; a dead time of a single response is that of all where a start has
+    none.
+    """
+    own = task.names(chain)[len(chain.parameters) :]
+    whole = [dict.fromkeys(own, start["Td"]) | dict(start) for start in starts] if own else starts
+    return stacked(whole, task.names(chain))
+
+
+def _common(found: Estimate) -> Values:
+    """The parameters of the chain alone."""
+    return {name: found.parameters[name] for name in found.chain.parameters}
+
+
+def _own(found: Estimate) -> dict[str, float]:
+    """Dead times of single responses."""
+    chain = found.chain.parameters
+    return {name: value for name, value in found.parameters.items() if name not in chain}
 
 
 def _different(costs: Real) -> list[int]:
@@ -201,17 +235,17 @@ def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterat
     yield from seen
     for joint, fewer in merged(chain):
         if fewer in known:
-            yield from split(chain, joint, known[fewer].parameters, size)
+            yield from split(chain, joint, _common(known[fewer]), size)
     for fewer, joint in {fewer: joint for joint, fewer in merged(chain)}.items():
         if fewer in known:
-            fit = known[fewer].parameters
-            missed = conspicuous(
-                task.cost.measured, task.plant(fewer).response(np.array(list(fit.values())))
+            response = Plant(fewer.structure, task.cost.measured.omega, task.sign).response(
+                np.array(list(_common(known[fewer]).values()))
             )
-            yield from paired(chain, joint, fit, size, missed)
+            missed = conspicuous(task.cost.measured, response)
+            yield from paired(chain, joint, _common(known[fewer]), size, missed)
     for fewer in shortened(chain):
         if fewer in known:
-            yield from extended(chain, known[fewer].parameters, size)
+            yield from extended(chain, _common(known[fewer]), size)
     yield from random(chain, size, task.seed, FEW if seen else MANY)
 
 
@@ -316,18 +350,23 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
     """Content address of an estimate: the data, the choices, the chain and what its starts come
     from.
     """
-    cost = task.cost
+    cost, first = task.cost, task.cost.parts[0]
     arrays = [
-        cost.measured.omega,
-        cost.measured.G,
-        np.zeros(0) if cost.lines is None else cost.lines,
+        array
+        for part in cost.parts
+        for array in (
+            part.measured.omega,
+            part.measured.G,
+            np.zeros(0) if part.lines is None else part.lines,
+        )
     ]
     texts = [
         digest(__name__),
         method,
         repr(chain),
-        cost.measured.sensor.value,
-        repr((cost.case, cost.weights, task.sign, task.seed, task.divided)),
+        *(part.measured.sensor.value for part in cost.parts),
+        *(repr((setup, len(p.measured))) for setup, p in zip(cost.setups, cost.parts, strict=True)),
+        repr((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
     ]
     texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
     texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
@@ -347,7 +386,7 @@ def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
 
 def _is_given(chain: Chain, task: Task) -> bool:
     """Whether there is nothing to search."""
-    return set(chain.parameters) <= set(task.fixed)
+    return set(task.names(chain)) <= set(task.fixed)
 
 
 def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:

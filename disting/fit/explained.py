@@ -36,7 +36,8 @@ class Miss:
     and by how much at most.
 
     `factor` = largest |G_model / G - 1| in logarithms (0.1 = 10 %), `angle` [rad] likewise, of
-    lines averaged over their neighbours; `share` of chi2 that comes from there.
+    lines averaged over their neighbours; `share` of chi2 that comes from there; `response`: which
+    one, where there are several.
     """
 
     low: float
@@ -44,6 +45,7 @@ class Miss:
     factor: float
     angle: float
     share: float
+    response: str = ""
 
     @property
     def sentence(self) -> str:
@@ -59,7 +61,7 @@ class Miss:
             else f"{100 * self.factor:.2g} %"
         )
         return (
-            f"{where} (by up to {size} and"
+            f"{where}{self.response and f' of {self.response}'} (by up to {size} and"
             f" {max(degrees(self.angle), 0.1):.{0 if self.angle > 0.1 else 1}f} degrees)"
         )
 

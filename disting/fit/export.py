@@ -14,6 +14,8 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.files import write_whole
 from disting.fit.candidates import as_listed, reference
+from disting.fit.each import explanations
+from disting.fit.explained import Explanation
 from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
 from disting.fit.members import Member
@@ -168,6 +170,44 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "repeatability_source": found.repeatability.source,
         "margin": found.margin,
         "sign": found.task.sign,
+    } | (_joint_to_dict(found) if len(found.task.cost.parts) > 1 or found.silent else {})
+
+
+def _joint_to_dict(found: Selection) -> dict[str, Any]:
+    """Each response with what is said of it alone, and those from which nothing is learned."""
+    judging, described = found.judging, found.described
+    each = explanations(judging, described.residual, described.missed, found.explanation.scatter)
+    said = dict(zip(judging.setups, each, strict=True))
+    cost, p = found.task.cost, described.estimate.parameters
+    names = found.task.names(described.chain)
+    response = found.task.plant(described.chain).response(np.array([p[n] for n in names]))
+    residuals = cost.by_residual(cost.residual(response))
+    rows = zip(cost.parts, cost.setups, residuals, strict=True)
+    return {
+        "responses": [
+            {
+                "measured": setup.text,
+                "origin": part.measured.origin,
+                "quantity": part.measured.sensor.value,
+                "lines": len(part.measured),
+                "sign": found.task.sign * setup.sign,
+                "dead_time": setup.delay or "Td",
+                "j_train": float(residual @ residual),
+                "fit_percent": _finite(fit_percent(described, found.task, part.measured, at)),
+            }
+            | (_explained(said[setup]) if setup in said else {})
+            for at, (part, setup, residual) in enumerate(rows)
+        ],
+        "nothing_learned": list(found.silent),
+    }
+
+
+def _explained(said: Explanation) -> dict[str, Any]:
+    """What the judged data of one response say."""
+    return {
+        "chi2_per_line": said.chi2,
+        "scatter": said.scatter.typical,
+        "residual_correlation": said.correlation,
     }
 
 

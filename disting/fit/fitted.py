@@ -11,7 +11,7 @@ follow (`noise`): the band |G| exp(-+1.96 s_1), arg G -+ 1.96 s_2 holds the true
 frequency with 95 %, if the structure is the true one.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -34,36 +34,40 @@ class Confidence:
     phase: Real
 
 
-def response_of(candidate: Candidate, task: Task, omega: Real) -> Complex:
-    """Fitted response, shape (n_f,), at angular frequencies [rad/s], with the sign of the fit."""
-    plant = replace(task.plant(candidate.chain), omega=omega)
-    return plant.response(_values(candidate))
+def response_of(candidate: Candidate, task: Task, omega: Real, at: int = 0) -> Complex:
+    """Fitted response, shape (n_f,), at angular frequencies [rad/s], with the sign of the fit;
+    `at` = which one of several.
+    """
+    plant = task.plant(candidate.chain).at(omega, at)
+    return plant.response(_values(candidate, task))
 
 
-def confidence(candidate: Candidate, task: Task, omega: Real) -> Confidence:
+def confidence(candidate: Candidate, task: Task, omega: Real, at: int = 0) -> Confidence:
     """Standard errors of the fitted response at angular frequencies [rad/s]; zero where all
     parameters are given.
     """
-    p, free = _values(candidate), task.box(candidate.chain.parameters).free
+    p, free = _values(candidate, task), task.box(task.names(candidate.chain)).free
     if not free.any():
         return Confidence(np.zeros(len(omega)), np.zeros(len(omega)))
     plant = task.plant(candidate.chain)
     columns = task.cost.of(plant, p)[1][:, free]
-    slopes = (replace(plant, omega=omega).logarithmic_gradient(p)[1] * p[:, None])[free].T
+    slopes = (plant.at(omega, at).logarithmic_gradient(p)[1] * p[:, None])[free].T
     both = np.concatenate([slopes.real, slopes.imag])
     errors = standard_errors(both, columns, candidate.noise, candidate.practical.rank)
     return Confidence(*np.split(errors, 2))
 
 
-def fit_percent(candidate: Candidate, task: Task, measured: FrequencyResponse) -> float:
+def fit_percent(
+    candidate: Candidate, task: Task, measured: FrequencyResponse, at: int = 0
+) -> float:
     """100 (1 - |G - G_m| / |G - mean G|) over the lines, G measured and G_m fitted, norms over the
-    complex numbers.
+    complex numbers; `at` = which of several responses.
 
     The normalised root mean square that MATLAB's `compare` prints: 100 for a perfect fit, 0 for
     one no better than a constant. It weighs lines by their amplitude, so it tells of the
     resonances and hardly of what lies 40 dB below them. Not a number where the data are constant.
     """
-    missed = np.linalg.norm(measured.G - response_of(candidate, task, measured.omega))
+    missed = np.linalg.norm(measured.G - response_of(candidate, task, measured.omega, at))
     moved = np.linalg.norm(measured.G - measured.G.mean())
     return (
         float(100 * (1 - missed / moved))
@@ -72,5 +76,5 @@ def fit_percent(candidate: Candidate, task: Task, measured: FrequencyResponse) -
     )
 
 
-def _values(candidate: Candidate) -> Real:
-    return np.array([candidate.estimate.parameters[name] for name in candidate.chain.parameters])
+def _values(candidate: Candidate, task: Task) -> Real:
+    return np.array([candidate.estimate.parameters[name] for name in task.names(candidate.chain)])

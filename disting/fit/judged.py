@@ -7,14 +7,15 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from disting.fit.cost import Cost
 from disting.fit.descent import fine
+from disting.fit.each import noises, scatters, yardsticks
 from disting.fit.estimate import Estimate, Task
-from disting.fit.explained import chi2, yardstick
-from disting.fit.noise import Noise, expected, noise
+from disting.fit.explained import chi2
+from disting.fit.joint import AnyCost
+from disting.fit.noise import expected
 from disting.fit.plant import Complex, Real
-from disting.fit.practical import Practical, practical
-from disting.fit.scatter import Scatter, scatter
+from disting.fit.practical import Practical, Seen, practical
+from disting.fit.scatter import Scatter
 from disting.fit.structural import with_structure
 from disting.model.chain import Chain
 from disting.model.settings import Settings
@@ -44,7 +45,7 @@ class Candidate:
     at_bound: tuple[str, ...]
     residual: Real = field(repr=False, compare=False)
     missed: Real = field(repr=False, compare=False)
-    noise: Noise = field(repr=False, compare=False)
+    noise: Seen = field(repr=False, compare=False)
     reasons: tuple[str, ...] = ()
     akaike_weight: float = 0.0
 
@@ -72,19 +73,17 @@ class Candidate:
 
 
 def judged(
-    known: Mapping[Chain, Estimate], task: Task, test_cost: Cost | None, settings: Settings
+    known: Mapping[Chain, Estimate], task: Task, test_cost: AnyCost | None, settings: Settings
 ) -> tuple[list[Candidate], Scatter]:
     """What each estimate is worth, in the order of the cost on test, and the scatter that it
     was judged by.
     """
     cost = test_cost or task.cost
     best = sorted(known.values(), key=lambda e: e.j)[:WITNESSES]
-    inside = scatter(task.cost.measured, [_response(e, task) for e in best])
-    outside = yardstick(
-        task.cost.measured, cost.measured, [_response(e, replace(task, cost=cost)) for e in best]
-    )
+    inside = scatters(task.cost, [_response(e, task) for e in best])
+    outside = yardsticks(task.cost, cost, [_response(e, replace(task, cost=cost)) for e in best])
     first = {c: _criteria(found, task, inside) for c, found in known.items()}
-    criteria = with_structure({c: found for c, (found, _) in first.items()}, settings)
+    criteria = with_structure({c: found for c, (found, _) in first.items()}, task, settings)
     fitted = [
         _candidate(found, criteria[c], first[c][1], task, test_cost, (inside, outside))
         for c, found in known.items()
@@ -94,20 +93,20 @@ def judged(
 
 def _response(found: Estimate, task: Task) -> Complex:
     return task.plant(found.chain).response(
-        np.array([found.parameters[n] for n in found.chain.parameters])
+        np.array([found.parameters[n] for n in task.names(found.chain)])
     )
 
 
-def _criteria(found: Estimate, task: Task, known: Scatter) -> tuple[Practical, Noise]:
+def _criteria(found: Estimate, task: Task, known: Scatter) -> tuple[Practical, Seen]:
     """The criteria at the optimum, of the parameters that are free, and what the residuals
     there are like.
     """
-    chain, names = found.chain, found.chain.parameters
+    chain, names = found.chain, task.names(found.chain)
     p = np.array([found.parameters[n] for n in names])
     free = task.box(names).free
     residual, columns = task.cost.of(task.plant(chain), p)
     sigma = task.cost.scatter(known.rho)
-    there = noise(residual, sigma, expected(columns[:, free], sigma))
+    there = noises(task.cost, residual, sigma, expected(columns[:, free], sigma))
     return (
         practical(
             columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], there
@@ -119,13 +118,13 @@ def _criteria(found: Estimate, task: Task, known: Scatter) -> tuple[Practical, N
 def _candidate(
     found: Estimate,
     criteria: Practical,
-    there: Noise,
+    there: Seen,
     task: Task,
-    test: Cost | None,
+    test: AnyCost | None,
     known: Scatters,
 ) -> Candidate:
     """Test cost of one estimate with its criteria."""
-    chain, names = found.chain, found.chain.parameters
+    chain, names = found.chain, task.names(found.chain)
     p = np.array([found.parameters[n] for n in names])
     box = task.box(names)
     residual = _cross_validated(found, task, p) if test is None else _residual(chain, task, test, p)
@@ -139,17 +138,17 @@ def _candidate(
 
 
 def _expected(
-    found: Estimate, task: Task, judging: Cost, inside: Scatter, outside: Scatter
+    found: Estimate, task: Task, judging: AnyCost, inside: Scatter, outside: Scatter
 ) -> Real:
     """What the residuals on the judged data are expected to be, shape (n_y,)."""
-    names = found.chain.parameters
+    names = task.names(found.chain)
     p, free = np.array([found.parameters[n] for n in names]), task.box(names).free
     columns = task.cost.of(task.plant(found.chain), p)[1][:, free]
     seen = judging.of(replace(task, cost=judging).plant(found.chain), p)[1][:, free]
     return expected(columns, task.cost.scatter(inside.rho), seen, judging.scatter(outside.rho))
 
 
-def _residual(chain: Chain, task: Task, cost: Cost, p: Real) -> Real:
+def _residual(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Real:
     return cost.residual(replace(task, cost=cost).plant(chain).response(p))
 
 
@@ -157,15 +156,15 @@ def _cross_validated(found: Estimate, task: Task, p: Real) -> Real:
     """Residuals of each line under the fit to the other folds, lines dealt out in turn; shape
     (n_y,).
     """
-    if not task.box(found.chain.parameters).free.any():
+    if not task.box(task.names(found.chain)).free.any():
         return _residual(found.chain, task, task.cost, p)  # no fit sees any line
-    cost, n_f = task.cost, len(task.cost.measured.omega)
-    whole = np.empty(2 * n_f)
-    lines = np.ones(n_f) if cost.lines is None else cost.lines
+    cost = task.cost
+    whole = np.empty(cost.n_residuals)
+    at = [np.arange(len(part.measured)) % FOLDS for part in cost.parts]
     for fold in range(FOLDS):
-        out = np.arange(n_f) % FOLDS == fold
-        kept = replace(task, cost=replace(cost, lines=np.where(out, 0.0, lines)))
-        there, _ = fine(kept.plant(found.chain), kept.cost, kept.box(found.chain.parameters), p)
-        both = np.tile(out, 2)
+        out = [turns == fold for turns in at]
+        kept = replace(task, cost=cost.without(np.concatenate(out)))
+        there, _ = fine(kept.plant(found.chain), kept.cost, kept.box(task.names(found.chain)), p)
+        both = np.concatenate([np.tile(own, 2) for own in out])
         whole[both] = cost.residual(task.plant(found.chain).response(there))[both]
     return whole

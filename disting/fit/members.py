@@ -18,13 +18,14 @@ import numpy as np
 from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.alternatives import Limits
 from disting.fit.candidates import as_listed, reference
-from disting.fit.cost import Cost
 from disting.fit.descent import fine
+from disting.fit.each import noises, scatters
 from disting.fit.estimate import Task
+from disting.fit.joint import AnyCost
 from disting.fit.judged import Candidate
-from disting.fit.noise import expected, noise
+from disting.fit.noise import expected
 from disting.fit.practical import practical
-from disting.fit.scatter import scatter
+from disting.fit.together import behaves_alike
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.verdict.engine import mapped
@@ -98,16 +99,19 @@ class Member:
 def members(
     chosen: Sequence[Candidate],
     task: Task,
-    test: Cost | None,
+    test: AnyCost | None,
     limits: Limits,
     executor: Executor | None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Member, ...]:
     """The candidates, in their order, as members of the set."""
-    given = [(c.chain, c.estimate.parameters, dict(limits)) for c in chosen]
+    given = [
+        (c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters}, dict(limits))
+        for c in chosen
+    ]
     found = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
-    for (chain, *_), both in mapped(twins, given, executor):
-        found[chain] = both
+    for (chain, values, _), both in mapped(twins, given, executor):
+        found[chain] = _in_all(chain, values, *both, task)
         progress("equivalents", len(found), len(given))
     return tuple(
         Member(
@@ -147,6 +151,27 @@ def twins(
     return tuple(found), tuple(unknown)
 
 
+def _in_all(
+    chain: Chain,
+    values: Mapping[str, float],
+    found: Sequence[Twin],
+    unknown: Sequence[str],
+    task: Task,
+) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
+    """Of the structures that do the same in the first response those that do so in all; of a
+    family, of which one is known, that stays open.
+    """
+    if len(task.cost.setups) == 1:
+        return tuple(found), tuple(unknown)
+    kept = [
+        t
+        for t in found
+        if not t.free_choices and behaves_alike(chain, values, t.chain, t.parameters, task)
+    ]
+    families = [t.name for t in found if t.free_choices]
+    return tuple(kept), tuple(dict.fromkeys([*unknown, *families]))
+
+
 def _catalogue(chain: Chain) -> Iterable[Chain]:
     """Every chain of as many masses, with every set of ground dampers; lag and dead time as
     given.
@@ -166,22 +191,22 @@ def _inside(values: Mapping[str, float], limits: Limits) -> bool:
     )
 
 
-def disagreements(candidate: Candidate, task: Task, test: Cost) -> tuple[Disagreement, ...]:
+def disagreements(candidate: Candidate, task: Task, test: AnyCost) -> tuple[Disagreement, ...]:
     """Parameters that a fit of the same structure to the test data moves by more than `APART`
     standard errors of both fits.
     """
-    names, there = candidate.chain.parameters, replace(task, cost=test)
+    names, there = task.names(candidate.chain), replace(task, cost=test)
     start = np.array([candidate.estimate.parameters[n] for n in names])
     box, plant = there.box(names), there.plant(candidate.chain)
     if not box.free.any():
         return ()
     p, _ = fine(plant, test, box, start)
     residual, columns = test.of(plant, p)
-    known = scatter(test.measured, [plant.response(p)])
+    known = scatters(test, [plant.response(p)])
     free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
     sigma, columns = test.scatter(known.rho), columns[:, box.free]
     other = practical(
-        columns, free, noise(residual, sigma, expected(columns, sigma))
+        columns, free, noises(test, residual, sigma, expected(columns, sigma))
     ).relative_errors
     values = dict(zip(names, map(float, p), strict=True))
     found = []
@@ -196,7 +221,7 @@ def disagreements(candidate: Candidate, task: Task, test: Cost) -> tuple[Disagre
 
 
 def _differs(
-    first: Candidate, other: Candidate, cost: Cost, task: Task
+    first: Candidate, other: Candidate, cost: AnyCost, task: Task
 ) -> tuple[tuple[float, float], ...]:
     """Frequencies at which two fitted candidates differ most, largest difference first."""
     if first is other:
@@ -206,7 +231,8 @@ def _differs(
         there.plant(c.chain).response(np.array(list(c.estimate.parameters.values())))
         for c in (first, other)
     ]
-    size, hertz = np.abs(np.log(both[1] / both[0])), cost.measured.frequency
+    size = np.abs(np.log(both[1] / both[0]))
+    hertz = np.concatenate([part.measured.frequency for part in cost.parts])
     found = list[tuple[float, float]]()
     for i in np.argsort(-size):
         if all(max(hertz[i] / f, f / hertz[i]) > WIDE for f, _ in found):

@@ -70,7 +70,7 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
     fitted parameters; a result may be determined although the parameters are not, such as the
     total inertia of an unidentifiable chain.
     """
-    chain, names = candidate.chain, candidate.chain.parameters
+    chain, names = candidate.chain, task.names(candidate.chain)
     p = np.array([candidate.estimate.parameters[n] for n in names])
     free = task.box(names).free
     centre = _values(chain.structure, p)
@@ -92,6 +92,7 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
 
 def _values(structure: Structure, p: Real) -> list[Result]:
     """The results without errors; equally many for all parameters near by."""
+    p = p[: len(structure.parameters)]
     known = _named(structure, p)
     masses = {n: v for n, v in known.items() if n[0] == "m"}
     motor = masses[f"m{structure.ports.act_plus}"]

@@ -11,16 +11,20 @@ With A(s) = M s^2 + D s + K, A x = e_act, A y = e_sens and c = s^n exp(-s Td) / 
 A is symmetric (reciprocity), so the adjoint solution y turns every derivative into a product of
 two numbers; where force and sensor sit at the same place, y = x. Everything is vectorised over
 frequencies and over parameter vectors.
+
+A locked mass has x_i = y_i = 0: its row and column of A are those of the identity, and nothing acts
+on it; a known inertia J adds J s^2 to A_ii. All formulas above hold for both.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.model.structure import Structure
+from disting.model.structure import Ports, Structure
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -28,15 +32,26 @@ Rows = slice | NDArray[np.intp]
 ROUNDING = 2.0**-52
 
 
+class Differentiable(Protocol):
+    """What yields a response and its derivatives: a plant, or several."""
+
+    def logarithmic_gradient(self, p: Real, /) -> tuple[Complex, Complex]:
+        """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
+
+
 @dataclass(frozen=True, eq=False)
 class Plant:
     """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for
     a reversed sensor.
+
+    `still`: masses that are locked; `added`: (mass, known inertia).
     """
 
     structure: Structure
     omega: Real
     sign: int = 1
+    still: tuple[int, ...] = ()
+    added: tuple[tuple[int, float], ...] = ()
 
     def __post_init__(self) -> None:
         if self.sign not in (1, -1):
@@ -47,19 +62,31 @@ class Plant:
         """Names in the order of the last axis of a parameter array: m.., k.., d.., b.., T1, Td."""
         return self.structure.parameters
 
-    def response(self, p: Real) -> Complex:
-        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p), in one
-        system of units.
+    def at(self, omega: Real, which: int = 0) -> "Plant":
+        """The same plant at other angular frequencies; there is one response."""
+        return replace(self, omega=omega)
+
+    def motion(self, p: Real) -> "Motion":
+        """What the force moves; any sensor on the same machine at the same lines shows a part of
+        it.
         """
-        ports = self.structure.ports
-        x = _solved(*self._pivots(p), ports.act_minus, ports.act_plus)
+        ports, pivots = self.structure.ports, self._pivots(p)
+        return Motion(*pivots, _solved(*pivots, ports.act_minus, ports.act_plus, self.still))
+
+    def response(self, p: Real, motion: "Motion | None" = None) -> Complex:
+        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p), in one
+        system of units; `motion` where it is known.
+        """
+        ports, x = self.structure.ports, (motion or self.motion(p)).x
         return self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus)
 
-    def logarithmic_gradient(self, p: Real) -> tuple[Complex, Complex]:
+    def logarithmic_gradient(
+        self, p: Real, motion: "Motion | None" = None
+    ) -> tuple[Complex, Complex]:
         """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
-        ports, s, pivots = self.structure.ports, self._s, self._pivots(p)
-        x = _solved(*pivots, ports.act_minus, ports.act_plus)
-        y = x if self._is_collocated else _solved(*pivots, ports.meas_minus, ports.meas_plus)
+        ports, s, known = self.structure.ports, self._s, motion or self.motion(p)
+        x = known.x
+        y = x if self._is_collocated else known.adjoint(ports, self.still)
         receptance = _difference(x, ports.meas_minus, ports.meas_plus)
         scaled = x / -receptance[..., None, :]
         gradient = np.empty((*p.shape, s.size), dtype=np.complex128)
@@ -100,10 +127,15 @@ class Plant:
                 values = p[..., self._slices[kind], None]
                 coupling[..., self._rows[kind], :] += values if kind == "k" else values * s
         pivots: Complex = p[..., self._slices["m"], None] * self._s2
+        for at, size in self.added:
+            pivots[..., at - 1, :] += size * self._s2
         if "b" in self._rows:
             pivots[..., self._rows["b"], :] += p[..., self._slices["b"], None] * s
         pivots += coupling
         pivots[..., :-1, :] += coupling[..., 1:, :]
+        for at in self.still:
+            coupling[..., at - 1 : at + 1, :] = 0.0
+            pivots[..., at - 1, :] = 1.0
         for i in range(n - 1, 0, -1):
             pivot = pivots[..., i, :]
             if not pivot.all():  # without damping a line may meet an antiresonance exactly
@@ -152,6 +184,19 @@ class Plant:
         return {kind: _rows(at) for kind, at in places.items()}
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """Couplings and pivots of A, and the displacements of ground and masses under the force."""
+
+    coupling: Complex
+    pivots: Complex
+    x: Complex
+
+    def adjoint(self, ports: Ports, still: tuple[int, ...]) -> Complex:
+        """Displacements under a force at the sensor, y of the module's formulas."""
+        return _solved(self.coupling, self.pivots, ports.meas_minus, ports.meas_plus, still)
+
+
 def _rows(at: list[int]) -> Rows:
     """A slice where the places follow each other: numpy then copies nothing."""
     return (
@@ -161,7 +206,9 @@ def _rows(at: list[int]) -> Rows:
     )
 
 
-def _solved(coupling: Complex, pivots: Complex, minus: int, plus: int) -> Complex:
+def _solved(
+    coupling: Complex, pivots: Complex, minus: int, plus: int, still: tuple[int, ...]
+) -> Complex:
     """Displacements of ground and masses, shape (..., 1 + N, n_f), for a unit force on `plus`
     against `minus`.
     """
@@ -169,7 +216,8 @@ def _solved(coupling: Complex, pivots: Complex, minus: int, plus: int) -> Comple
     x = np.zeros((*pivots.shape[:-2], n + 1, pivots.shape[-1]), dtype=np.complex128)
     x[..., plus, :] += 1.0
     x[..., minus, :] -= 1.0
-    x[..., 0, :] = 0.0
+    for at in (0, *still):
+        x[..., at, :] = 0.0
     for i in range(max(plus, minus), 1, -1):
         x[..., i - 1, :] += coupling[..., i - 1, :] * x[..., i, :] / pivots[..., i - 1, :]
     x[..., 1, :] /= pivots[..., 0, :]

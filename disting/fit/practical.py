@@ -10,17 +10,24 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import inf, isfinite
+from typing import Protocol
 
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.noise import Noise
 from disting.fit.plant import Real
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
 ROUNDING = 1e-15  # a singular value below this share of the largest one is zero
 # share of a gradient along undetermined directions from which on its function is not determined
 LOST = 1e-6
+
+
+class Seen(Protocol):
+    """Noise as standard errors see it."""
+
+    def seen(self, columns: Real) -> Real:
+        """F' columns, with C = F F', shape (n_y, n)."""
 
 
 def importance(columns: Real) -> Real:
@@ -112,7 +119,7 @@ class Practical:
         return self.condition_indices[-1] if self.condition_indices else 1.0
 
 
-def practical(columns: Real, names: Sequence[str], noise: Noise) -> Practical:
+def practical(columns: Real, names: Sequence[str], noise: Seen) -> Practical:
     """Criteria at an optimum with residuals of covariance `noise`; `columns` = S_j p_j, shape
     (n_y, n_p), of free parameters.
 
@@ -139,7 +146,7 @@ def practical(columns: Real, names: Sequence[str], noise: Noise) -> Practical:
     )
 
 
-def covariance(columns: Real, noise: Noise) -> Real:
+def covariance(columns: Real, noise: Seen) -> Real:
     """Covariance of ln p, shape (n_p, n_p): H (S' C S) H, H = (S' S)^-1, with C of the
     residuals; infinite if S is singular.
     """
@@ -152,7 +159,7 @@ def covariance(columns: Real, noise: Noise) -> Real:
     return np.asarray(half.T @ half)
 
 
-def standard_errors(slopes: Real, columns: Real, noise: Noise, rank: int) -> Real:
+def standard_errors(slopes: Real, columns: Real, noise: Seen, rank: int) -> Real:
     """Standard errors of functions of ln p with gradients `slopes`, shape (n, n_p): sqrt(g' C g),
     without cancellation.
 

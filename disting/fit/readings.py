@@ -67,12 +67,13 @@ def readings(
 
 def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chain, Task]]:
     """Words, a chain and a task for each reading."""
-    data, reversed_sensor = task.cost.measured, replace(task, sign=-task.sign)
+    first, reversed_sensor = task.cost.parts[0], replace(task, sign=-task.sign)
+    data = first.measured
     loose = replace(chain, ground_dampers=(1, chain.n_masses), lag=True, dead_time=True)
     yield "with the sign reversed", loose, reversed_sensor
     for quantity in Sensor:
         if quantity is not data.sensor:
-            cost = replace(task.cost, measured=replace(data, sensor=quantity))
+            cost = replace(first, measured=replace(data, sensor=quantity))
             seen = replace(loose, sensor=quantity)
             yield f"read as {quantity.value}", seen, replace(task, cost=cost)
             yield (

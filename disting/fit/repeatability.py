@@ -13,8 +13,8 @@ from math import sqrt
 
 import numpy as np
 
-from disting.fit.noise import Noise
 from disting.fit.plant import Real
+from disting.fit.practical import Seen
 from disting.fit.scatter import Scatter, between, shared
 from disting.measurement import FrequencyResponse
 
@@ -42,6 +42,6 @@ def repeatability(train: FrequencyResponse, test: FrequencyResponse, best: Real)
     )
 
 
-def margin(one: Real, other: Real, noise: Noise) -> float:
+def margin(one: Real, other: Real, noise: Seen) -> float:
     """Difference of two test costs that noise alone may make, from both residuals, shape (n_y,)."""
     return DEVIATIONS * 2.0 * float(np.linalg.norm(noise.seen((one - other)[:, None])))

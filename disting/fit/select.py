@@ -19,16 +19,20 @@ from disting.errors import InputError
 from disting.fit.admissible import Rule, reasons
 from disting.fit.alternatives import Alternative, alternatives, limits_of, representatives
 from disting.fit.cost import Case, Cost
+from disting.fit.each import explained, noises, repeatabilities
 from disting.fit.estimate import Method, Task, estimates
-from disting.fit.explained import LARGEST, Explanation, explanation
+from disting.fit.explained import LARGEST, Explanation
+from disting.fit.joint import AnyCost, Further, joint_cost, judging_cost
 from disting.fit.judged import FOLDS, Candidate, judged
 from disting.fit.members import Member, members
-from disting.fit.noise import Noise, noise
+from disting.fit.noise import Noise
 from disting.fit.plant import Real
-from disting.fit.practical import Thresholds
+from disting.fit.practical import Seen, Thresholds
 from disting.fit.readings import Reading, readings
-from disting.fit.repeatability import margin, repeatability
+from disting.fit.repeatability import margin
 from disting.fit.scatter import Scatter
+from disting.fit.signs import signed
+from disting.fit.together import alternatives_under_all, learning, representatives_under_all
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
 from disting.store import Store
@@ -53,7 +57,9 @@ class Selection:
     the data; `readings`: what would fit then; `better`: excluded candidates that fit better than
     the selected one by more than noise. `margin` is what the selected candidate may lose by to the
     best one; `saved` counts the candidates that were not fitted because one with the same positive
-    models was (`same_as`, by candidate); `validation` says where the test cost comes from.
+    models was (`same_as`, by candidate); `validation` says where the test cost
+    comes from, `judging` is that cost. Where several responses are fitted, `test` is the data of
+    the first one, and `silent` names those that are zero, from which nothing is learned.
     """
 
     selected: Candidate | None
@@ -69,8 +75,10 @@ class Selection:
     members: tuple[Member, ...]
     readings: tuple[Reading, ...]
     better: tuple[Candidate, ...]
+    silent: tuple[str, ...]
     task: Task = field(repr=False)
     test: FrequencyResponse = field(repr=False)
+    judging: AnyCost = field(repr=False)
 
     @property
     def described(self) -> Candidate:
@@ -90,6 +98,8 @@ def select(
     candidates: Sequence[Chain],
     *,
     test: FrequencyResponse | None = None,
+    further: Sequence[Further] = (),
+    alike: bool = False,
     thresholds: Thresholds | None = None,
     rule: Rule = Rule.DETERMINED,
     case: Case = Case.LOGARITHM,
@@ -112,33 +122,53 @@ def select(
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
     and `fixed`, are fitted once; `method` as in `estimates`. An engine with a store resumes
     interrupted work. Raises InputError.
+
+    `further`: responses of the same machine that are fitted together with `train`, one parameter
+    vector for all; each counts in units of its own scatter, line by line as much as the others if
+    `alike` (`joint_cost`). Candidates without their places are left out, and a response that is
+    zero in every candidate: nothing is learned from it.
     """
     _check(train, test, candidates)
+    _check_further(test, further)
+    candidates, further, silent = learning(candidates, further)
     engine = engine or Engine(store=Store.none())
-    cost = Cost(train, case, weights, lines(train) if lines else None)
+    alone = Cost(train, case, weights, lines(train) if lines else None)
+    cost = joint_cost(alone, further, lines, alike)
     task = Task(cost, sign or 1, bounds or {}, fixed or {}, seed)
-    task = task if sign else _signed(task, candidates)
+    task = task if sign else signed(task, candidates)
+    cost = task.cost
     within = limits_of(task.bounds, task.fixed)
     first = representatives(candidates, engine, within) if prune else {c: c for c in candidates}
+    # what stands for another in the first response need not do so in the others
+    first = representatives_under_all(first, cost.setups, within)
     wanted = [c for c in candidates if first[c] == c]
     found = estimates(
         wanted, task, method=method, store=engine.store, executor=executor, progress=progress
     )
-    test_cost = replace(cost, measured=test, lines=lines(test) if lines else None) if test else None
+    test_cost = judging_cost(cost, test, further, lines) if test else None
+    judging = test_cost or cost
     fitted, seen = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
     limits = thresholds or Thresholds()
-    fitted = _weighted(
-        [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted], cost.n_residuals
-    )
-    typical = repeatability(train, test or train, _best(fitted).residual)
-    choice = _choice(fitted, test_cost or cost, seen, typical, rule)
+    fitted = _weighted([replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted], task)
+    typical = repeatabilities(cost, judging, _best(fitted).residual)
+    choice = _choice(fitted, judging, seen, typical, rule)
     selected, described = choice.selected, choice.selected or fitted[0]
-    said = explanation(described.residual, described.missed, test_cost or cost, seen)
-    hopeless = not (said.explains or said.noisy)
+    said = explained(judging, described.residual, described.missed, seen)
+    hopeless = not (said.explains or said.noisy or further)
     return Selection(
         selected=selected,
         candidates=tuple(fitted),
-        alternatives=alternatives(selected.chain, candidates, engine, within) if selected else (),
+        alternatives=(
+            alternatives_under_all(
+                selected.chain,
+                alternatives(selected.chain, candidates, engine, within),
+                cost.setups,
+                engine,
+                within,
+            )
+            if selected
+            else ()
+        ),
         thresholds=limits,
         repeatability=typical,
         margin=choice.margin,
@@ -157,8 +187,10 @@ def select(
             else ()
         ),
         better=choice.better,
+        silent=tuple(silent),
         task=task,
         test=test or train,
+        judging=judging,
     )
 
 
@@ -167,14 +199,7 @@ def _check(
 ) -> None:
     if not candidates:
         raise InputError("a selection needs at least one candidate")
-    if test is not None and test.sensor is not train.sensor:
-        raise InputError(
-            f"training shows {train.sensor.value}, test {test.sensor.value}; convert one of them"
-        )
-    if test is not None and are_opposite(train, test):
-        raise InputError(
-            "training and test are of opposite sign; reverse one of them, as by sign_reversed()"
-        )
+    _check_pair(train, test)
     other = {c.sensor for c in candidates} - {train.sensor}
     if other:
         raise InputError(
@@ -183,6 +208,17 @@ def _check(
         )
     for data in filter(None, (train, test)):
         _check_units(data)
+
+
+def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> None:
+    if test is not None and test.sensor is not train.sensor:
+        raise InputError(
+            f"training shows {train.sensor.value}, test {test.sensor.value}; convert one of them"
+        )
+    if test is not None and are_opposite(train, test):
+        raise InputError(
+            "training and test are of opposite sign; reverse one of them, as by sign_reversed()"
+        )
 
 
 def _check_units(data: FrequencyResponse) -> None:
@@ -202,26 +238,24 @@ def _check_units(data: FrequencyResponse) -> None:
             )
 
 
-def _signed(task: Task, candidates: Sequence[Chain]) -> Task:
-    """The sign with which candidates fit better, the best of the largest and the smallest ones
-    of each size.
-    """
-    by_size = [
-        [c for c in candidates if c.n_masses == n] for n in sorted({c.n_masses for c in candidates})
-    ]
-    asked = dict.fromkeys(
-        choose(one, key=lambda c: len(c.parameters)) for one in by_size for choose in (min, max)
-    )
-    both = [replace(task, sign=sign) for sign in (1, -1)]
-    return min(both, key=lambda t: min(found.j for found in estimates(list(asked), t).values()))
+def _check_further(test: FrequencyResponse | None, further: Sequence[Further]) -> None:
+    """The same of further responses, each against its own test data."""
+    for one in further:
+        if one.test is not None and test is None:
+            raise InputError("test data of a further response need test data of the first one too")
+        pair = (one.measured, one.test)
+        _check_pair(*pair)
+        for data in filter(None, pair):
+            _check_units(data)
 
 
-def _weighted(candidates: list[Candidate], n_y: int) -> list[Candidate]:
-    """Akaike weights among the admissible ones: exp(-AIC/2), AIC = n_y ln(J/n_y) + 2 N_p, in
-    all 1.
+def _weighted(candidates: list[Candidate], task: Task) -> list[Candidate]:
+    """Akaike weights among the admissible ones: exp(-AIC/2), AIC = sum n_y ln(J/n_y) + 2 N_p over
+    the responses, each with its own variance; in all 1.
     """
     criteria = {
-        c.chain: n_y * log(max(c.j_train, 1e-300) / n_y) + 2 * c.n_parameters
+        c.chain: sum(n_y * log(max(j, 1e-300) / n_y) for j, n_y in _costs(c, task))
+        + 2 * c.n_parameters
         for c in candidates
         if c.admissible
     }
@@ -232,6 +266,16 @@ def _weighted(candidates: list[Candidate], n_y: int) -> list[Candidate]:
         replace(c, akaike_weight=sizes[c.chain] / total) if c.chain in sizes else c
         for c in candidates
     ]
+
+
+def _costs(candidate: Candidate, task: Task) -> list[tuple[float, int]]:
+    """Cost on the training data and number of residuals of each response."""
+    cost = task.cost
+    if isinstance(cost, Cost):
+        return [(candidate.j_train, cost.n_residuals)]
+    p = np.array([candidate.estimate.parameters[n] for n in task.names(candidate.chain)])
+    each = cost.by_residual(cost.residual(task.plant(candidate.chain).response(p)))
+    return [(float(own @ own), own.size) for own in each]
 
 
 @dataclass(frozen=True)
@@ -247,7 +291,7 @@ class _Choice:
 
 
 def _choice(
-    fitted: Sequence[Candidate], cost: Cost, seen: Scatter, typical: Scatter, rule: Rule
+    fitted: Sequence[Candidate], cost: AnyCost, seen: Scatter, typical: Scatter, rule: Rule
 ) -> _Choice:
     """Which candidate is selected, and what stands beside it; `fitted` in the order of J on
     test, `cost` that on test.
@@ -256,7 +300,7 @@ def _choice(
     if not kept:
         return _Choice(None, (), 0.0, ())
     sigma = cost.scatter(seen.rho)
-    there = _left(kept[0], sigma)
+    there = _left(kept[0], sigma, cost)
     selected, allowed = _simplest(
         kept, Noise(cost.scatter(typical.rho)) if rule is Rule.PAPER else there
     )
@@ -267,7 +311,7 @@ def _choice(
         selected,
         (selected, *(c for c in near if c is not selected)),
         allowed,
-        _better(selected, fitted, sigma),
+        _better(selected, fitted, sigma, cost),
     )
 
 
@@ -276,7 +320,7 @@ def _best(fitted: Sequence[Candidate]) -> Candidate:
     return next((c for c in fitted if c.admissible), fitted[0])
 
 
-def _simplest(kept: Sequence[Candidate], noise: Noise) -> tuple[Candidate, float]:
+def _simplest(kept: Sequence[Candidate], noise: Seen) -> tuple[Candidate, float]:
     """The candidate with the fewest parameters that loses to the best by no more than its
     margin; then the lower cost.
     """
@@ -292,7 +336,9 @@ def _simplest(kept: Sequence[Candidate], noise: Noise) -> tuple[Candidate, float
     return winner, allowed[winner.chain]
 
 
-def _better(selected: Candidate, fitted: Sequence[Candidate], sigma: Real) -> tuple[Candidate, ...]:
+def _better(
+    selected: Candidate, fitted: Sequence[Candidate], sigma: Real, cost: AnyCost
+) -> tuple[Candidate, ...]:
     """Excluded candidates that win against the selected one by more than their margin, those with
     few parameters first.
 
@@ -303,15 +349,15 @@ def _better(selected: Candidate, fitted: Sequence[Candidate], sigma: Real) -> tu
     found = [
         c
         for c in lower
-        if c.j_test < selected.j_test - margin(c.residual, selected.residual, _left(c, sigma))
+        if c.j_test < selected.j_test - margin(c.residual, selected.residual, _left(c, sigma, cost))
     ]
     return tuple(sorted(found, key=lambda c: (c.n_parameters, c.j_test)))
 
 
-def _left(candidate: Candidate, sigma: Real) -> Noise:
+def _left(candidate: Candidate, sigma: Real, cost: AnyCost) -> Seen:
     """What a candidate leaves of the judged data, whose residuals scatter by `sigma`: what
     misses them widely is no noise.
     """
     if candidate.chi2 > LARGEST:
         return Noise(sigma)
-    return noise(candidate.residual, sigma, candidate.missed)
+    return noises(cost, candidate.residual, sigma, candidate.missed)

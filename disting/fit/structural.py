@@ -14,7 +14,13 @@ from dataclasses import replace
 from math import inf
 
 from disting.algebra.quotient import matrix
+from disting.algebra.sampling import prime, residues
+from disting.behaviour.sample import Representation
+from disting.experiments.profiles import drawn_at, seen_at
+from disting.fit.estimate import Task
+from disting.fit.joint import JointCost
 from disting.fit.practical import Practical
+from disting.fit.setup import Setup, measured_chain
 from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.questions.identifiability.basis import basis
@@ -24,11 +30,49 @@ from disting.questions.identifiability.tangent import Tangent, proof_tangents
 MOST_TERMS = 3  # of a combination that is written out
 
 
-def with_structure(judged: Mapping[Chain, Practical], settings: Settings) -> dict[Chain, Practical]:
+def with_structure(
+    judged: Mapping[Chain, Practical], task: Task, settings: Settings
+) -> dict[Chain, Practical]:
     """The criteria of each chain; where data cannot determine it, `unidentifiable` says so and
     indices are infinite.
     """
-    return {chain: _told(chain, found, settings) for chain, found in judged.items()}
+    return {
+        chain: _told_together(chain, found, task, settings)
+        if isinstance(task.cost, JointCost)
+        else _told(chain, found, settings)
+        for chain, found in judged.items()
+    }
+
+
+def _told_together(chain: Chain, found: Practical, task: Task, settings: Settings) -> Practical:
+    """What the first response determines, all determine; else their stacked Jacobian is asked."""
+    common = tuple(name for name in found.names if name in chain.parameters)
+    proof = proof_tangents(chain.structure, settings.seed, settings.points)
+    if max(_rank(t, common) for t in proof) == len(common):
+        return found
+    rank = max(
+        stacked_rank(chain, task.cost.setups, common, f"joint:{settings.seed}:{k}")
+        for k in range(settings.points)
+    )
+    lacking = len(common) - rank
+    if lacking <= 0:
+        return found
+    indices = (*found.condition_indices[: len(found.names) - lacking], *(inf,) * lacking)
+    directions = f"{lacking} combination{'s' * (lacking > 1)} of its parameters"
+    words = f"not identifiable: these responses together leave {directions} open, whatever the data"
+    return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=words)
+
+
+def stacked_rank(chain: Chain, setups: Sequence[Setup], free: Sequence[str], label: str) -> int:
+    """Rank of the Jacobian of the coefficients of all responses by the free parameters, at a random
+    point modulo a random prime: never above that at generic parameters.
+    """
+    modulus = prime(label)
+    point = residues(f"{label}:point", len(chain.parameters), modulus)
+    seen = seen_at(drawn_at(measured_chain(chain, setups), point, modulus), Representation.TF, 0)
+    at = [chain.parameters.index(name) for name in free]
+    rows = [[row[i] for i in at] for row in seen.rows]
+    return int(matrix(rows, len(at), modulus).rank())
 
 
 def _told(chain: Chain, found: Practical, settings: Settings) -> Practical:

@@ -64,7 +64,7 @@ def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> P
             f"{name} is no fitted parameter of this candidate; they are"
             f" {', '.join(candidate.practical.names)}"
         )
-    names = candidate.chain.parameters
+    names = task.names(candidate.chain)
     best = np.array([candidate.estimate.parameters[n] for n in names])
     width = span or min(PROFILE * candidate.practical.relative_errors[name], float(np.log(10)))
     steps = np.linspace(-width, width, POINTS)

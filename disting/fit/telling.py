@@ -11,8 +11,9 @@ import numpy as np
 
 from disting.fit.admissible import KNOWN
 from disting.fit.candidates import as_listed, reference
+from disting.fit.each import correlations, partners
+from disting.fit.joint import AnyCost
 from disting.fit.members import Disagreement
-from disting.fit.noise import correlation
 from disting.fit.scatter import between, scatter
 from disting.fit.select import Selection
 
@@ -42,7 +43,8 @@ def suspicions(found: Selection) -> tuple[str, ...]:
         *_changed(found),
         *_hanging(found),
         *_weak(found),
-        *found.task.cost.measured.suspicions,
+        *_suspicious(found.task.cost),
+        *learned(found),
     ]
     return tuple(dict.fromkeys(said))
 
@@ -66,12 +68,36 @@ def commands(found: Selection) -> tuple[str, ...]:
     first, rest = found.described, [m.name for m in found.members[1:]]
     given, form = reference(first.chain), as_listed(first.chain)
     damped = " --damped" if first.chain.damped else ""
-    values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in first.estimate.parameters.items())
+    fitted = first.estimate.parameters
+    values = ",".join(f"{form.renaming[n]}={fitted[n]:.6g}" for n in first.chain.parameters)
     steps = [f"disting compare {given} {rest[0]}{damped}"] if rest else []
     return (
         *steps,
         f'disting equivalents {given}{damped} --to "{first.chain.n_masses}+b*" --set {values}',
     )
+
+
+def learned(found: Selection) -> tuple[str, ...]:
+    """Responses from which nothing is learned, in sentences."""
+    return tuple(
+        f"{what}: that response is zero whatever the parameters, so nothing is learned from it"
+        for what in found.silent
+    )
+
+
+def _is_joint(found: Selection) -> bool:
+    return len(found.task.cost.parts) > 1
+
+
+def _of_each(cost: AnyCost) -> list[str]:
+    """Which response, where there are several."""
+    return [""] if len(cost.setups) == 1 else [f" of {setup.text}" for setup in cost.setups]
+
+
+def _suspicious(cost: AnyCost) -> Iterator[str]:
+    """What looks wrong in the data."""
+    for part, of in zip(cost.parts, _of_each(cost), strict=True):
+        yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
 
 
 def _verdict(found: Selection) -> str:
@@ -107,7 +133,7 @@ def _explained(found: Selection) -> Iterator[str]:
         same = list(dict.fromkeys(t.name for t in m.twins))
         yield (
             f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force"
-            " and sensor can tell"
+            f" and {'these sensors and states' if _is_joint(found) else 'sensor'} can tell"
         )
     yield from (_disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements)
     yield from (*_changed(found), *_hanging(found), *_weak(found))
@@ -118,6 +144,11 @@ def _unexplained(found: Selection) -> Iterator[str]:
         yield f"missed most at {', at '.join(m.sentence for m in found.explanation.misses)}"
     if found.readings:
         yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
+    elif _is_joint(found):
+        yield (
+            "fit each response alone: what explains one and not all of them points to a wrong"
+            " place, a wrong sign or a machine that changed between the measurements"
+        )
     elif not found.explanation.noisy:
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
@@ -153,23 +184,25 @@ def _disagreeing(both: tuple[Disagreement, ...]) -> str:
 
 def _changed(found: Selection) -> Iterator[str]:
     """A machine that is not the same in both measurements."""
-    train, test = found.task.cost.measured, found.test
-    apart = between(train, test)
-    own = max(scatter(data).typical for data in (train, test))
-    if apart is not None and apart > CHANGED * own:
-        yield (
-            f"training and test data differ by {100 * apart:.2g} % a line, either scatters by"
-            f" {100 * own:.2g} %: the machine changes between them, as friction does with the"
-            " amplitude"
-        )
+    tests = zip(partners(found.task.cost, found.judging), found.judging.parts, strict=True)
+    for (train, judged), of in zip(tests, _of_each(found.judging), strict=True):
+        test = judged.measured
+        apart = between(train, test)
+        own = max(scatter(data).typical for data in (train, test))
+        if apart is not None and apart > CHANGED * own:
+            yield (
+                f"training and test data{of} differ by {100 * apart:.2g} % a line, either scatters"
+                f" by {100 * own:.2g} %: the machine changes between them, as friction does with"
+                " the amplitude"
+            )
 
 
 def _hanging(found: Selection) -> Iterator[str]:
     """Residuals that hang together: what is left is not noise."""
     candidate, cost = found.described, found.task.cost
     there = found.task.plant(candidate.chain)
-    values = [candidate.estimate.parameters[n] for n in candidate.chain.parameters]
-    size = correlation(cost.residual(there.response(np.array(values))))
+    values = [candidate.estimate.parameters[n] for n in found.task.names(candidate.chain)]
+    size = correlations(cost, cost.residual(there.response(np.array(values))))
     if size > HANGING and found.explanation.explains:
         yield (
             f"residuals of neighbouring lines are correlated by {size:.2f} on the training data:"

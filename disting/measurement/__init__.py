@@ -13,6 +13,7 @@ from disting.measurement.objects import from_arrays as from_arrays
 from disting.measurement.objects import from_control as from_control
 from disting.measurement.objects import from_frame as from_frame
 from disting.measurement.objects import series_from_frame as series_from_frame
+from disting.measurement.reading import beginnings as beginnings
 from disting.measurement.reading import read as read
 from disting.measurement.reading import read_time_series as read_time_series
 from disting.measurement.repeats import are_opposite as are_opposite

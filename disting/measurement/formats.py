@@ -4,7 +4,7 @@ A new format is a row of `FORMATS`; a file is of the first one that it fits.
 """
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,7 +16,7 @@ from disting.measurement.response import FrequencyResponse
 from disting.measurement.stored import chosen_response, from_stored
 from disting.measurement.table import Table
 from disting.measurement.table_series import is_time, time_series
-from disting.measurement.tabular import frequency_response
+from disting.measurement.tabular import frequency_response, response_columns
 from disting.measurement.text_table import decoded, table
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.uff import read_uff
@@ -52,7 +52,8 @@ class Records:
 @dataclass(frozen=True, slots=True)
 class Format:
     """One format: `fits` = whether a file is of it, by its path and first bytes; `response` reads
-    a frequency response; `records` = None where no time series are read.
+    a frequency response; `records` = None where no time series are read; `begin`: columns (from 1)
+    at which the responses begin, of a format that has some.
 
     Readers raise InputError for what they cannot read, and for options that they do not know.
     """
@@ -61,6 +62,7 @@ class Format:
     fits: Callable[[Path, bytes], bool]
     response: Callable[[Path, Options], FrequencyResponse]
     records: Records | None = None
+    begin: Callable[[Path, Sequence[str] | None], tuple[int, ...]] | None = None
 
 
 def format_of(file: Path) -> Format:
@@ -124,6 +126,10 @@ def _from_text(file: Path, options: Options) -> FrequencyResponse:
     return checked(frequency_response, options, file)(_table(file), **options)
 
 
+def _begin(file: Path, columns: Sequence[str] | None) -> tuple[int, ...]:
+    return response_columns(_table(file), columns)
+
+
 def _text_series(file: Path, input: str | int, output: str | int, options: Options) -> TimeSeries:
     return checked(time_series, options, file)(_table(file), input, output, **options)
 
@@ -165,5 +171,6 @@ FORMATS = (
         fits=lambda *_: True,
         response=_from_text,
         records=Records(_text_series, lambda file: _table(file).headers, _is_text_record),
+        begin=_begin,
     ),
 )

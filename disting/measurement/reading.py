@@ -3,7 +3,7 @@ of the ending.
 """
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +40,19 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     if options.keys() & set(SERIES) or (known.records and known.records.held(file, options)):
         return _through_time(file, _records(file, known), options)
     return known.response(file, options)
+
+
+def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:
+    """Columns, from 1, at which the responses of a text file begin; None for another file, or
+    where it is a record of time series.
+
+    `columns` as for `read`. Raises InputError where columns are missing.
+    """
+    file = _existing(path)
+    known = format_of(file)
+    if known.begin is None or (known.records and known.records.held(file, {})):
+        return None
+    return known.begin(file, columns)
 
 
 def read_time_series(

@@ -105,6 +105,13 @@ def frequency_response(
     return mean_of(responses).noted(*notes)
 
 
+def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:
+    """Columns, from 1, at which the responses of a table begin; `columns` = their roles. Raises
+    InputError.
+    """
+    return tuple(group.first + 1 for group in _groups(table, _roles(table, columns, [])))
+
+
 def _written(comments: Sequence[str]) -> dict[str, str]:
     """What `writing.csv_text` wrote into comment lines; empty for a file of another origin."""
     pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]

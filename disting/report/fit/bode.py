@@ -81,12 +81,16 @@ def bode(
     results: Sequence[Result],
     train: FrequencyResponse,
     test: FrequencyResponse | None = None,
+    at: int = 0,
 ) -> Drawn:
     """Training and test data, coherence where there is one, the model, its inertia asymptotes
-    and its resonances.
+    and its resonances; `at` = which one of several responses, further ones without what belongs
+    to the first.
     """
-    series = series_of(candidate, task, train, test)
-    line = model_line(candidate, task, [s.measured for s in series])
+    series = series_of(candidate, task, train, test, at)
+    line = model_line(candidate, task, [s.measured for s in series], at)
+    found = marks(results, line.omega) if at == 0 else []
+    what = name(candidate.chain) + (f", {task.cost.setups[at].text}" if at else "")
     strips = any(s.measured.coherence is not None for s in series)
     under = next((s for s in series if s.measured.distortion is not None), None)
     tall = 1.2 if under else 0.0
@@ -100,7 +104,7 @@ def bode(
         panels[0].set_xscale("log")
         panels[0].set_xlim(low, high)
         logarithmic(panels[-1].xaxis, low, high)
-        inertias = asymptotes(candidate.chain, results, line.omega, train)
+        inertias = asymptotes(candidate.chain, results, line.omega, train) if at == 0 else []
         _amplitude(
             panels[0],
             line,
@@ -113,23 +117,20 @@ def bode(
         _phase(panels[1], line, series)
         if strips:
             _coherence(panels[2], series)
-        _marks(
-            panels[0], panels[1], line, marks(results, line.omega), figure.get_figwidth() - FRAME
-        )
+        _marks(panels[0], panels[1], line, found, figure.get_figwidth() - FRAME)
         panels[-1].set_xlabel("Frequency [Hz]")
-        heading(figure, f"Measured response and model: {name(candidate.chain)}")
+        heading(figure, f"Measured response and model: {what}")
         figure.legend(
             loc="outside lower center", ncols=2 if is_narrow(figure) else 3, columnspacing=2
         )
 
-    found = marks(results, line.omega)
     said = ", ".join(
         f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}"
         for m in found
     )
-    title = f"Bode diagram of {name(candidate.chain)} and the data. {said}"
+    title = f"Bode diagram of {what} and the data. {said}"
     more = 0.8 * strips + tall
-    return drawn("bode", title, (6.4 + more, 6.2 + more), draw)
+    return drawn(f"bode-{at + 1}" if at else "bode", title, (6.4 + more, 6.2 + more), draw)
 
 
 def _short(label: str) -> str:
@@ -137,18 +138,20 @@ def _short(label: str) -> str:
     return " ".join(label.split()[:2])
 
 
-def model_line(candidate: Candidate, task: Task, measured: Sequence[FrequencyResponse]) -> Line:
+def model_line(
+    candidate: Candidate, task: Task, measured: Sequence[FrequencyResponse], at: int = 0
+) -> Line:
     """The model between the lowest and the highest measured line, at every measured line too."""
     lines = np.concatenate([m.omega for m in measured])
     omega = np.unique(np.concatenate([lines, np.geomspace(lines.min(), lines.max(), POINTS)[1:-1]]))
-    response = response_of(candidate, task, omega)
+    response = response_of(candidate, task, omega, at)
     phase = np.degrees(np.unwrap(np.angle(response)))
-    highest = HIGHEST + 90 * candidate.chain.sensor.order
+    highest = HIGHEST + 90 * measured[0].sensor.order
     return Line(
         omega,
         response,
         phase - 360 * ceil((phase.max() - highest) / 360),
-        confidence(candidate, task, omega),
+        confidence(candidate, task, omega, at),
     )
 
 

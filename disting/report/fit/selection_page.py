@@ -89,7 +89,11 @@ def fit_page(
         reasoning=reasoning(selection),
         measured="J test" if test is not None else "J cross-validated",
         cost=cost_in_words(selection.task.cost),
-        data=[("Training", train)] + ([("Test", test)] if test is not None else []),
+        data=[
+            ("Training", train),
+            *([("Test", test)] if test is not None else []),
+            *further(selection),
+        ],
         choices=choices(selection),
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
@@ -102,6 +106,12 @@ def fit_page(
         percent=percent,
         plural=plural,
     )
+
+
+def further(selection: Selection) -> list[tuple[str, FrequencyResponse]]:
+    """The data of further responses."""
+    each = zip(selection.task.cost.setups, selection.task.cost.parts, strict=True)
+    return [(f"Training ({setup.text})", part.measured) for setup, part in list(each)[1:]]
 
 
 def reasoning(selection: Selection) -> list[tuple[str, str]]:
@@ -253,7 +263,7 @@ def choices(selection: Selection) -> list[tuple[str, str]]:
     fixed = [f"{n} = {readable(value, 6)}" for n, value in sorted(task.fixed.items())]
     rows = [
         ("Cost", f"J adds {cost_in_words(task.cost)}"),
-        ("Weights of lines", "equal" if task.cost.lines is None else "one for each line"),
+        ("Weights of lines", "equal" if task.cost.parts[0].lines is None else "one for each line"),
         ("Sign of the sensor", f"{task.sign:+d}".replace("-", "−")),
         ("Bounds", listed(bounds) or "none"),
         ("Fixed", listed(fixed) or "none"),

@@ -144,7 +144,7 @@ def _triangle(candidate: Candidate, task: Task) -> Real:
     """A matrix with few rows whose sets of columns are as collinear as those of the sensitivity
     matrix: R of S = Q R.
     """
-    names = candidate.chain.parameters
+    names = task.names(candidate.chain)
     p = np.array([candidate.estimate.parameters[name] for name in names])
     columns = task.cost.of(task.plant(candidate.chain), p)[1][:, task.box(names).free]
     return np.asarray(np.linalg.qr(columns, mode="r"))

@@ -40,9 +40,13 @@ class Series:
 
 
 def series_of(
-    candidate: Candidate, task: Task, train: FrequencyResponse, test: FrequencyResponse | None
+    candidate: Candidate,
+    task: Task,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None,
+    at: int = 0,
 ) -> list[Series]:
-    """Training and test data, each with its own scatter."""
+    """Training and test data, each with its own scatter; `at` = which one of several responses."""
     named = (("training data", train, Tone.FIRST, "o"), ("test data", test, Tone.SECOND, "x"))
     return [
         Series(
@@ -50,7 +54,7 @@ def series_of(
             measured=data,
             tone=tone,
             marker=marker,
-            scatter=scatter(data, [response_of(candidate, task, data.omega)]),
+            scatter=scatter(data, [response_of(candidate, task, data.omega, at)]),
         )
         for label, data, tone, marker in named
         if data is not None

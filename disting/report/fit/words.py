@@ -2,8 +2,9 @@
 
 from math import floor, inf, isfinite, log10, pi
 
-from disting.fit.cost import Case, Cost
+from disting.fit.cost import Case
 from disting.fit.fitted import fit_percent
+from disting.fit.joint import AnyCost
 from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
@@ -184,14 +185,16 @@ def typeset(text: str) -> str:
     return text.replace("^2", "²").replace("^3", "³")
 
 
-def cost_in_words(cost: Cost) -> str:
+def cost_in_words(cost: AnyCost) -> str:
     """What J adds up.
 
     >>> import numpy as np
+    >>> from disting.fit.cost import Cost
     >>> cost_in_words(Cost(FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex))))
     'the squares of the amplitude errors [decades] and of the phase errors [rad], weighted π : 1'
     """
-    first, second = cost.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
+    alone = cost.parts[0]
+    first, second = alone.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
     if first == second:
         return CASES[cost.case]
     return (
@@ -205,10 +208,11 @@ def fit_in_words(
 ) -> str:
     """How much of the data the described candidate reproduces, see `fit_percent`."""
     candidate, task = selection.described, selection.task
+    of = " of the first response" * (len(task.cost.parts) > 1)
     named = [("training", train), *([("test", test)] if test is not None else [])]
     sizes = [(label, fit_percent(candidate, task, data)) for label, data in named]
     each = [
-        f"{size:.4g} % of the {label} data" if isfinite(size) else f"{label} data are constant"
+        f"{size:.4g} % of the {label} data{of}" if isfinite(size) else f"{label} data are constant"
         for label, size in sizes
     ]
     return (

@@ -79,10 +79,31 @@ def fit_figures(
         importance_bars(candidate, thresholds),
         collinearity_dots(candidate, task, thresholds),
         waterfall(candidate),
+        *_further(selection, results),
     ]
     if profiles:
         drawn.append(profile_panels(candidate, task, profiles))
     return [figure for figure in drawn if figure is not None]
+
+
+def _further(selection: Selection, results: Sequence[Result]) -> list[Drawn]:
+    """A Bode diagram of each further response."""
+    task, judging = selection.task, selection.judging
+    tests = (
+        dict(zip(judging.setups, judging.parts, strict=True)) if judging is not task.cost else {}
+    )
+    return [
+        bode(
+            selection.described,
+            task,
+            results,
+            part.measured,
+            tests[setup].measured if setup in tests else None,
+            at,
+        )
+        for at, (part, setup) in enumerate(zip(task.cost.parts, task.cost.setups, strict=True))
+        if at
+    ]
 
 
 def _files(

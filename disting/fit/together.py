@@ -1,0 +1,170 @@
+"""What is known of two structures where several responses are fitted together.
+
+More responses never make two structures harder to tell apart: what the first one tells apart stays
+apart, and what behaves the same in it need not do so in the others.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import permutations
+
+import numpy as np
+
+from disting.errors import InputError, listed
+from disting.experiments.polynomials import is_renaming
+from disting.fit.alternatives import Alternative, Limits, is_within
+from disting.fit.estimate import Task
+from disting.fit.joint import Further, JointCost
+from disting.fit.plant import Complex
+from disting.fit.setup import Setup, measured_chain, port
+from disting.model.chain import Chain
+from disting.questions.positive import renamings
+from disting.verdict import Engine, Query, Relation, View
+
+SAME = 1e-6  # largest relative difference of two responses that are one, at all lines
+OPEN = "Whether that holds for positive parameters is not decided."
+RENAMED = "A renaming of the parameters turns all responses of the one into those of the other."
+
+
+def under_all(
+    chain: Chain, other: Chain, setups: Sequence[Setup], engine: Engine, limits: Limits
+) -> Alternative | None:
+    """What another structure that the first response may not tell apart is under all of them, with
+    the same places; None where they tell it apart.
+
+    By conditions and the exact decision over complex parameters. That all positive models are the
+    same is known where a renaming of the parameters, within the limits, turns all responses of the
+    one into those of the other.
+    """
+    mine, there = (
+        engine.measured_subject(str(c), measured_chain(c, setups)) for c in (chain, other)
+    )
+    verdict = engine.verdict(mine, there, Query(View.COMBINED))
+    if verdict.relation is Relation.DISTINGUISHABLE:
+        return None
+    if is_same_under_all(chain, other, setups, limits):
+        return Alternative(other, Relation.INDISTINGUISHABLE, RENAMED)
+    return Alternative(other, Relation.UNDECIDED, f"{verdict.sentence} {OPEN}")
+
+
+def is_same_under_all(chain: Chain, other: Chain, setups: Sequence[Setup], limits: Limits) -> bool:
+    """Whether a renaming of the parameters turns all responses of a chain into those of another,
+    and takes every range into that of the parameter that it becomes; both ways.
+    """
+    return chain == other or all(
+        any(
+            is_within(renaming, limits)
+            and is_renaming(measured_chain(one, setups), measured_chain(two, setups), renaming)
+            for renaming in renamings(one, two)
+        )
+        for one, two in ((chain, other), (other, chain))
+    )
+
+
+def alternatives_under_all(
+    chain: Chain,
+    found: Iterable[Alternative],
+    setups: Sequence[Setup],
+    engine: Engine,
+    limits: Limits,
+) -> tuple[Alternative, ...]:
+    """What may behave the same as a chain in all responses, from what may in the first one."""
+    if len(setups) == 1:
+        return tuple(found)
+    each = (under_all(chain, one.chain, setups, engine, limits) for one in found)
+    return tuple(one for one in each if one is not None)
+
+
+def representatives_under_all(
+    first: Mapping[Chain, Chain], setups: Sequence[Setup], limits: Limits
+) -> dict[Chain, Chain]:
+    """For each candidate the one that has the same positive models in all responses, from `first`,
+    which has them in the first one.
+    """
+    if len(setups) == 1:
+        return dict(first)
+    return {
+        chain: stands if is_same_under_all(chain, stands, setups, limits) else chain
+        for chain, stands in first.items()
+    }
+
+
+def behaves_alike(
+    chain: Chain, values: Mapping[str, float], other: Chain, there: Mapping[str, float], task: Task
+) -> bool:
+    """Whether another structure with its own values has all responses too, with its sensors, its
+    locked masses and its inertias at some places.
+
+    One thing is one mass in all responses; which one is not known of the other structure, so that
+    each is tried.
+    """
+    mine = _responses(chain, values, task.cost.setups, task)
+    return any(
+        all(
+            _same(one, two)
+            for one, two in zip(mine, _responses(other, there, setups, task), strict=True)
+        )
+        for setups in _placed(chain, other, task.cost.setups)
+    )
+
+
+def _responses(
+    chain: Chain, values: Mapping[str, float], setups: Sequence[Setup], task: Task
+) -> list[Complex]:
+    """Each response at its lines."""
+    cost = JointCost(task.cost.parts, tuple(setups))
+    given = replace(task, cost=cost)
+    p = np.array([values[name] for name in given.names(chain)])
+    return task.cost.by_line(given.plant(chain).response(p))
+
+
+def _same(one: Complex, other: Complex) -> bool:
+    return bool(np.all(np.abs(one - other) <= SAME * np.abs(one)))
+
+
+def _placed(chain: Chain, other: Chain, setups: Sequence[Setup]) -> Iterator[list[Setup]]:
+    """The setups at every choice of masses of the other structure."""
+    n = chain.n_masses
+    used = sorted({i for setup in setups for i in _masses(setup, n)})
+    for chosen in permutations(range(1, other.n_masses + 1), len(used)):
+        at = dict(zip(used, chosen, strict=True)) | {0: 0}
+        moved = [_moved(setup, n, at) for setup in setups]
+        if all(not (s.missing(other.structure) or s.is_silent(other.structure)) for s in moved):
+            yield moved
+
+
+def _masses(setup: Setup, n: int) -> set[int]:
+    ports = port(setup.sensor, n) if setup.sensor else ()
+    return {*ports, *setup.still(n), *(i for i, _ in setup.added(n))} - {0}
+
+
+def _moved(setup: Setup, n: int, at: Mapping[int, int]) -> Setup:
+    minus, plus = port(setup.sensor, n) if setup.sensor else (0, 0)
+    return replace(
+        setup,
+        sensor=f"{at[minus]}:{at[plus]}" if plus else "",
+        locked=tuple(str(at[i]) for i in setup.still(n)),
+        inertias=tuple((str(at[i]), size) for i, size in setup.added(n)),
+    )
+
+
+def learning(
+    candidates: Sequence[Chain], further: Sequence[Further]
+) -> tuple[list[Chain], list[Further], list[str]]:
+    """The candidates that have all places, the responses that say something of them, and in words
+    those that do not; raises InputError where no candidate has the places.
+    """
+    kept, reasons = list(candidates), dict[str, None]()
+    for one in further:
+        missing = {c.n_masses: one.setup.missing(c.structure) for c in kept}
+        reasons |= dict.fromkeys(filter(None, missing.values()))
+        kept = [c for c in kept if not missing[c.n_masses]]
+    if not kept:
+        raise InputError(f"no candidate can be measured like this: {listed(reasons)}")
+    silent = [all(one.setup.is_silent(c.structure) for c in kept) for one in further]
+    heard = [one for one, dead in zip(further, silent, strict=True) if not dead]
+    kept = [c for c in kept if not any(one.setup.is_silent(c.structure) for one in heard)]
+    if not kept:
+        raise InputError("in every candidate one of the responses is zero: check the places")
+    words = [one.setup.text for one, dead in zip(further, silent, strict=True) if dead]
+    return kept, heard, words

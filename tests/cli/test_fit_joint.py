@@ -1,0 +1,193 @@
+"""disting fit of several responses: columns and files, experiments, what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+
+from disting.cli.fit_data import data
+from disting.cli.parser import parser
+from disting.fit.cost import Cost
+from disting.fit.joint import Further, JointCost
+from disting.fit.setup import Setup
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from tests.cli.process import called
+
+DRIVE = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)
+VALUES = {"m1": 0.01, "m2": 0.004, "k12": 800.0, "d12": 0.05, "b2": 0.1, "Td": 2e-4, "Td2": 6e-4}
+OMEGA = 2 * np.pi * np.geomspace(10.0, 200.0, 40)
+
+
+def column(setup, seed, level=0.003):
+    """A response of the drive under a setup, with relative noise."""
+    data = FrequencyResponse(OMEGA, np.ones(len(OMEGA)))
+    delays = (setup.delay,) if setup.delay else ()
+    plant = JointCost((Cost(data),), (setup,), delays).plant(DRIVE.structure, 1)
+    exact = plant.response(np.array([VALUES[n] for n in plant.parameters]))
+    source = np.random.default_rng(seed)
+    error = source.normal(size=len(OMEGA)) + 1j * source.normal(size=len(OMEGA))
+    return exact * (1 + level * error / np.sqrt(2))
+
+
+def written(path, *columns):
+    """A table of responses, their names those of the sensors."""
+    names = ["motor", "load"][: len(columns)]
+    header = ",".join(["f [Hz]", *(f"Re {n},Im {n}" for n in names)])
+    rows = np.column_stack(
+        [OMEGA / (2 * np.pi), *(part for c in columns for part in (c.real, c.imag))]
+    )
+    np.savetxt(path, rows, delimiter=",", header=header, comments="")
+    return path
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory):
+    """One file with both sides, a file of each, one with a locked load, one with an inertia."""
+    folder = tmp_path_factory.mktemp("bench")
+    motor, load = column(Setup(), 1), column(Setup(sensor="2"), 2, 0.01)
+    late = column(Setup(sensor="2", delay="Td2"), 2, 0.01)
+    locked = column(Setup(locked=("2",)), 3)
+    heavier = column(Setup(inertias=(("2", 0.004),)), 4)
+    return {
+        "both": written(folder / "both.csv", motor, load),
+        "motor": written(folder / "motor.csv", motor),
+        "load": written(folder / "load.csv", load),
+        "turned": written(folder / "turned.csv", -load),
+        "late": written(folder / "late.csv", late),
+        "locked": written(folder / "locked.csv", locked),
+        "heavier": written(folder / "heavier.csv", heavier),
+    }
+
+
+def fitted(*arguments):
+    """The selection and what is printed."""
+    path = arguments[0].with_name("fit.json")
+    done = called("fit", *arguments, "--masses", "2", "--fix", "d12=0.05", "--json", path)
+    assert done.returncode == 0, done.stderr
+    return json.loads(path.read_text(encoding="utf-8")), done.stdout
+
+
+def close(found, share):
+    values = found["selected"]["parameters"]
+    assert all(values[n] == pytest.approx(VALUES[n], rel=share) for n in values), values
+
+
+def parsed(*arguments):
+    """What the command would fit."""
+    return data(parser().parse_args(["fit", *map(str, arguments)]))
+
+
+def test_columns_and_files_of_two_sensors_are_the_same_data(bench):
+    columns = parsed(bench["both"], "--sensor", "1,2")
+    named = parsed(bench["both"], "--sensor", "1,2", "--column", "Re motor,Re load")
+    files = parsed(bench["motor"], bench["load"], "--sensor", "1,2")
+    swapped = parsed(bench["both"], "--sensor", "2,1", "--column", "Re load,Re motor")
+    for one in (named, files):
+        np.testing.assert_array_equal(one.train.G, columns.train.G)
+        np.testing.assert_array_equal(one.further[0].measured.G, columns.further[0].measured.G)
+    assert columns.further[0].setup == Setup(sensor="2") and columns.further[0].test is None
+    assert swapped.train == columns.further[0].measured
+    assert swapped.further[0] == Further(columns.train, Setup(sensor="1"))
+
+
+def test_test_data_go_to_their_sensors(bench):
+    found = parsed(bench["both"], "--sensor", "1,2", "--test", bench["both"])
+    assert found.test == found.train and found.further[0].test == found.further[0].measured
+    found = parsed(
+        *(bench["both"], "--sensor", "1,2", "--band", "20..100"),
+        *("--test", bench["motor"], "--test", bench["load"]),
+    )
+    assert len(found.train) == len(found.further[0].test) == 20
+
+
+def test_experiments_say_what_is_locked_and_what_is_added(bench):
+    found = parsed(
+        bench["both"],
+        *("--sensor", "1,2", "--sign=-,+", "--dead-time", "own"),
+        *("--experiment", f"{bench['locked']}:lock=2,sensor=1"),
+        *("--experiment", f"{bench['both']}:inertia=2:0.004,inertia=1:1e-3"),
+        *("--experiment", f"{bench['both']}:sensor=1:2,lock=last,column=Re load"),
+    )
+    load, locked, heavy, loaded, between = found.further
+    inertias = (("2", 0.004), ("1", 0.001))
+    assert load.setup == Setup("2", sign=-1, delay="Td2")
+    assert locked.setup == Setup("1", ("2",), delay="Td3")
+    assert heavy.setup == Setup("1", (), inertias, delay="Td4")
+    assert loaded.setup == Setup("2", (), inertias, sign=-1, delay="Td5")
+    assert between.setup == Setup("1:2", ("last",), delay="Td6")
+    for one, same in ((loaded, load.measured), (between, load.measured), (heavy, found.train)):
+        np.testing.assert_array_equal(one.measured.G, same.G)
+
+
+def test_two_sensors_are_fitted_together(bench):
+    """The drive is found, each response explained."""
+    found, said = fitted(bench["both"], "--sensor", "1,2")
+    assert [r["measured"] for r in found["responses"]] == ["the first response", "sensor 2"]
+    assert [r["lines"] for r in found["responses"]] == [40, 40]
+    assert found["explained"] and found["selected"]["name"] == "2:1+b2+delay"
+    close(found, 0.1)
+    assert "candidates fitted to 40 + 40 frequency lines of 2 responses, validated on " in said
+    assert "\n  sensor 2: chi2 per line " in said
+
+
+def test_what_is_zero_teaches_nothing_and_the_output_says_so(bench):
+    """A locked mass carries the force."""
+    found, said = fitted(bench["motor"], "--experiment", f"{bench['locked']}:lock=1")
+    zero = "sensor 1, mass 1 locked"
+    assert f"  {zero}: that response is zero whatever the parameters, so nothing is" in said
+    assert found["nothing_learned"] == [zero] and len(found["responses"]) == 1
+
+
+@pytest.mark.slow
+def test_a_locked_mass_and_a_known_inertia_are_fitted_with_it(bench):
+    found, _ = fitted(
+        bench["motor"],
+        *("--experiment", f"{bench['locked']}:lock=2"),
+        *("--experiment", f"{bench['heavier']}:inertia=2:0.004"),
+    )
+    said = [r["measured"] for r in found["responses"]]
+    assert said[1:] == ["sensor 1, mass 2 locked", "sensor 1, inertia 0.004 at mass 2"]
+    close(found, 0.05)
+
+
+@pytest.mark.slow
+def test_dead_times_are_shared_or_not_as_asked(bench):
+    both = (bench["motor"], bench["late"], "--sensor", "1,2")
+    own, _ = fitted(*both, "--dead-time", "own")
+    assert own["selected"]["parameters"]["Td2"] == pytest.approx(6e-4, rel=0.1)
+    assert own["selected"]["parameters"]["Td"] == pytest.approx(2e-4, rel=0.1)
+    assert [r["dead_time"] for r in own["responses"]] == ["Td", "Td2"]
+    assert own["explained"] and not fitted(*both)[0]["explained"]
+
+
+@pytest.mark.slow
+def test_each_sensor_has_its_sign(bench):
+    both = (bench["motor"], bench["turned"], "--sensor", "1,2")
+    given, found = fitted(*both, "--sign=+,-")[0], fitted(*both, "--sign", "auto")[0]
+    assert given["selected"] == found["selected"] and given["explained"]
+    assert [r["sign"] for r in found["responses"]] == [1, -1]
+
+
+REFUSED = [
+    (["motor", "--sensor", "1,2"], "motor.csv holds 1 response, for 2 sensors: give a file or a"),
+    (["motor", "load"], "2 files of TRAIN and 1 sensor: name a place for each file"),
+    (["motor", "load", "--sensor", "1,5"], "there is no place 5 in a chain of 2 masses"),
+    (["motor", "load", "--sensor", "1,2", "--sign=+,-,+"], "3 signs, 2 sensors: give one for each"),
+    (["motor", "--experiment", "{locked}:lock=7"], "there is no mass 7 in a chain of 2 masses"),
+    (["motor", "--experiment", "{locked}:lock=1+2"], "all masses of a chain of 2 are locked"),
+    (["motor", "--experiment", "{locked}:inertia=1:-1"], "a known inertia is a positive number"),
+    (["motor", "--experiment", "{locked}:inertia=1"], "inertia=1:0.5, its size is missing"),
+    (["motor", "--experiment", "{locked}"], "an experiment is written FILE:lock=2"),
+    (["motor", "--experiment", "{locked}:force=2"], "an experiment is written FILE:lock=2"),
+    (["motor", "--experiment", "nowhere.csv:lock=2"], "there is no file nowhere.csv"),
+    (["motor", "load", "--sensor", "1,2", "--family"], "--family moves the sensor: leave it away"),
+    (["both", "--sensor", "1,2", "--test", "{motor}"], "motor.csv holds 1 response"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "said"), REFUSED)
+def test_what_cannot_be_fitted_is_refused_in_a_sentence(bench, arguments, said):
+    given = [bench.get(a, a.format(**bench)) for a in arguments]
+    done = called("fit", *given, "--masses", "2")
+    assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
