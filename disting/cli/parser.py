@@ -15,6 +15,7 @@ from disting.cli import (
     equivalents,
     fit_arguments,
     models,
+    next,
     report,
     simulate,
     upkeep,
@@ -120,6 +121,7 @@ def parser() -> argparse.ArgumentParser:
         _add_compare,
         _add_verdicts,
         _add_equivalents,
+        _add_next,
         _add_fit,
         _add_report,
         _add_catalog,
@@ -209,6 +211,13 @@ def _add_equivalents(groups: Groups) -> None:
     )
     equivalents.add_arguments(p)
     _shared(p, damped=True)
+
+
+def _add_next(groups: Groups) -> None:
+    text = "what to measure next to tell structures apart that look the same"
+    p = _command(groups, "next", next.run, text)
+    next.add_arguments(p)
+    _shared(p, damped=True, work=True)
 
 
 def _add_dampers(groups: Groups) -> None:
