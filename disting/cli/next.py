@@ -8,6 +8,8 @@ from itertools import combinations
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
+from disting.catalogs.next_files import build_next, next_catalog, write
 from disting.cli.common import emitted, reference
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
@@ -67,7 +69,9 @@ def run(options: argparse.Namespace) -> int:
         if isinstance(group, str):
             print(group)
             return 0
-        found = further(group, engine, costs=costs, executor=pool, progress=progress)
+        found = _shipped(group, options.damped, costs) or further(
+            group, engine, costs=costs, executor=pool, progress=progress
+        )
     if options.csv:
         emitted(options.csv, _csv(found))
     if options.json:
@@ -85,7 +89,9 @@ def told(found: Further) -> str:
         for name, chain in zip(found.names, found.chains, strict=True)
     ]
     head = f"{len(found.names)} structures that the present force and sensor cannot tell apart:"
-    lines = [head, *drawings, "", LEGEND, DOMAIN, *filter(None, [anywhere(found)])]
+    enough = anywhere(found)
+    told = [f"what tells all of them apart: {enough}"] if enough else []
+    lines = [head, *drawings, "", LEGEND, DOMAIN, *told]
     for structure, name in enumerate(found.names):
         lines += ["", f"if it is {name}:"]
         for kind in found.kinds:
@@ -96,10 +102,30 @@ def told(found: Further) -> str:
     return "\n".join(lines)
 
 
+def build(options: argparse.Namespace) -> int:
+    """Compute what to measure next for all groups of whole families, and write the files."""
+    with engine_for(options) as (engine, pool, progress):
+        for n in options.masses or NEXT_SIZES:
+            for damped in (False, True):
+                stored = catalog(n, damped=damped)
+                text = build_next(stored, engine, executor=pool, progress=progress)
+                print(write(text, n, damped, options.out))
+    return 0
+
+
 def _csv(found: Further) -> str:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([CSV_COLUMNS, *rows(found)])
     return text.getvalue()
+
+
+def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further | None:
+    """The look-up of a shipped catalogue, where all structures are plain ones of it."""
+    names = [name for name, _ in group]
+    if "+" in "".join(names) or group[0][1].n_masses not in NEXT_SIZES:
+        return None
+    stored = next_catalog(group[0][1].n_masses, damped=damped)
+    return stored.further([reference(name)[1] for name in names], costs)
 
 
 def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:

@@ -331,6 +331,19 @@ def _add_catalog(groups: Groups) -> None:
     )
     q.add_argument("--patient", action="store_true", help=text)
     _shared(q, work=True)
+    text = "compute what to measure next for all groups that one measurement cannot tell apart"
+    q = _command(actions, "next", next.build, text)
+    q.add_argument(
+        "masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses (default: 2 3 4 5)"
+    )
+    q.add_argument(
+        "--out",
+        type=written_folder,
+        default=Path("catalog"),
+        metavar="DIR",
+        help="folder to write to (default: catalog)",
+    )
+    _shared(q, work=True)
     q = _command(
         actions,
         "settle",

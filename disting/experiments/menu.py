@@ -153,8 +153,8 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     the same, so maybe it always does.
 
     Implied are the same transfer function G and, where force and sensor are at the one mass that
-    gets the inertia J, G/(1 + J s^2 R) with the receptance R = G/s^q, q differentiations. NEW is
-    proven: what differs at a point modulo a prime differs.
+    gets the inertia J, G/(1 + J s^2 R) with the receptance R = G/s^q, q differentiations; a lag
+    stands between both. NEW is proven: what differs at a point modulo a prime differs.
     """
     both = measured(chain, item)
     here, there = both.entries
@@ -166,10 +166,12 @@ def gain(chain: Chain, item: Item) -> Gain | None:
         return Gain.REPEATS
     where = drawn(both, "gain", PROOF_BITS)
     first, second = where.quotients
-    if first is None or second is None:
+    if second is None:
+        return Gain.SILENT
+    if first is None:
         return Gain.NEW
     num, den = first.num, first.den
-    if item.kind is Kind.INERTIA and not chain.lag:
+    if item.kind is Kind.INERTIA:
         (size,) = residues_of(there.known, where.modulus).values()
         den = den + num * nmod_poly([0] * (2 - here.sensor_order) + [size], where.modulus)
     return Gain.NEW if num * second.den != second.num * den else None

@@ -8,9 +8,10 @@ other; at two masses they are at two.
 
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
+from disting.errors import InputError
 from disting.experiments.menu import Costs, Gain, Item, Kind, kinds
 from disting.model.chain import Chain
 from disting.verdict.engine import Engine, Progress, silent
@@ -37,6 +38,15 @@ class Further:
     chains: tuple[Chain, ...]
     tables: Mapping[Kind, Placed]
     costs: Costs = field(default_factory=Costs)
+
+    def only(self, structures: Sequence[int]) -> "Further":
+        """Some of the structures, counted from 0, in this order."""
+        return replace(
+            self,
+            names=tuple(self.names[k] for k in structures),
+            chains=tuple(self.chains[k] for k in structures),
+            tables={kind: table.only(structures) for kind, table in self.tables.items()},
+        )
 
     @property
     def n_masses(self) -> int:
@@ -125,9 +135,11 @@ def further(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Further:
-    """The menu on structures of one size that are indistinguishable, over complex parameters, as
-    they are measured now.
+    """The menu on structures of one size and sensor that are indistinguishable, over complex
+    parameters, as they are measured now; raises InputError for other sizes or sensors.
     """
+    if len({(chain.n_masses, chain.sensor) for _, chain in named}) != 1:
+        raise InputError("the structures have different numbers of masses or sensor quantities")
     names, chains = zip(*named, strict=True)
     tables = {
         kind: placed(chains, kind, engine, executor=executor, progress=progress)

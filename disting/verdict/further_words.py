@@ -76,7 +76,7 @@ def conclusion(found: Further, structure: int) -> str:
     """The cheapest sets that are enough, or what is left by the best one, and why."""
     least = found.least(structure)
     if least:
-        return f"enough: {'; or '.join(map(option_in_words, least))}"
+        return f"surely enough: {'; or '.join(map(option_in_words, least))}"
     best = found.best(structure)
     if best is None:
         return "nothing on this menu shows anything new"
@@ -88,10 +88,10 @@ def conclusion(found: Further, structure: int) -> str:
 
 
 def anywhere(found: Further) -> str:
-    """The kinds that tell all of them apart wherever they are done, in one line."""
+    """The kinds that tell all of them apart wherever they are done; "" if none does."""
     enough = [k for k in found.kinds if found.anywhere(k)]
     told = [f"{ANYWHERE[k]} (cost {found.costs.cost(k):g})" for k in enough]
-    return f"tells all of them apart: {'; or '.join(told)}" if told else ""
+    return "; or ".join(told)
 
 
 def rows(found: Further) -> Iterator[tuple[str, ...]]:

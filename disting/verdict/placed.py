@@ -19,19 +19,25 @@ All of it is over generic complex parameters: what is told apart there is so ove
 from collections import defaultdict
 from collections.abc import Hashable, Iterable, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import ceil, log2
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING, condition_6, condition_7
 from disting.conditions.table import NECESSARY
-from disting.experiments import ComparedMachine
+from disting.experiments import ComparedMachine, MeasuredChain
+from disting.experiments.exact import LIMITS, by_ideals
+from disting.experiments.listing import by_list
 from disting.experiments.menu import Gain, Item, Kind, gain, measured
 from disting.model.chain import Chain
+from disting.model.question import Question
+from disting.model.settings import Settings
+from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
 from disting.verdict.result import Relation
@@ -39,9 +45,22 @@ from disting.verdict.result import Relation
 Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
+QUICK = replace(LIMITS, entries=300_000)
+"""A matrix takes less than a second: there are hundreds of pairs."""
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
 NOT_KNOWN = -1
+
+
+def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
+    """The exact decision within limits that are soon reached."""
+    found = by_list(left, right, settings)
+    return by_ideals(left, right, settings, QUICK) if found is None else found
+
+
+QUICKLY = Question(
+    "exact decisions under experiments, quickly", quick_finding, finding_to_json, finding_from_json
+)
 
 
 @dataclass(frozen=True)
@@ -68,6 +87,17 @@ class Placed:
     def structures(self) -> int:
         """How many structures there are."""
         return len(self.gains) // self.n_masses
+
+    def only(self, structures: Sequence[int]) -> "Placed":
+        """Some of the structures, counted from 0, in this order."""
+        at = [self._at((k, i)) for k in structures for i in range(1, self.n_masses + 1)]
+        return replace(
+            self,
+            gains=tuple(self.gains[s] for s in at),
+            columns=tuple(self.columns[s] for s in at),
+            classes=tuple(self.classes[s] for s in at),
+            links=tuple(self.links[s] for s in at),
+        )
 
     def gain(self, spot: Spot) -> Gain:
         """What is gained there."""
@@ -146,7 +176,7 @@ def placed(
         work.fill(column, {s: condition.key(p) for s, p in profiles.items()})
     work.safeties += [p.safety for p in profiles.values()]
     work.join_known(profiles)
-    work.decide(executor, progress)
+    work.decide(profiles, executor, progress)
     return work.finished()
 
 
@@ -163,6 +193,7 @@ class _Work:
     parent: list[int]
     links: list[str]
     open: set[tuple[int, int]] = field(default_factory=set)
+    apart: set[tuple[int, int]] = field(default_factory=set)
     safeties: list[int] = field(default_factory=list)
 
     @staticmethod
@@ -224,23 +255,24 @@ class _Work:
                 if found is not None and found.outcome is Outcome.HOLDS:
                     self.unite(first, s, RENAMING.name)
 
-    def decide(self, executor: Executor | None, progress: Progress) -> None:
+    def decide(
+        self, profiles: dict[int, Profile], executor: Executor | None, progress: Progress
+    ) -> None:
         """The first of each bucket against the others, until nothing is left."""
         rounds = self.asked(s for s, g in enumerate(self.gains) if g is Gain.NEW)
         while rounds:
             pairs = [(bucket[0], s) for bucket in rounds for s in bucket[1:]]
-            self.sides[0].prepare_exact(
-                [(self.sides[a], self.sides[b]) for a, b in pairs],
-                lambda question, models: self.engine.answer_all(
-                    question, models, executor=executor, progress=progress
-                ),
+            models = {(a, b): (self.sides[a].measured, self.sides[b].measured) for a, b in pairs}
+            self.engine.answer_all(
+                QUICKLY, list(models.values()), executor=executor, progress=progress
             )
-            for a, b in pairs:
-                found = self.sides[a].exact(self.sides[b])
+            for (a, b), asked in models.items():
+                found = self.engine.answer(QUICKLY, asked, self.engine.settings)
+                found = resting_on_ranks(found, profiles[a], profiles[b])
                 if found.outcome is Outcome.HOLDS:
                     self.unite(a, b)
-                elif found.outcome is not Outcome.FAILS:
-                    self.open.add((a, b))
+                else:
+                    (self.apart if found.outcome is Outcome.FAILS else self.open).add((a, b))
                 if found.certainty is Certainty.BOUNDED:
                     self.safeties.append(found.safety)
             rest = [[s for s in bucket[1:] if self.root(s) == s] for bucket in rounds]
@@ -267,7 +299,10 @@ class _Work:
         """What was found; classes are numbered as they come."""
         roots = [self.root(s) for s in range(len(self.sides))]
         number = {r: k for k, r in enumerate(dict.fromkeys(roots))}
-        pairs = (sorted((number[self.root(a)], number[self.root(b)])) for a, b in self.open)
+        kept, apart = (
+            {tuple(sorted((number[self.root(a)], number[self.root(b)]))) for a, b in pairs}
+            for pairs in (self.open, self.apart)
+        )
         lost = ceil(log2(len(self.safeties))) if self.safeties else 0
         return Placed(
             self.kind,
@@ -276,6 +311,6 @@ class _Work:
             tuple(map(tuple, self.columns)),
             tuple(number[r] for r in roots),
             tuple(self.links),
-            frozenset((a, b) for a, b in pairs if a != b),
+            frozenset((a, b) for a, b in kept - apart if a != b),
             min(self.safeties) - lost if self.safeties else 0,
         )
