@@ -2,6 +2,7 @@
 
 import argparse
 
+from disting.catalogs import catalog
 from disting.cli.workers import engine_for
 from disting.verdict import Engine
 
@@ -61,6 +62,8 @@ def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
     from disting.catalogs.damper_files import SHIPPED_SIZES
     from disting.catalogs.damper_verify import verify_dampers
+    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
+    from disting.catalogs.next_files import verify_next
     from disting.catalogs.verify import verify
 
     wrong: list[str] = []
@@ -84,6 +87,11 @@ def verify(options: argparse.Namespace) -> int:
                         engine=fresh,
                         executor=pool,
                         progress=progress,
+                    )
+                if n in NEXT_SIZES:
+                    stored = catalog(n, damped=damped, folder=options.catalog)
+                    found += verify_next(
+                        stored, options.catalog, fresh, executor=pool, progress=progress
                     )
                 what = f"{n} masses, {'damped' if damped else 'undamped'}"
                 print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")

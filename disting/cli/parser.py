@@ -14,6 +14,7 @@ from disting.cli import (
     equivalents,
     fit_arguments,
     models,
+    next,
     plan_arguments,
     report,
     simulate,
@@ -131,6 +132,7 @@ def parser() -> argparse.ArgumentParser:
         _add_compare,
         _add_verdicts,
         _add_equivalents,
+        _add_next,
         _add_fit,
         _add_plan,
         _add_report,
@@ -224,6 +226,13 @@ def _add_equivalents(groups: Groups) -> None:
     )
     equivalents.add_arguments(p)
     _shared(p, damped=True)
+
+
+def _add_next(groups: Groups) -> None:
+    text = "what to measure next to tell structures apart that look the same"
+    p = _command(groups, "next", next.run, text)
+    next.add_arguments(p)
+    _shared(p, damped=True, work=True)
 
 
 def _add_dampers(groups: Groups) -> None:
@@ -351,6 +360,19 @@ def _add_catalog(groups: Groups) -> None:
         " minutes"
     )
     q.add_argument("--patient", action="store_true", help=text)
+    _shared(q, work=True)
+    text = "compute what to measure next for all groups that one measurement cannot tell apart"
+    q = _command(actions, "next", next.build, text)
+    q.add_argument(
+        "masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses (default: 2 3 4 5)"
+    )
+    q.add_argument(
+        "--out",
+        type=written_folder,
+        default=Path("catalog"),
+        metavar="DIR",
+        help="folder to write to (default: catalog)",
+    )
     _shared(q, work=True)
     q = _command(
         actions,

@@ -218,6 +218,8 @@ def gain(rival: Rival, measured: FrequencyResponse) -> float:
     from where they lie closest without noise. Raises InputError for other lines.
     """
     known = rival.task.cost
+    if not isinstance(known, Cost):
+        raise InputError("the test is of one response")
     if not np.array_equal(measured.omega, known.measured.omega):
         raise InputError("the test needs a response at the planned lines")
     task = replace(rival.task, cost=replace(known, measured=measured))

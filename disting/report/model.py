@@ -21,6 +21,7 @@ from disting.questions.inclusion import Inclusion
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.formulas import Correspondence, combinations, correspondence, written
+from disting.report.next_steps import advice, found_for, page_of
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
 from disting.report.words import plural, rule_in_words, short_title
@@ -179,6 +180,8 @@ def model_page(catalog: Catalog, number: int) -> str:
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
         ),
         limits=limits(number, verdicts),
+        advice=advice(found_for(catalog), number),
+        next_name=page_of(catalog),
         last=len(catalog.family),
         plural=plural,
     )

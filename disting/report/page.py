@@ -15,6 +15,7 @@ from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.model import Drawing, folder_of, model_of
+from disting.report.next_steps import for_pairs, found_for, page_of
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
 from disting.verdict import Relation, View
@@ -62,6 +63,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         Grouped(of, [[models[m - 1].drawing for m in members] for members in of.groups])
         for of in domains
     ]
+    further = found_for(catalog)
     return render(
         "page.html",
         title=title(catalog),
@@ -84,12 +86,14 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         models=models,
         sample=example(catalog),
         dampers=dampers,
+        next_name=page_of(catalog) if further else "",
         payload=payload(
             catalog,
             domains,
             masses=catalog.n_masses,
             damped=catalog.damped,
             dampers=bool(dampers),
+            next=for_pairs(further),
         ),
         plural=plural,
     )

@@ -20,6 +20,8 @@ from disting.report.guide import guide_files
 from disting.report.index import Link, index
 from disting.report.matrix import figure, figure_png
 from disting.report.model import folder_of, model_page
+from disting.report.next_page import next_page
+from disting.report.next_steps import found_for, page_of
 from disting.report.page import page
 from disting.report.svg import svg
 
@@ -103,7 +105,8 @@ def write_report(
     files = [file for c in catalogs for file in _files(c, with_dampers)]
     files += [_damper_file(f, names) for f in dampers]
     files += [file for p in PAGES if p.files for file in p.files(listed)]
-    style, start = source("style.css") + source("model.css"), index(listed, links, families)
+    style = "".join(map(source, ("style.css", "model.css", "next.css")))
+    start = index(listed, links, families)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]
     for folder in {(out / name).parent for name, _ in files}:
         folder.mkdir(parents=True, exist_ok=True)
@@ -143,5 +146,8 @@ def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, byte
     yield f"{c.name}-matrix.png", figure_png(scene)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
+    found = found_for(c)
+    if found is not None:
+        yield page_of(c), next_page(c, found).encode()
     for row in c.rows:
         yield f"{folder_of(c)}/{row.number}.html", model_page(c, row.number).encode()

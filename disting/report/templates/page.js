@@ -41,9 +41,13 @@
     link.textContent = nameOf(number);
     link.href = pageOf(number);
   };
+  const further = (low, high) => {
+    const said = data.next[`${low}-${high}`];
+    return said ? `To measure next: ${said}` : "";
+  };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], why: v.why, formula: v.formula, link: "" });
+    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], why: v.why, formula: v.formula, link: "", next: further(low, high) });
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
     slot("certainty").textContent = v.by ? v.certainty : "";
@@ -57,7 +61,7 @@
     const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
     const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map(nameOf).join(", ")})`}`);
-    put({ title: nameOf(model), badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "" });
+    put({ title: nameOf(model), badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "", next: "" });
     slot("badge").className = "badge";
     draw("left", model);
     slot("right-figure").hidden = slot("views").hidden = true;

@@ -1,0 +1,165 @@
+"""disting next: what to measure next to tell structures apart."""
+
+import argparse
+import csv
+import io
+import json
+from itertools import combinations
+
+from disting.catalogs import catalog
+from disting.catalogs.files import SHIPPED_SIZES
+from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
+from disting.catalogs.next_files import build_next, next_catalog, write
+from disting.cli.common import emitted, reference
+from disting.cli.paths import written_file
+from disting.cli.workers import engine_for
+from disting.errors import InputError, listed
+from disting.experiments.menu import COSTS, Costs, Item
+from disting.model.chain import Chain
+from disting.model.drawing import LEGEND, text_drawing
+from disting.model.family import Family
+from disting.model.names import chain_of
+from disting.verdict import Engine, Query, Relation, View
+from disting.verdict.further import Further, further
+from disting.verdict.further_words import (
+    CSV_COLUMNS,
+    anywhere,
+    conclusion,
+    in_words,
+    rows,
+    to_dict,
+)
+
+Named = tuple[str, Chain]
+DOMAIN = (
+    "over complex parameters: what is told apart there is told apart over positive ones too; masses"
+    " of another structure can be any, as it is not known which is which"
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command but those that many share."""
+    text = (
+        "structures (masses:number, as 'disting models' lists them; +b2, +lag, +delay as for"
+        " 'compare') that one measurement cannot tell apart; of one, all those that cannot be told"
+        " from it"
+    )
+    parser.add_argument("models", nargs="+", metavar="N:I", help=text)
+    defaults = ",".join(f"{name}={cost:g}" for name, cost in COSTS.items())
+    text = (
+        "what the experiments cost, in any unit: a further sensor, a sensor or the force moved, a"
+        f" known inertia added, a mass locked; two cost their sum (default: {defaults})"
+    )
+    parser.add_argument("--cost", default="", metavar="LIST", help=text)
+    text = "write every experiment at every pair of masses as CSV; - is standard output"
+    parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
+    text = "write the menu with its answers as JSON; - is standard output"
+    parser.add_argument("--json", type=written_file, metavar="FILE", help=text)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print what to measure next."""
+    if options.csv == options.json == "-":
+        raise InputError(
+            "one of --csv and --json can be standard output, not both: name a file for the other"
+        )
+    costs = Costs.read(options.cost)
+    with engine_for(options) as (engine, pool, progress):
+        group = _group(options, engine)
+        if isinstance(group, str):
+            print(group)
+            return 0
+        found = _shipped(group, options.damped, costs) or further(
+            group, engine, costs=costs, executor=pool, progress=progress
+        )
+    if options.csv:
+        emitted(options.csv, _csv(found))
+    if options.json:
+        emitted(options.json, json.dumps(to_dict(found), indent=1) + "\n")
+    if "-" not in (options.csv, options.json):
+        print(told(found))
+    return 0
+
+
+def told(found: Further) -> str:
+    """The menu for each structure, cheapest first."""
+    width = max(map(len, found.names))
+    drawings = [
+        f"  {name:{width}}  {text_drawing(chain)}"
+        for name, chain in zip(found.names, found.chains, strict=True)
+    ]
+    head = f"{len(found.names)} structures that the present force and sensor cannot tell apart:"
+    enough = anywhere(found)
+    told = [f"what tells all of them apart: {enough}"] if enough else []
+    lines = [head, *drawings, "", LEGEND, DOMAIN, *told]
+    for structure, name in enumerate(found.names):
+        lines += ["", f"if it is {name}:"]
+        for kind in found.kinds:
+            cost = f"{kind.value:8} cost {found.costs.cost(kind):g}"
+            for at in range(1, found.n_masses + 1):
+                lines.append(f"  {cost}  mass {at}: {in_words(found, structure, Item(kind, at))}")
+        lines.append(f"  {conclusion(found, structure)}")
+    return "\n".join(lines)
+
+
+def build(options: argparse.Namespace) -> int:
+    """Compute what to measure next for all groups of whole families, and write the files."""
+    with engine_for(options) as (engine, pool, progress):
+        for n in options.masses or NEXT_SIZES:
+            for damped in (False, True):
+                stored = catalog(n, damped=damped)
+                text = build_next(stored, engine, executor=pool, progress=progress)
+                print(write(text, n, damped, options.out))
+    return 0
+
+
+def _csv(found: Further) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([CSV_COLUMNS, *rows(found)])
+    return text.getvalue()
+
+
+def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further | None:
+    """The look-up of a shipped catalogue, where all structures are plain ones of it."""
+    names = [name for name, _ in group]
+    if "+" in "".join(names) or group[0][1].n_masses not in NEXT_SIZES:
+        return None
+    stored = next_catalog(group[0][1].n_masses, damped=damped)
+    return stored.further([reference(name)[1] for name in names], costs)
+
+
+def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
+    """The structures to tell apart, or the sentence that says that there is nothing to do."""
+    names = list(dict.fromkeys(options.models))
+    family = Family(1, options.damped)
+    chains = [chain_of(name, family) for name in names]
+    if len(names) == 1:
+        return _all_like(names[0], options.damped)
+    if len({chain.n_masses for chain in chains}) > 1:
+        raise InputError("the structures have different numbers of masses: name some of one size")
+    named = list(zip(names, chains, strict=True))
+    for (left, a), (right, b) in combinations(named, 2):
+        sides = engine.subject(left, a), engine.subject(right, b)
+        verdict = engine.verdict(*sides, Query(View.EXACT, inclusion=False))
+        if verdict.relation is Relation.DISTINGUISHABLE:
+            return f"{left} and {right} are told apart by the present force and sensor already"
+        if verdict.relation is Relation.UNDECIDED:
+            raise InputError(f"{left} and {right} are undecided as they are measured now")
+    return named
+
+
+def _all_like(name: str, damped: bool) -> list[Named] | str:
+    """The group of a shipped catalogue."""
+    n, number = reference(name.partition("+")[0])
+    if "+" in name or n not in SHIPPED_SIZES:
+        sizes = f"{SHIPPED_SIZES[0]} to {SHIPPED_SIZES[-1]}"
+        raise InputError(
+            f"groups are known of the catalogues of {sizes} masses, not for {listed([name])}: name"
+            " all structures that are to be told apart"
+        )
+    stored = catalog(n, damped=damped)
+    for members in stored.classes(View.EXACT):
+        if number in members:
+            rest = [m for m in members if m != number]
+            return [(f"{n}:{m}", stored.family[m]) for m in (number, *rest)]
+    return f"{name} is told from all other structures of {n} masses by its force and sensor already"

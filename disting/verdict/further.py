@@ -1,0 +1,148 @@
+"""What to measure next: every experiment of the menu on a group of structures, and the cheapest
+sets of them that settle it.
+
+A set is taken from the tables of its single experiments, which is safe: more experiments never make
+a pair less distinguishable. Two things at one mass of the one structure are at one mass of the
+other; at two masses they are at two.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+
+from disting.errors import InputError
+from disting.experiments.menu import Costs, Gain, Item, Kind, kinds
+from disting.model.chain import Chain
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.everywhere import Answer
+from disting.verdict.placed import Placed, placed
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """A set of items at masses of one structure, what it costs, and the structures that it does
+    not surely tell from that one.
+    """
+
+    items: tuple[Item, ...]
+    cost: float
+    left: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Further:
+    """The menu on structures `chains`, called `names`, that one measurement cannot tell apart."""
+
+    names: tuple[str, ...]
+    chains: tuple[Chain, ...]
+    tables: Mapping[Kind, Placed]
+    costs: Costs = field(default_factory=Costs)
+
+    def only(self, structures: Sequence[int]) -> "Further":
+        """Some of the structures, counted from 0, in this order."""
+        return replace(
+            self,
+            names=tuple(self.names[k] for k in structures),
+            chains=tuple(self.chains[k] for k in structures),
+            tables={kind: table.only(structures) for kind, table in self.tables.items()},
+        )
+
+    @property
+    def n_masses(self) -> int:
+        """Number of masses of each."""
+        return self.chains[0].n_masses
+
+    @property
+    def kinds(self) -> tuple[Kind, ...]:
+        """What can be done, cheapest first."""
+        return tuple(kind for kind in self.costs.cheapest_first if kind in self.tables)
+
+    def items(self, structure: int) -> Iterator[Item]:
+        """Yield the experiments that show something new on this structure, cheapest first."""
+        for kind in self.kinds:
+            for at in range(1, self.n_masses + 1):
+                if self.tables[kind].gain((structure, at)) is Gain.NEW:
+                    yield Item(kind, at)
+
+    def others(self, structure: int) -> tuple[int, ...]:
+        """The rest of the group."""
+        return tuple(k for k in range(len(self.chains)) if k != structure)
+
+    def answer(self, structure: int, item: Item, other: int) -> Answer:
+        """Whether the item tells the structure from another one."""
+        return self.tables[item.kind].answer((structure, item.at), other)
+
+    def whole(self, structure: int, item: Item) -> Answer:
+        """The same of all others: SURELY where it is of all, NEVER where of none, not even
+        depending on the place.
+        """
+        found = {self.answer(structure, item, other) for other in self.others(structure)}
+        if len(found) == 1:
+            return found.pop()
+        return Answer.UNKNOWN if found == {Answer.UNKNOWN, Answer.NEVER} else Answer.DEPENDS
+
+    def anywhere(self, kind: Kind) -> bool:
+        """Whether this kind tells all structures apart, wherever it is done."""
+        found = [
+            self.answer(k, item, other)
+            for k in range(len(self.chains))
+            for item in self.items(k)
+            if item.kind is kind
+            for other in self.others(k)
+        ]
+        return bool(found) and set(found) == {Answer.SURELY}
+
+    def least(self, structure: int) -> tuple[Option, ...]:
+        """The cheapest sets that surely tell this structure from all others: single items, or two
+        of them where no single one does; none where two are not known to.
+        """
+        single = [self.option(structure, (item,)) for item in self.items(structure)]
+        double = [self.option(structure, pair) for pair in combinations(self.items(structure), 2)]
+        for options in (single, double):
+            enough = [o for o in options if not o.left]
+            if enough:
+                return tuple(o for o in enough if o.cost == min(e.cost for e in enough))
+        return ()
+
+    def best(self, structure: int) -> Option | None:
+        """Where nothing is enough: the cheapest of the sets of up to two items that leave least."""
+        items = tuple(self.items(structure))
+        sets = [*((i,) for i in items), *combinations(items, 2)]
+        options = [self.option(structure, s) for s in sets]
+        return min(options, key=lambda o: (len(o.left), o.cost, o.items), default=None)
+
+    def option(self, structure: int, items: tuple[Item, ...]) -> Option:
+        """A set of one or two items at masses of this structure."""
+        cost = sum(self.costs.cost(item.kind) for item in items)
+        left = (k for k in self.others(structure) if self._may_be(structure, items, k))
+        return Option(items, cost, tuple(left))
+
+    def _may_be(self, structure: int, items: Sequence[Item], other: int) -> bool:
+        """Whether some places in the other structure are not excluded by any of the items."""
+        places = [self.tables[i.kind].alike((structure, i.at), other) for i in items]
+        if len(items) == 1:
+            return bool(places[0])
+        same = items[0].at == items[1].at
+        return any((a == b) is same for a in places[0] for b in places[1])
+
+
+def further(
+    named: Sequence[tuple[str, Chain]],
+    engine: Engine,
+    *,
+    costs: Costs | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Further:
+    """The menu on structures of one size and sensor that are indistinguishable, over complex
+    parameters, as they are measured now; raises InputError for other sizes or sensors.
+    """
+    if len({(chain.n_masses, chain.sensor) for _, chain in named}) != 1:
+        raise InputError("the structures have different numbers of masses or sensor quantities")
+    names, chains = zip(*named, strict=True)
+    tables = {
+        kind: placed(chains, kind, engine, executor=executor, progress=progress)
+        for kind in kinds(chains[0].n_masses)
+    }
+    return Further(names, chains, tables, costs or Costs())

@@ -1,0 +1,170 @@
+"""What to measure next, in words, as rows and as plain data."""
+
+from collections.abc import Iterator
+from itertools import product
+from typing import Any
+
+from disting.conditions.rule import EXACT
+from disting.conditions.sufficient import FREE_CHOICE, RENAMING
+from disting.experiments.menu import ANYWHERE, Gain, Item
+from disting.verdict.further import Further, Option
+from disting.verdict.placed import REPEATS
+from disting.verdict.result import Relation, error_bound
+
+CSV_COLUMNS = (
+    "experiment",
+    "left",
+    "at_left",
+    "right",
+    "at_right",
+    "relation",
+    "decided_by",
+    "certainty",
+    "error_bound",
+)
+WHY = {
+    RENAMING.name: "a renaming of the parameters carries over all that is measured, by symmetry",
+    FREE_CHOICE.name: "both can show any such numbers",
+    EXACT.name: "each has parameters with all that the other one shows",
+    REPEATS: "it shows in both what is known already",
+}
+NOTHING = {
+    Gain.REPEATS: "tells nothing new",
+    Gain.SILENT: "the sensor does not move",
+}
+
+
+def left_over(found: Further, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
+    """The structures that an item does not surely tell from this one, with the masses at which
+    it does not.
+    """
+    table = found.tables[item.kind]
+    places = {k: table.alike((structure, item.at), k) for k in found.others(structure)}
+    return {k: masses for k, masses in places.items() if masses}
+
+
+def in_words(found: Further, structure: int, item: Item) -> str:
+    """What an item tells, for somebody who has this structure in mind."""
+    known = found.tables[item.kind].gain((structure, item.at))
+    if known is not Gain.NEW:
+        return NOTHING[known]
+    left = left_over(found, structure, item)
+    if not left:
+        return "surely tells it from the rest"
+    told = [
+        f"{start} if that is {_among(found, kept)}"
+        for start, kept in (
+            ("not", _only(found, structure, item, Relation.INDISTINGUISHABLE)),
+            ("not known", _only(found, structure, item, Relation.UNDECIDED)),
+        )
+        if kept
+    ]
+    return "; ".join(told)
+
+
+def option_in_words(option: Option) -> str:
+    """A set of items with its price.
+
+    >>> from disting.experiments.menu import Kind
+    >>> option_in_words(Option((Item(Kind.LOCK, 2),), 3.0, ()))
+    'mass 2 locked (cost 3)'
+    """
+    return f"{' and '.join(item.text for item in option.items)} (cost {option.cost:g})"
+
+
+def conclusion(found: Further, structure: int) -> str:
+    """The cheapest sets that are enough, or what is left by the best one, and why."""
+    least = found.least(structure)
+    if least:
+        return f"surely enough: {'; or '.join(map(option_in_words, least))}"
+    best = found.best(structure)
+    if best is None:
+        return "nothing on this menu shows anything new"
+    kept = ", ".join(found.names[k] for k in best.left)
+    return (
+        f"nothing on this menu is known to be surely enough; least is left by"
+        f" {option_in_words(best)}: {kept}, because {_why(found, structure, best)}"
+    )
+
+
+def anywhere(found: Further) -> str:
+    """The kinds that tell all of them apart wherever they are done; "" if none does."""
+    enough = [k for k in found.kinds if found.anywhere(k)]
+    told = [f"{ANYWHERE[k]} (cost {found.costs.cost(k):g})" for k in enough]
+    return "; or ".join(told)
+
+
+def rows(found: Further) -> Iterator[tuple[str, ...]]:
+    """Yield a row of CSV_COLUMNS for each kind of experiment and each pair of places."""
+    masses = range(1, found.n_masses + 1)
+    for kind in found.kinds:
+        table = found.tables[kind]
+        for a, left in enumerate(found.names):
+            for b, right in enumerate(found.names[a + 1 :], a + 1):
+                for i, j in product(masses, masses):
+                    relation, rule = table.look_up((a, i), (b, j))
+                    grade = table.certainty(rule) or ""
+                    bound = error_bound(grade, table.safety)
+                    row = (kind.value, left, i, right, j, relation.value, rule, grade, bound)
+                    yield tuple(map(str, row))
+
+
+def to_dict(found: Further) -> dict[str, Any]:
+    """Plain data, ready for JSON."""
+    return {
+        "structures": list(found.names),
+        "domain": "complex",
+        "costs": dict(found.costs.of),
+        "anywhere": [kind.value for kind in found.kinds if found.anywhere(kind)],
+        "menu": [_item(found, k, item) for k in range(len(found.names)) for item in found.items(k)],
+        "least": {
+            name: [_option(found, o) for o in found.least(k)] for k, name in enumerate(found.names)
+        },
+        "pairs": [dict(zip(CSV_COLUMNS, row, strict=True)) for row in rows(found)],
+    }
+
+
+def _item(found: Further, structure: int, item: Item) -> dict[str, Any]:
+    left = left_over(found, structure, item)
+    return {
+        "structure": found.names[structure],
+        "experiment": item.kind.value,
+        "mass": item.at,
+        "cost": found.costs.cost(item.kind),
+        "answer": found.whole(structure, item).value,
+        "not_from": [{"structure": found.names[k], "masses": list(m)} for k, m in left.items()],
+    }
+
+
+def _option(found: Further, option: Option) -> dict[str, Any]:
+    items = [{"experiment": i.kind.value, "mass": i.at} for i in option.items]
+    return {"cost": option.cost, "experiments": items}
+
+
+def _why(found: Further, structure: int, option: Option) -> str:
+    """The reason for the first structure that is left."""
+    item, other = option.items[0], option.left[0]
+    table = found.tables[item.kind]
+    j = table.alike((structure, item.at), other)[0]
+    relation, rule = table.look_up((structure, item.at), (other, j))
+    return "that is undecided" if relation is Relation.UNDECIDED else WHY[rule]
+
+
+def _only(
+    found: Further, structure: int, item: Item, relation: Relation
+) -> dict[int, tuple[int, ...]]:
+    """What is left over because of this relation."""
+    table, spot = found.tables[item.kind], (structure, item.at)
+    left = {
+        k: tuple(j for j in masses if table.look_up(spot, (k, j))[0] is relation)
+        for k, masses in left_over(found, structure, item).items()
+    }
+    return {k: masses for k, masses in left.items() if masses}
+
+
+def _among(found: Further, left: dict[int, tuple[int, ...]]) -> str:
+    return ", or ".join(f"mass {_either(masses)} of {found.names[k]}" for k, masses in left.items())
+
+
+def _either(masses: tuple[int, ...]) -> str:
+    return " or ".join(map(str, masses))

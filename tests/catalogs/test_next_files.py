@@ -1,0 +1,107 @@
+"""The shipped answers to what to measure next, and their files."""
+
+import json
+from itertools import combinations
+
+import pytest
+
+from disting.catalogs import catalog
+from disting.catalogs.files import shipped_folder
+from disting.catalogs.next_files import (
+    SHIPPED_SIZES,
+    build_next,
+    name_of,
+    next_catalog,
+    read,
+    verify_next,
+    write,
+)
+from disting.errors import CatalogError
+from disting.verdict import Engine, View
+from disting.verdict.further import further
+from disting.verdict.further_words import to_dict
+
+FAMILIES = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
+
+
+@pytest.mark.parametrize(("n", "damped"), FAMILIES)
+def test_every_group_of_every_catalogue_is_there(n, damped):
+    stored, found = catalog(n, damped=damped), next_catalog(n, damped=damped)
+    assert found.groups == stored.classes(View.EXACT)
+    for members in found.groups:
+        whole = found.further(members)
+        assert whole is not None and whole.chains == tuple(stored.family[m] for m in members)
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_shipped_bytes_are_what_is_computed(damped):
+    assert verify_next(catalog(3, damped=damped), shipped_folder(), Engine()) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("n", "damped"), FAMILIES)
+def test_all_shipped_bytes_are_what_is_computed(n, damped):
+    assert verify_next(catalog(n, damped=damped), shipped_folder(), Engine()) == []
+
+
+def test_a_pair_out_of_a_group_is_what_is_computed_of_the_pair():
+    """In either order."""
+    stored, family = next_catalog(3), catalog(3).family
+    engine = Engine()
+    for pair in ((8, 11), (11, 8), (4, 1)):
+        said = stored.further(pair)
+        fresh = further([(f"3:{m}", family[m]) for m in pair], engine)
+        assert said is not None
+        assert [r["relation"] for r in to_dict(said)["pairs"]] == [
+            r["relation"] for r in to_dict(fresh)["pairs"]
+        ]
+        assert to_dict(said)["least"] == to_dict(fresh)["least"]
+
+
+def test_no_pair_of_two_groups():
+    found = next_catalog(3, damped=True)
+    assert found.further((1, 2)) is None and found.further((1,)) is None
+    assert found.further((3, 4)) is None
+    assert found.group(3) == (3,) and found.group(11) == (1, 11)
+
+
+def test_more_structures_are_never_told_apart_by_less():
+    """What is enough for a group is enough for each of its pairs."""
+    for n, damped in FAMILIES[:4]:
+        stored = next_catalog(n, damped=damped)
+        for group in stored.groups:
+            whole = stored.further(group)
+            for pair in combinations(group, 2):
+                part = stored.further(pair)
+                assert {k for k in whole.kinds if whole.anywhere(k)} <= {
+                    k for k in part.kinds if part.anywhere(k)
+                }
+
+
+def test_a_damaged_file_is_refused(tmp_path):
+    text = build_next(catalog(2), Engine())
+    path = write(text, 2, False, tmp_path)
+    assert path.name == f"{name_of(2, False)}.jsonl" and read(tmp_path, 2, False).groups == (
+        (1, 3),
+    )
+    path.write_text(text.replace("n", "r"), encoding="utf-8")
+    with pytest.raises(CatalogError, match="damaged"):
+        read(tmp_path, 2, False)
+
+
+@pytest.mark.parametrize("spoil", ["gains", "classes", "columns", "links", "open", "safety"])
+def test_a_record_without_its_masses_is_refused(spoil, tmp_path):
+    records = [json.loads(line) for line in build_next(catalog(2), Engine()).splitlines()]
+    records[1]["sensor"][spoil] = {"safety": "x", "open": [1]}.get(spoil, [])
+    text = "".join(json.dumps(r) + "\n" for r in records)
+    (tmp_path / f"{name_of(2, False)}.jsonl").write_text(text, encoding="utf-8")
+    with pytest.raises(CatalogError, match="cannot be read"):
+        read(tmp_path, 2, False).further((1, 3))
+
+
+def test_verification_finds_a_wrong_line(tmp_path):
+    records = [json.loads(line) for line in build_next(catalog(2), Engine()).splitlines()]
+    records[1]["sensor"]["safety"] += 1
+    write("".join(json.dumps(r, separators=(",", ":")) + "\n" for r in records), 2, False, tmp_path)
+    (said,) = verify_next(catalog(2), tmp_path, Engine())
+    assert "line 2 is not what is computed now" in said

@@ -1,0 +1,191 @@
+"""What to measure next, against what Gröbner bases modulo a prime said by other code, and laws."""
+
+import csv
+import io
+import json
+from itertools import product
+
+import pytest
+
+from disting import Experiment, Family, Query, View, compare
+from disting.behaviour.sample import Representation
+from disting.cli.run import main
+from disting.errors import InputError
+from disting.experiments.menu import Costs, Gain, Item, Kind, gain, kinds, measured
+from disting.experiments.profiles import profile
+from disting.verdict import Engine, Relation
+from disting.verdict.everywhere import Answer
+from disting.verdict.further import Further, further
+from disting.verdict.further_words import conclusion, rows
+from tests.experiments.test_truth import SAME
+
+A = Family(3, damped=True)
+TABLE = dict(
+    zip(("sensor", "locked", "inertia"), (Kind.SENSOR, Kind.LOCK, Kind.INERTIA), strict=True)
+)
+EXACT = Query(View.EXACT)
+
+
+@pytest.fixture(scope="module")
+def engine():
+    return Engine()
+
+
+def named(family, *numbers):
+    return [(f"{family.n_masses}:{m}", family[m]) for m in numbers]
+
+
+@pytest.mark.parametrize("pair", SAME)
+def test_the_truth_as_told_by_next(pair, engine):
+    found = further(named(A, *pair), engine)
+    for kind, same in zip(TABLE.values(), SAME[pair], strict=True):
+        left = {
+            f"{i}/{j}"
+            for i, j in product((1, 2, 3), repeat=2)
+            if found.tables[kind].look_up((0, i), (1, j))[0] is Relation.INDISTINGUISHABLE
+        }
+        assert left == set(same.split())
+        assert not found.tables[kind].open
+
+
+def test_any_second_sensor_settles_the_dual_pair(engine):
+    found = further(named(A, 1, 11), engine)
+    assert all(found.anywhere(kind) for kind in Kind)
+    assert {item.kind for option in found.least(0) for item in option.items} == {
+        Kind.SENSOR,
+        Kind.FORCE,
+    }
+
+
+def test_the_group_of_five_undamped(engine):
+    group = (1, 4, 6, 8, 11)
+    found = further(named(Family(3), *group), engine)
+    left = {
+        kind: {
+            (group[a], i, group[b], j)
+            for a, b in product(range(5), repeat=2)
+            for i, j in product((1, 2, 3), repeat=2)
+            if a < b
+            and found.tables[kind].look_up((a, i), (b, j))[0] is not Relation.DISTINGUISHABLE
+        }
+        for kind in Kind
+    }
+    both = {(1, 1, 4, 2), (8, 1, 11, 2), (8, 3, 11, 3)}
+    assert left[Kind.SENSOR] == left[Kind.FORCE] == left[Kind.INERTIA] == both
+    assert left[Kind.LOCK] == both | {(8, 2, 11, 1)}
+    assert [found.whole(3, Item(Kind.SENSOR, i)) for i in (1, 2, 3)] == [
+        Answer.DEPENDS,
+        Answer.SURELY,
+        Answer.DEPENDS,
+    ]
+
+
+@pytest.mark.parametrize("kind", Kind)
+def test_tables_say_what_compare_says(kind, engine):
+    """Every pair of places of a group, one by one, without classes and buckets."""
+    family, group = Family(3), (8, 11)
+    found = further(named(family, *group), engine)
+    for i, j in product((1, 2, 3), repeat=2):
+        pairs = [tuple(Item(kind, at).experiment for at in (i, j))]
+        chains = (family[m] for m in group)
+        said = compare(*chains, experiments=[Experiment(), *pairs], query=EXACT)
+        assert found.tables[kind].look_up((0, i), (1, j))[0] is said.relation
+
+
+@pytest.mark.parametrize(("number", "damped"), list(product(range(1, 12), (False, True))))
+def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
+    """A structure against itself: the experiment at a place that gains nothing leaves as many
+    determinable parameters.
+    """
+    chain, settings = Family(3, damped)[number], Engine().settings
+    as_it_is = profile(measured(chain), Representation.TF, 0, settings).rank
+    for kind, at in product(Kind, (1, 2, 3)):
+        known = gain(chain, Item(kind, at))
+        assert known is not None
+        if known is not Gain.NEW:
+            more = profile(measured(chain, Item(kind, at)), Representation.TF, 0, settings)
+            assert more.rank == as_it_is
+
+
+def test_the_force_moved_is_the_sensor_moved_where_both_are_at_one_place():
+    assert measured(A[1], Item(Kind.FORCE, 2)) == measured(A[1], Item(Kind.SENSOR, 2))
+    assert measured(A[2], Item(Kind.FORCE, 2)) != measured(A[2], Item(Kind.SENSOR, 2))
+
+
+def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
+    """Sensor at 2 leaves mass 1 of the other, inertia at 2 leaves mass 2: together nothing is."""
+    found = further(named(A, 9, 10), engine)
+    items = Item(Kind.SENSOR, 2), Item(Kind.INERTIA, 2)
+    assert [found.option(0, (item,)).left for item in items] == [(1,), (1,)]
+    assert found.option(0, items).left == ()
+    for j in (1, 2, 3):
+        pairs = [(item.experiment, Item(item.kind, j).experiment) for item in items]
+        said = compare(A[9], A[10], experiments=[Experiment(), *pairs], query=EXACT)
+        assert said.relation is Relation.DISTINGUISHABLE
+
+
+def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
+    whole = further(named(A, 2, 5), engine)
+    tables = {k: whole.tables[k] for k in (Kind.LOCK, Kind.INERTIA)}
+    found = Further(whole.names, whole.chains, tables)
+    assert found.least(0) == found.least(1) == ()
+    assert "by symmetry" in conclusion(found, 0)
+    mirrored = {1: 3, 2: 2, 3: 1}
+    pairs = [
+        (Item(k, i).experiment, Item(k, mirrored[i]).experiment) for k in tables for i in mirrored
+    ]
+    said = compare(A[2], A[5], experiments=[Experiment(), *pairs], query=EXACT)
+    assert said.relation is Relation.INDISTINGUISHABLE
+
+
+def test_costs_change_what_is_least(engine):
+    found = further(named(A, 1, 11), engine, costs=Costs.read("sensor=5,move=4,lock=0.5"))
+    assert found.kinds == (Kind.LOCK, Kind.INERTIA, Kind.SENSOR, Kind.FORCE)
+    assert {o.cost for o in found.least(0)} == {0.5}
+
+
+@pytest.mark.parametrize("text", ["sensor", "screw=1", "lock=0", "lock=-1", "lock=nan", "lock=x"])
+def test_bad_costs(text):
+    with pytest.raises(InputError):
+        Costs.read(text)
+
+
+def test_a_single_mass_is_not_locked():
+    assert Kind.LOCK not in kinds(1)
+
+
+def test_rows_are_all_pairs_of_places(engine):
+    found = further(named(A, 2, 5), engine)
+    assert len(list(rows(found))) == 4 * 9
+
+
+def test_command(capsys, monkeypatch):
+    monkeypatch.setenv("DISTING_CACHE", "off")
+    assert main(["next", "3:5", "3:2", "--damped", "--csv", "-"]) == 0
+    table = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    same = {
+        (r["at_left"], r["at_right"])
+        for r in table
+        if (r["experiment"], r["relation"]) == ("inertia", "indistinguishable")
+    }
+    assert same == {("3", "1"), ("2", "2"), ("1", "3")}
+    assert main(["next", "3:2", "--damped", "--json", "-"]) == 0
+    plain = json.loads(capsys.readouterr().out)
+    assert plain["structures"] == ["3:2", "3:5"] and plain["anywhere"] == ["sensor", "force"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "says"),
+    [
+        (["3:1", "3:4"], 0, "told apart by the present force and sensor already"),
+        (["3:3"], 0, "told from all other structures"),
+        (["3:1", "4:1"], 2, "different numbers of masses"),
+        (["7:1"], 2, "name all structures"),
+        (["3:1", "--cost", "gold=1"], 2, "costs are those of"),
+    ],
+)
+def test_nothing_to_do_and_bad_input(arguments, status, says, capsys, monkeypatch):
+    monkeypatch.setenv("DISTING_CACHE", "off")
+    assert main(["next", *arguments, "--damped"]) == status
+    said = capsys.readouterr()
+    assert says in said.out + said.err

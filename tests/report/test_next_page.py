@@ -1,0 +1,66 @@
+"""What to measure next, on pages."""
+
+from pathlib import Path
+
+import pytest
+
+from disting.catalogs import catalog
+from disting.catalogs.next_files import next_catalog
+from disting.report import model_page, write_report
+from disting.report.next_page import next_page
+from disting.report.next_steps import advice, for_pairs, found_for
+
+DAMPED = catalog(3, damped=True)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    write_report([DAMPED], folder)
+    return folder
+
+
+def test_a_table_of_a_model_says_what_the_truth_is():
+    told = advice(found_for(DAMPED), 2)
+    assert told is not None and told.others == (5,)
+    cells = {title: [cell.text for cell in cells] for title, _, cells in told.rows}
+    assert cells["known inertia added there"] == [
+        "not if that is mass 3 of A5",
+        "not if that is mass 2 of A5",
+        "not if that is mass 1 of A5",
+    ]
+    assert cells["sensor there, one more or moved"] == ["surely", "tells nothing new", "surely"]
+
+
+def test_a_model_that_is_alone_has_no_section():
+    assert advice(found_for(DAMPED), 3) is None
+    assert "What to measure next" not in model_page(DAMPED, 3)
+    assert "What to measure next" in model_page(DAMPED, 2)
+
+
+def test_every_pair_of_a_group_has_a_sentence():
+    assert for_pairs(next_catalog(3, damped=True)).keys() == {"1-11", "2-5", "9-10"}
+    assert len(for_pairs(next_catalog(3))) == 12
+    assert for_pairs(None) == {}
+
+
+def test_the_page_names_every_structure_of_a_group_once():
+    text = next_page(DAMPED, next_catalog(3, damped=True))
+    assert [text.count(f'id="A{m}"') for m in range(1, 12)] == [1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 1]
+
+
+def test_a_catalogue_with_other_groups_says_nothing():
+    assert found_for(catalog(1)) is None
+
+
+def test_the_panel_says_what_to_measure_next(visit):
+    page = visit("chains-3-damped.html#2-5")
+    line = page.locator('[data-slot="next"]')
+    assert line.inner_text().startswith("To measure next: A sensor at any further mass")
+    page = visit("chains-3-damped.html#2-4")
+    assert page.locator('[data-slot="next"]').inner_text() == ""
+
+
+def test_the_page_fits_a_phone(visit):
+    page = visit("next-3-damped.html", width=390)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
