@@ -1,5 +1,5 @@
 """What to measure next as files, shipped for the groups of indistinguishable structures of 2 to
-5 masses.
+4 masses.
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
 measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
