@@ -129,12 +129,15 @@ def latex_symbol(name: str) -> str:
 
 
 def split_name(name: str) -> tuple[str, str]:
-    """The letters of a name, and its index: what follows from a digit or an underscore on.
+    """The letters of a name, and its index: what follows from a digit or an underscore on, or a
+    single small letter after a capital one.
 
     >>> split_name("k9_10"), split_name("tau_m"), split_name("s"), split_name("_x")
     (('k', '9,10'), ('tau', 'm'), ('s', ''), ('_x', ''))
+    >>> split_name("Td"), split_name("Gain")
+    (('T', 'd'), ('Gain', ''))
     """
-    head = re.match(r"[^\W\d_]+", name)
+    head = re.match(r"[A-Z](?=[a-z]$)|[^\W\d_]+", name)
     if head is None:
         return name, ""
     return head[0], name[head.end() :].strip("_").replace("_", ",")
