@@ -14,7 +14,7 @@ from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
-from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation, lines_by_scatter
+from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.each import explanations
 from disting.fit.export import selection_to_dict, write_mat
 from disting.fit.members import Disagreement, Member
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
             thresholds=Thresholds(*options.thresholds),
             rule=Rule(options.rule),
             case=Case(options.case),
-            lines=_weights(options, given),
+            lines=_weights(options),
             sign=SIGNS[options.sign.split(",")[0]],
             bounds=dict(options.bound),
             fixed=dict(options.fix),
@@ -85,17 +85,13 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _weights(
-    options: argparse.Namespace, given: Data
-) -> Callable[[FrequencyResponse], Real] | None:
-    """How the lines count; coherence tells it where Welch's method made them, their scatter where
-    several responses are fitted.
+def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
+    """How the lines count; coherence tells it where Welch's method made them. Without an answer
+    all alike, those of several responses by what they scatter.
     """
     if options.weights != "auto":
         return WEIGHTS[options.weights]
-    if "segment" in dict(options.read):
-        return lines_by_coherence
-    return lines_by_scatter if given.further else None
+    return lines_by_coherence if "segment" in dict(options.read) else None
 
 
 def _candidates(options: argparse.Namespace, given: Data) -> tuple[Chain, ...]:

@@ -23,7 +23,6 @@ from disting.fit.cost import Case as Case
 from disting.fit.cost import Cost as Cost
 from disting.fit.cost import lines_by_coherence as lines_by_coherence
 from disting.fit.cost import lines_by_deviation as lines_by_deviation
-from disting.fit.cost import lines_by_scatter as lines_by_scatter
 from disting.fit.designed import Designed as Designed
 from disting.fit.designed import designed as designed
 from disting.fit.estimate import Estimate as Estimate

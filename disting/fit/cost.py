@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError
 from disting.fit.plant import Complex, Differentiable, Plant, Real
-from disting.fit.scatter import scatter
 from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -197,13 +196,6 @@ def lines_by_coherence(measured: FrequencyResponse) -> Real:
         )
     squared = np.clip(measured.coherence, 0.0, 1.0 - 1e-9)
     return _scaled(np.sqrt(squared / (1.0 - squared)))
-
-
-def lines_by_scatter(measured: FrequencyResponse) -> Real:
-    """Weight 1/rho of each line, rho what it scatters by (`scatter`), scaled to a mean square
-    of 1.
-    """
-    return _scaled(1.0 / scatter(measured).rho)
 
 
 def _scaled(weights: Real) -> Real:

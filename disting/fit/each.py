@@ -102,7 +102,10 @@ def explained(cost: AnyCost, residual: Real, missed: Real, known: Scatter) -> Ex
     ]
     misses.sort(key=lambda miss: -miss.share)
     largest = correlations(cost, residual)
-    return Explanation(chi2(residual, missed), known, largest, tuple(misses[:RANGES]))
+    quietest = min(one.scatter.typical for one in each)
+    return Explanation(
+        chi2(residual, missed), known, largest, tuple(misses[:RANGES]), quietest=quietest
+    )
 
 
 def _each(cost: AnyCost, fitted: Sequence[Complex]) -> list[list[Complex]]:

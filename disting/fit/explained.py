@@ -69,13 +69,15 @@ class Miss:
 @dataclass(frozen=True, eq=False)
 class Explanation:
     """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring
-    lines, what it misses where.
+    lines, what it misses where; `quietest`: typical rho of that one of several responses that
+    scatters least.
     """
 
     chi2: float
     scatter: Scatter
     correlation: float
     misses: tuple[Miss, ...]
+    quietest: float | None = None
 
     @property
     def explains(self) -> bool:
@@ -87,7 +89,8 @@ class Explanation:
     @property
     def noisy(self) -> bool:
         """Whether the data are mostly noise."""
-        return self.scatter.typical > NOISY
+        typical = self.scatter.typical if self.quietest is None else self.quietest
+        return typical > NOISY
 
 
 def yardstick(

@@ -191,52 +191,71 @@ AnyPlant = Plant | JointPlant
 
 
 def joint_cost(
-    first: Cost, further: Sequence[Further], lines: Lines | None, alike: bool
+    first: Cost,
+    further: Sequence[Further],
+    lines: Lines | None,
+    alike: bool,
+    fitted: Sequence[Complex] = (),
 ) -> AnyCost:
     """The cost of all responses on the training data, each in units of its own scatter.
 
-    The weights of a response, by `lines` or equal, are divided by what its weighted residuals
-    scatter by, lambda^2 = mean (w rho)^2, with rho of `scatter`; then those of all are scaled to a
-    mean square of 1. `alike`: all lines of all responses count alike.
+    Weights 1/rho of each line, rho as `scatter` tells it with the stacked responses `fitted` of
+    candidates; or those by `lines`, of each response divided by what its weighted residuals scatter
+    by, lambda^2 = mean (w rho)^2. Then those of all are scaled to a mean square of 1. `alike`: all
+    lines of all responses count alike.
     """
     if not further:
         return first
     measured = [first.measured, *(one.measured for one in further)]
-    own = [np.ones(len(m)) if lines is None or alike else lines(m) for m in measured]
-    if not alike:
-        levels = [_level(m, w) for m, w in zip(measured, own, strict=True)]
-        own = [w / level for w, level in zip(own, levels, strict=True)]
+    ends = np.cumsum([len(m) for m in measured])[:-1]
+    known = [np.split(response, ends) for response in fitted]
+    own = [
+        np.ones(len(m)) if alike else _weights(m, lines, [each[k] for each in known])
+        for k, m in enumerate(measured)
+    ]
     size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
     parts = [replace(first, measured=m, lines=w / size) for m, w in zip(measured, own, strict=True)]
     setups = (Setup(), *(one.setup for one in further))
     return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
 
 
+def _weights(measured: FrequencyResponse, lines: Lines | None, fitted: Sequence[Complex]) -> Real:
+    rho = scatter(measured, fitted).rho
+    if lines is None:
+        return 1.0 / rho
+    weights = lines(measured)
+    return weights / max(float(np.sqrt(np.mean((weights * rho) ** 2))), LEAST)
+
+
 def judging_cost(
-    cost: AnyCost, test: FrequencyResponse, further: Sequence[Further], lines: Lines | None
+    cost: AnyCost,
+    test: FrequencyResponse,
+    further: Sequence[Further],
+    lines: Lines | None,
+    alike: bool,
+    fitted: Callable[[AnyCost], Sequence[Complex]],
 ) -> AnyCost:
     """The cost on independent data, of the responses that have some; a response counts there as
-    much as on the training data.
+    much as on the training data. `fitted`: responses of candidates at the lines of a cost.
     """
     if isinstance(cost, Cost):
         return replace(cost, measured=test, lines=lines(test) if lines else None)
     tests = [test, *(one.test for one in further)]
     kept = [
-        (_as_heavy(part, data, lines), setup)
+        (replace(part, measured=data, lines=None), part, setup)
         for part, setup, data in zip(cost.parts, cost.setups, tests, strict=True)
         if data is not None
     ]
-    parts, setups = zip(*kept, strict=True)
-    return JointCost(parts, setups, cost.delays)
+    plain = JointCost(tuple(p for p, *_ in kept), tuple(s for *_, s in kept), cost.delays)
+    each = [plain.by_line(response) for response in fitted(plain)]
+    parts = []
+    for k, (part, trained, _) in enumerate(kept):
+        own = [responses[k] for responses in each]
+        data = part.measured
+        weights = np.ones(len(data)) if alike else _weights(data, lines, own)
+        parts.append(replace(part, lines=weights * _size(trained.lines) / _size(weights)))
+    return replace(plain, parts=tuple(parts))
 
 
-def _as_heavy(part: Cost, data: FrequencyResponse, lines: Lines | None) -> Cost:
-    """The cost on other data of the same response, with the mean square weight of the first."""
-    size = 1.0 if part.lines is None else float(np.sqrt(np.mean(part.lines**2)))
-    own = np.ones(len(data)) if lines is None else lines(data)
-    return replace(part, measured=data, lines=own * size / float(np.sqrt(np.mean(own**2))))
-
-
-def _level(measured: FrequencyResponse, weights: Real) -> float:
-    scattered = weights * scatter(measured).rho
-    return max(float(np.sqrt(np.mean(scattered**2))), LEAST)
+def _size(weights: Real | None) -> float:
+    return 1.0 if weights is None else float(np.sqrt(np.mean(weights**2)))

@@ -22,7 +22,7 @@ from disting.fit.cost import Case, Cost
 from disting.fit.each import explained, noises, repeatabilities
 from disting.fit.estimate import Method, Task, estimates
 from disting.fit.explained import LARGEST, Explanation
-from disting.fit.joint import AnyCost, Further, joint_cost, judging_cost
+from disting.fit.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.fit.judged import FOLDS, Candidate, judged
 from disting.fit.members import Member, members
 from disting.fit.noise import Noise
@@ -31,7 +31,7 @@ from disting.fit.practical import Seen, Thresholds
 from disting.fit.readings import Reading, readings
 from disting.fit.repeatability import margin
 from disting.fit.scatter import Scatter
-from disting.fit.signs import signed
+from disting.fit.signs import pilot, signed
 from disting.fit.together import alternatives_under_all, learning, representatives_under_all
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
@@ -136,6 +136,10 @@ def select(
     cost = joint_cost(alone, further, lines, alike)
     task = Task(cost, sign or 1, bounds or {}, fixed or {}, seed)
     task = task if sign else signed(task, candidates)
+    seen_by = pilot(task, candidates)
+    if isinstance(task.cost, JointCost):
+        weighed = joint_cost(alone, further, lines, alike, seen_by(task.cost))
+        task = replace(task, cost=replace(task.cost, parts=weighed.parts))
     cost = task.cost
     within = limits_of(task.bounds, task.fixed)
     first = representatives(candidates, engine, within) if prune else {c: c for c in candidates}
@@ -145,7 +149,7 @@ def select(
     found = estimates(
         wanted, task, method=method, store=engine.store, executor=executor, progress=progress
     )
-    test_cost = judging_cost(cost, test, further, lines) if test else None
+    test_cost = judging_cost(cost, test, further, lines, alike, seen_by) if test else None
     judging = test_cost or cost
     fitted, seen = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
     limits = thresholds or Thresholds()

@@ -1,10 +1,15 @@
-"""The signs of sensors where nobody said them: those with which candidates fit better."""
+"""What a few fits tell before all candidates are fitted: the signs of sensors where nobody said
+them, and how much the lines of several responses scatter.
+"""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from disting.fit.estimate import Task, estimates
-from disting.fit.joint import JointCost
+from disting.fit.joint import AnyCost, JointCost
+from disting.fit.plant import Complex
 from disting.model.chain import Chain
 
 
@@ -12,14 +17,7 @@ def signed(task: Task, candidates: Sequence[Chain]) -> Task:
     """The sign with which candidates fit better, the best of the largest and the smallest ones
     of each size; of further responses each is tried beside the first one.
     """
-    by_size = [
-        [c for c in candidates if c.n_masses == n] for n in sorted({c.n_masses for c in candidates})
-    ]
-    asked = list(
-        dict.fromkeys(
-            choose(one, key=lambda c: len(c.parameters)) for one in by_size for choose in (min, max)
-        )
-    )
+    asked = _extremes(candidates)
     cost = task.cost
     first = replace(task, cost=cost.parts[0])
     found = _better([replace(first, sign=sign) for sign in (1, -1)], asked)
@@ -34,6 +32,31 @@ def signed(task: Task, candidates: Sequence[Chain]) -> Task:
         best = _better([replace(found, cost=pair) for pair in pairs], asked)
         setups.append(replace(setup, sign=best.cost.setups[1].sign))
     return replace(found, cost=replace(cost, setups=tuple(setups)))
+
+
+def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[Complex]]:
+    """The responses of the best of a few candidates at the lines of any cost: a response divided by
+    them bends no more, so that neighbouring lines show what they scatter by.
+    """
+    if not isinstance(task.cost, JointCost):
+        return lambda cost: []  # lines of one response are not weighed against others
+    asked = _extremes(candidates)
+    known = estimates(asked, task)  # and smaller chains, which may lack a place
+    there = min((known[chain] for chain in asked), key=lambda e: e.j)
+    p = np.array([there.parameters[n] for n in task.names(there.chain)])
+    return lambda cost: [replace(task, cost=cost).plant(there.chain).response(p)]
+
+
+def _extremes(candidates: Sequence[Chain]) -> list[Chain]:
+    """The largest and the smallest ones of each size."""
+    by_size = [
+        [c for c in candidates if c.n_masses == n] for n in sorted({c.n_masses for c in candidates})
+    ]
+    return list(
+        dict.fromkeys(
+            choose(one, key=lambda c: len(c.parameters)) for one in by_size for choose in (min, max)
+        )
+    )
 
 
 def _better(tasks: list[Task], asked: list[Chain]) -> Task:

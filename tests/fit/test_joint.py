@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from disting.errors import InputError
 from disting.fit.alternatives import representatives
-from disting.fit.cost import Case, Cost, lines_by_scatter
+from disting.fit.cost import Case, Cost, lines_by_deviation
 from disting.fit.descent import fine
 from disting.fit.each import JointNoise, noises, scatters
 from disting.fit.estimate import Task
@@ -246,8 +246,10 @@ def errors(chain, values, data, further):
     """How many standard errors each estimate is from the truth, and the cost less that of the
     truth.
     """
-    task = Task(joint_cost(Cost(data), further, lines_by_scatter, alike=False))
     start = np.array([values[n] for n in chain.parameters])
+    task = Task(joint_cost(Cost(data), further, None, alike=False))
+    exact = task.plant(chain).response(start)
+    task = Task(joint_cost(Cost(data), further, None, alike=False, fitted=[exact]))
     plant = task.plant(chain)
     p, j = fine(plant, task.cost, task.box(chain.parameters), start)
     residual, columns = task.cost.of(plant, p)
@@ -292,7 +294,7 @@ def test_two_equal_responses_are_one_of_half_the_variance():
     p = np.array([values[n] for n in TWO.parameters])
     sizes = []
     for further in ([], [Further(data[1], Setup(sensor="1"))]):
-        task = Task(joint_cost(Cost(data[0]), further, None, alike=False))
+        task = Task(joint_cost(Cost(data[0]), further, None, alike=True))
         residual, columns = task.cost.of(task.plant(TWO), p)
         sigma = task.cost.scatter(scatters(task.cost, [task.plant(TWO).response(p)]).rho)
         there = noises(task.cost, residual, sigma, expected(columns, sigma))
@@ -435,14 +437,30 @@ def test_places_that_no_candidate_has_are_refused():
             select(data, [TWO], further=[Further(data, setup)])
 
 
-def test_the_load_side_of_the_bench_sharpens_the_intervals():
-    """Each response in units of its own scatter, line by line; without weights the load side, which
-    is noisier, does not help.
+def test_a_coarse_grid_does_not_pass_for_scatter():
+    """Every other line over a sharp resonance: neighbours jump because the response bends. Taken for
+    scatter it would leave the response without weight, and its dead time open.
     """
+    values, setup = drive(TWO, 2), Setup(sensor="2", delay="Td2")
+    further = [
+        Further(white(TWO, values, Setup(sensor="2"), 0.003, 1, OMEGA[1::2]), setup),
+        Further(
+            white(TWO, values, Setup(locked=("2",)), 0.003, 2, OMEGA[2::2]), Setup(locked=("2",))
+        ),
+    ]
+    found = select(white(TWO, values, Setup(), 0.003, 0), [TWO], further=further)
+    fitted = found.selected
+    assert fitted is not None and found.explanation.explains
+    assert fitted.estimate.parameters["Td2"] == pytest.approx(values["Td"], rel=0.1)
+    assert fitted.practical.relative_errors["Td2"] < 0.05
+
+
+def test_the_load_side_of_the_bench_sharpens_the_intervals():
+    """Weighted by deviations; without weights the load side, which is noisier, harms k12."""
     motor, load = bench("A"), bench("A", "load")
     sizes = {}
     for name, further in (("motor", []), ("both", [Further(load, Setup(sensor="2"))])):
-        found = select(motor, [TWO], further=further, lines=lines_by_scatter)
+        found = select(motor, [TWO], further=further, lines=lines_by_deviation)
         sizes[name] = found.candidates[0].practical.relative_errors
     ratio = {n: sizes["both"][n] / sizes["motor"][n] for n in sizes["both"]}
-    assert ratio["k12"] < 0.7 and ratio["b2"] < 0.9 and ratio["d12"] < 1.0, ratio
+    assert ratio["k12"] < 0.8 and ratio["b2"] < 0.95 and ratio["d12"] < 0.95, ratio
