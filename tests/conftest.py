@@ -8,6 +8,8 @@ from hypothesis import settings
 
 os.environ["DISTING_CACHE"] = "off"
 os.environ["DISTING_PROGRESS"] = "off"
+# the processes that tests start share compiled modules; else each compiles the whole package
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 # a deadline is a time that a busy machine breaks
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("fresh", deadline=None)

@@ -1,161 +1,167 @@
 """All dependences of at most k elements of a vector configuration of rank k, by vectorised
 elimination.
 
-All independent prefixes of columns are extended level by level, grouped by their last column, so
-that one array operation takes the quotients of many prefixes by each of their later columns; a
-column that has become zero closes a dependent set. What is kept of a circuit (a smallest dependent
-set) is the flat that it spans: one flat of 13 columns and rank 4 stands for 1287 circuits.
-Fraction-free steps need no inverse, and residues below 2^31 keep every product in 64 bits.
+What is kept of a circuit (a smallest dependent set) is the flat that it spans: one flat of 13
+columns and rank 4 stands for 1287 circuits. A circuit never has exactly one element outside a
+hyperplane (Oxley, Matroid Theory, 2nd edition, proposition 2.1.11). So with the zeros of one row as
+hyperplane those inside are found in a configuration of one row less, and all others start with two
+columns outside: where these are few, that is a small part of all sets.
+
+The sets are grown column by column, in the order of their last columns: one array operation takes
+the quotients of many sets by each of their later columns, and a column that has become zero closes
+a dependent set. Fraction-free steps need no inverse, and residues below 2^31 keep every product in
+64 bits.
 """
 
 from collections.abc import Iterator
-from functools import cache
 from math import comb
 
 import numpy as np
+from flint import nmod_mat
 from numpy.typing import NDArray
 
 from disting.algebra.sampling import residues
 
 Words = NDArray[np.uint64]
 Marks = NDArray[np.bool_]
-Group = tuple[Words, Words]
-CHUNK = 1 << 15  # products at once: few enough to stay in the processor's cache
+Flat = tuple[int, int]
+WIDE = 1 << 13  # sets at which a further level is no longer kept, but searched part by part
+CHUNK = 1 << 16  # products at once: few enough to stay in the processor's cache
 
 
-def dependent_flats(matrix: Words, modulus: int) -> list[tuple[int, int]]:
+def dependent_flats(matrix: Words, modulus: int) -> list[Flat]:
     """(bit mask of columns, rank) of the closures of all circuits of size <= k of a k x n matrix
-    of rank k, sorted.
+    that contains the unit matrix, sorted.
 
     A set S of columns is dependent exactly if |S & F| > rank(F) for one of these flats F, or if
     |S| > k. `modulus` < 2^31, n <= 64. What is found independent is so; a dependence may be by
     chance of the point.
     """
-    flats: list[tuple[int, int]] = []
-    for size, closed in enumerate(_closed_sets(_mixed(matrix.astype(np.uint64), modulus), modulus)):
-        for flat in flats:
-            closed = _unexplained(closed, *flat)
-        while closed.size:
-            flats.append((_closure(matrix, int(closed[0]), modulus), size))
-            closed = _unexplained(closed, *flats[-1])
-    return sorted(flats)
+    bits = np.uint64(1) << np.arange(matrix.shape[1], dtype=np.uint64)
+    return sorted(_flats(matrix.astype(np.uint64), bits, modulus))
 
 
 def search_size(k: int, n: int) -> int:
-    """Number of k-subsets, the measure of the work of `dependent_flats`."""
+    """Number of k-subsets, a bound for the work of `dependent_flats`."""
     return comb(n, k)
 
 
-def _closed_sets(matrix: Words, modulus: int) -> Iterator[Words]:
-    """Yield for size = 1..k the dependent sets of this size whose elements but the last are
-    independent, as bit masks.
+def _flats(matrix: Words, bits: Words, modulus: int) -> list[Flat]:
+    """The flats; `bits` are those of the columns in the masks.
 
-    A group of last column t holds the prefixes' masks (b,) and their reduced columns t+1.. (n-t-1,
-    rows, b).
+    A column without zeros closes a circuit with the whole unit matrix of two rows or more.
     """
     k, n = matrix.shape
-    bits = np.uint64(1) << np.arange(n, dtype=np.uint64)
-    groups: dict[int, Group] = {-1: (np.zeros(1, np.uint64), matrix.T[:, :, None])}
-    for rows in range(k, 0, -1):
-        yield _joined(
-            [
-                _where(masks, bits[t + 1 :], _zero_columns(reduced))
-                for t, (masks, reduced) in groups.items()
-            ]
-        )
-        if rows == 2:
-            yield _joined(
-                [
-                    ends
-                    for t, group in groups.items()
-                    for ends in _pairs(*group, bits[t + 1 :], modulus)
-                ]
-            )
+    if k in (0, n):
+        return []
+    sparsest = int(np.count_nonzero(matrix, axis=1).argmin())
+    inside = matrix[sparsest] == 0
+    rest = np.delete(matrix, sparsest, axis=0)[:, inside]
+    found = _flats(rest, bits[inside], modulus)
+    if (k > 2 and rest.all(axis=0).any()) or _has_circuit(bits[inside], k, found):
+        found.append((int(bits[inside].sum()), k - 1))
+    outside = int(np.count_nonzero(~inside))
+    order = np.argsort(inside, kind="stable")
+    matrix, bits = matrix[:, order], bits[order]
+    for dependent in _crossing(_mixed(matrix, modulus), bits, outside, modulus):
+        for flat in found:
+            dependent = _unexplained(dependent, *flat)
+        while dependent.size:
+            found.append(_spanned(matrix, bits, int(dependent[0]), modulus))
+            dependent = _unexplained(dependent, *found[-1])
+    return found
+
+
+def _has_circuit(bits: Words, size: int, flats: list[Flat]) -> bool:
+    """Whether columns of rank size - 1 have a circuit of this size, from the flats of all
+    smaller ones.
+    """
+    sets = np.zeros(1, np.uint64)
+    for s in range(size):
+        sets = _joined([sets[: comb(c, s)] | bits[c] for c in range(s, len(bits))])
+    for flat in flats:
+        sets = _unexplained(sets, *flat)
+    return bool(sets.size)
+
+
+def _crossing(matrix: Words, bits: Words, first: int, modulus: int) -> Iterator[Words]:
+    """Yield the masks of all dependent sets of at most k columns with two or more of the `first`
+    ones; of some more dependent sets too.
+
+    `reduced` (n, rows, sets) holds the later columns modulo those of each set. The sets are in
+    the order of their last columns, and column t extends the first counts[t] of them.
+    """
+    (k, n), sets, reduced = matrix.shape, np.zeros(1, np.uint64), matrix.T[:, :, None]
+    among = np.arange(n) < first
+    counts = among.astype(int)
+    for size in range(k - 1):
+        if len(sets) > WIDE:
+            yield from _parts(sets, reduced, counts, bits, modulus)
             return
-        groups = _extended(groups, bits, modulus)
+        starts = np.cumsum(counts) - counts
+        grown = np.empty(starts[-1], np.uint64)
+        longer = np.empty((n, k - size - 1, starts[-1]), np.uint64)
+        closed = []
+        for t in np.flatnonzero(counts[:-1]):
+            old, new = slice(counts[t]), slice(starts[t], starts[t] + counts[t])
+            grown[new], later = sets[old] | bits[t], longer[t + 1 :, :, new]
+            later[:] = _quotients(reduced[t, :, old], reduced[t + 1 :, :, old], modulus)
+            closed.append(_closed(grown[new], later, bits[t + 1 :]))
+        yield _joined(closed)
+        sets, reduced, counts = grown, longer, starts if size else starts * among
 
 
-def _pairs(masks: Words, reduced: Words, bits: Words, modulus: int) -> Iterator[Words]:
-    """Sets that close with two more columns, where two rows are left: the last level, without
-    keeping the one before.
-    """
-    left, right = _ordered_pairs(len(bits))
-    for part, block, zero in _chunks(reduced):
-        yield _where(
-            masks[part],
-            bits[left] | bits[right],
-            (_quotients(block, zero, modulus)[:, 0] == 0) & ~zero[left],
-        )
+def _parts(
+    sets: Words, reduced: Words, counts: NDArray[np.intp], bits: Words, modulus: int
+) -> Iterator[Words]:
+    """The same from here on, some sets at a time: what is wide need not be kept."""
+    n, rows = reduced.shape[:2]
+    for t in range(n - 1):
+        step = max(1, CHUNK // (rows * (n - t)))
+        for start in range(0, counts[t], step):
+            part = slice(start, min(start + step, counts[t]))
+            later = _quotients(reduced[t, :, part], reduced[t + 1 :, :, part], modulus)
+            yield _joined(list(_from(sets[part] | bits[t], later, bits[t + 1 :], modulus)))
 
 
-def _extended(groups: dict[int, Group], bits: Words, modulus: int) -> dict[int, Group]:
-    """The groups of the independent prefixes with one more column."""
-    longer: dict[int, list[Group]] = {}
-    for last, (masks, reduced) in groups.items():
-        for part, block, zero in _chunks(reduced):
-            quotients, stop = _quotients(block, zero, modulus), 0
-            for t in range(last + 1, len(bits) - 1):
-                start, stop = stop, stop + len(bits) - t - 1
-                keep, grown, child = (
-                    ~zero[t - last - 1],
-                    masks[part] | bits[t],
-                    quotients[start:stop],
-                )
-                longer.setdefault(t, []).append(
-                    (grown, child) if keep.all() else (grown[keep], child[:, :, keep])
-                )
-    return {
-        t: (_joined([m for m, _ in parts]), np.concatenate([r for _, r in parts], axis=2))
-        for t, parts in longer.items()
-    }
+def _from(sets: Words, reduced: Words, bits: Words, modulus: int) -> Iterator[Words]:
+    """Dependent sets that start with these, all of which have the same later columns."""
+    yield _closed(sets, reduced, bits)
+    if reduced.shape[1] > 1:
+        for t in range(len(bits) - 1):
+            later = _quotients(reduced[t], reduced[t + 1 :], modulus)
+            yield from _from(sets | bits[t], later, bits[t + 1 :], modulus)
 
 
-def _chunks(reduced: Words) -> Iterator[tuple[slice, Words, Marks]]:
-    """Parts of a group, and which of their columns are zero (columns, b)."""
-    columns, rows, b = reduced.shape
-    step = max(1, CHUNK // (rows * columns * columns))
-    for part in (slice(start, start + step) for start in range(0, b, step)):
-        block = reduced[:, :, part]
-        yield part, block, _zero_columns(block)
+def _closed(sets: Words, reduced: Words, bits: Words) -> Words:
+    """The sets (b,) with each column whose (columns, rows, b) has become zero added."""
+    column, place = _zero(reduced, 1).nonzero()
+    closed: Words = sets[place] | bits[column]
+    return closed
 
 
-def _zero_columns(reduced: Words) -> Marks:
-    """Which columns of which prefix are zero: (columns, b)."""
-    zero: Marks = ~np.any(reduced, axis=1)
-    return zero
-
-
-def _quotients(block: Words, zero: Marks, modulus: int) -> Words:
-    """For each column the later columns modulo it, one row less: (pairs of columns, rows - 1,
-    b).
-    """
-    left, right = _ordered_pairs(len(block))
-    one, other, q = block[left], block[right], np.uint64(modulus)
-    if ((block[:, 0] == 0) & ~zero).any():
-        _pivot_first(one, other)
-    product = one[:, :1] * other[:, 1:]
-    product += q * q - one[:, 1:] * other[:, :1]
+def _quotients(one: Words, others: Words, modulus: int) -> Words:
+    """The columns `others` (columns, rows, b) modulo `one` (rows, b): a row less."""
+    q = np.uint64(modulus)
+    if (one[0] == 0).any():
+        one, others = _pivot_first(one, others)
+    product: Words = one[0] * others[:, 1:]
+    product += (q - one[1:]) * others[:, :1]
     product -= product // q * q  # half the time of a remainder
     return product
 
 
-@cache
-def _ordered_pairs(n: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    left, right = np.triu_indices(n, 1)
-    return left, right
-
-
-def _pivot_first(one: Words, other: Words) -> None:
-    """Exchange rows in both, in place, so that `one` (pairs, rows, b) starts with a number
-    other than zero if it has any.
-    """
-    pair, prefix = (one[:, 0] == 0).nonzero()
-    source = (one[pair, :, prefix] != 0).argmax(axis=1)
-    for block in (one, other):
-        block[pair, 0, prefix], block[pair, source, prefix] = (
-            block[pair, source, prefix],
-            block[pair, 0, prefix],
+def _pivot_first(one: Words, others: Words) -> tuple[Words, Words]:
+    """Both with rows exchanged so that `one` starts with a number other than zero if it has any."""
+    one, others = one.copy(), others.copy()
+    place = np.flatnonzero(one[0] == 0)
+    source = (one[:, place] != 0).argmax(axis=0)
+    for block in (one[None], others):
+        block[:, 0, place], block[:, source, place] = (
+            block[:, source, place],
+            block[:, 0, place],
         )
+    return one, others
 
 
 def _mixed(matrix: Words, modulus: int) -> Words:
@@ -176,29 +182,38 @@ def _joined(parts: list[Words]) -> Words:
     return np.concatenate(parts) if parts else np.zeros(0, np.uint64)
 
 
-def _where(masks: Words, bits: Words, dependent: Marks) -> Words:
-    """The prefixes' masks (b,) with the bits (columns,) added where (columns, b) says so."""
-    column, prefix = dependent.nonzero()
-    return masks[prefix] | bits[column]
-
-
-def _unexplained(closed: Words, flat: int, rank: int) -> Words:
+def _unexplained(sets: Words, flat: int, rank: int) -> Words:
     """The sets that have at most `rank` columns in the flat, so that their dependence is
     another one.
     """
-    few: Marks = np.bitwise_count(closed & np.uint64(flat)) <= rank
-    return closed[few]
+    few: Marks = np.bitwise_count(sets & np.uint64(flat)) <= rank
+    return sets[few]
 
 
-def _closure(matrix: Words, mask: int, modulus: int) -> int:
-    """The columns in the span of the masked ones."""
-    rows, n = [[int(e) for e in row] for row in matrix], matrix.shape[1]
-    for c in (c for c in range(n) if mask >> c & 1):
-        pivot = next((row for row in rows if row[c]), None)
-        if pivot is not None:
-            rest = [row for row in rows if row is not pivot]
-            rows = [
-                [(pivot[c] * a - row[c] * b) % modulus for a, b in zip(row, pivot, strict=True)]
-                for row in rest
-            ]
-    return sum(1 << c for c in range(n) if not any(row[c] for row in rows))
+def _spanned(matrix: Words, bits: Words, dependent: int, modulus: int) -> Flat:
+    """The flat that a circuit in the dependent set spans."""
+    within = (bits & np.uint64(dependent)) != 0
+    chosen = [int(c) for c in np.flatnonzero(within)]
+    table = _echelon(matrix, chosen, modulus)
+    pivots = [int(np.flatnonzero(row)[0]) for row in table]
+    free = next(j for j in range(len(chosen)) if j not in pivots)
+    circuit = [chosen[p] for p, row in zip(pivots, table, strict=True) if row[free]]
+    others = [c for c in range(len(bits)) if c not in circuit]
+    rows = _echelon(matrix, circuit + others, modulus)[len(circuit) :]
+    inside = np.array(circuit + others)[_zero(rows, 0)]
+    return int(bits[inside].sum()), len(circuit)
+
+
+def _zero(entries: Words, axis: int) -> Marks:
+    """Where all entries along the axis are zero."""
+    zero: Marks = ~np.any(entries, axis=axis)
+    return zero
+
+
+def _echelon(matrix: Words, columns: list[int], modulus: int) -> Words:
+    """The non-zero rows of the reduced row echelon form of these columns."""
+    entries = [int(e) for e in matrix[:, columns].ravel()]
+    table, rank = nmod_mat(len(matrix), len(columns), entries, modulus).rref()
+    return np.array([[int(e) for e in row] for row in table.tolist()[:rank]], np.uint64).reshape(
+        rank, len(columns)
+    )

@@ -9,10 +9,19 @@ parameters are, but for the frequency variable s.
 """
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import Polynomial, Term, factors, terms
+from disting.algebra.symbols import (
+    Content,
+    Polynomial,
+    Term,
+    content,
+    factors,
+    polynomial_of,
+    terms,
+)
 
 Expr = Any  # an expression of SymPy
 Sum = Sequence[Term]
@@ -88,9 +97,21 @@ def latex(of: RationalFunction | Sum) -> str:
     >>> latex([(1, {"k9_10": 2, "m1": -1})])
     '\\frac{k_{9,10}^{2}}{m_{1}}'
     """
+    if isinstance(of, RationalFunction):
+        return _quotient_latex(content(of.num), content(of.den))
+    return _printed_latex(expression(of, evaluate=False))
+
+
+@cache
+def _quotient_latex(above: Content, below: Content) -> str:
+    """Kept: the maps between the models of a family repeat a few formulas many times."""
+    of = RationalFunction(polynomial_of(above), polynomial_of(below))
+    return _printed_latex(expression(of, evaluate=False))
+
+
+def _printed_latex(unevaluated: Expr) -> str:
     import sympy
 
-    unevaluated = expression(of, evaluate=False)
     names = {x: latex_symbol(x.name) for x in unevaluated.free_symbols}
     return str(sympy.latex(unevaluated, order="none", symbol_names=names))
 

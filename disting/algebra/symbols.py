@@ -9,12 +9,35 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 Polynomial = fmpz_mpoly
 Term = tuple[int, Mapping[str, int]]
 """Coefficient and {symbol: exponent}."""
+Content = tuple[tuple[str, ...], tuple[tuple[tuple[int, ...], int], ...]]
+"""Names, and (exponents, coefficient) of every term; unlike a polynomial it has a hash."""
 
 
 def symbols(names: Sequence[str]) -> dict[str, fmpz_mpoly]:
     """The generators of Z[names], in lexicographic order of the names as given."""
     context = fmpz_mpoly_ctx.get(tuple(names), Ordering.lex)
     return dict(zip(names, context.gens(), strict=True))
+
+
+def content(polynomial: Polynomial) -> Content:
+    """The names of its ring, and its terms, in an order: equal polynomials have equal content.
+
+    >>> m, k = symbols(["m1", "k12"]).values()
+    >>> content(k - 2 * m)
+    (('m1', 'k12'), (((1, 0), -2), ((0, 1), 1)))
+    """
+    entries = tuple((powers, int(number)) for powers, number in polynomial.to_dict().items())
+    return polynomial.context().names(), entries
+
+
+def polynomial_of(known: Content) -> Polynomial:
+    """The polynomial of this content.
+
+    >>> polynomial_of((("m1", "k12"), (((1, 0), -2), ((0, 1), 1))))
+    -2*m1 + k12
+    """
+    names, entries = known
+    return fmpz_mpoly_ctx.get(names, Ordering.lex).from_dict(dict(entries))
 
 
 def renamed(

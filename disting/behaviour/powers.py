@@ -64,14 +64,14 @@ def zeros(structure: Structure) -> frozenset[str]:
 
 
 def is_sign_free(structure: Structure) -> bool:
-    """No block holds a plus and a minus port together, so no term of the numerator is
+    """No row holds a plus and a minus port together, so no term of the numerator is
     subtracted.
     """
     p = structure.ports
-    spans = [range(first, last + 1) for first, last in structure.blocks]
+    rows = [range(first, last + 1) for first, last in structure.row_ends]
     return not any(
         (p.act_plus in s or p.meas_plus in s) and (p.act_minus in s or p.meas_minus in s)
-        for s in spans
+        for s in rows
     )
 
 

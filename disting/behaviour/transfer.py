@@ -1,10 +1,10 @@
 """The transfer function of a structure and its derivatives, over any ring: equation (24) without
 an inverse.
 
-Each connected row of masses is a tridiagonal block A_c(s) = M s^2 + D s + K. With D_c = det A_c
-and, for the block's part of the force and sensor vectors, P_c = e_meas' adj(A_c) e_act, the
-receptance is the sum of P_c/D_c. A parameter that enters as w v v' (w a power of s) has dD_c = w
-v' adj v and, since d(A^-1) = -w A^-1 v v' A^-1,
+Each row of masses has a tridiagonal matrix A_c(s) = M s^2 + D s + K. With D_c = det A_c and, for
+the row's share of the force and sensor vectors, P_c = e_meas' adj(A_c) e_act, the receptance is
+the sum of P_c/D_c. A parameter that enters as w v v' (w a power of s) has dD_c = w v' adj v and,
+since d(A^-1) = -w A^-1 v v' A^-1,
 
     dP_c = w (P_c v' adj v - (v' adj e_act)(v' adj e_meas)) / D_c       (an exact quotient)
 
@@ -38,7 +38,7 @@ class Arrangement(Protocol):
         """Where force and sensor attach; 0 does not move."""
 
     @property
-    def blocks(self) -> tuple[tuple[int, int], ...]:
+    def row_ends(self) -> tuple[tuple[int, int], ...]:
         """Connected rows of moving masses (first, last)."""
 
     @property
@@ -63,10 +63,12 @@ class Rational:
 
 
 @dataclass(frozen=True)
-class _Block:
+class _RowMatrix:
+    """A row, of a structure of any kind: up to four ports."""
+
     first: int
     matrix: Tridiagonal
-    # act_plus, act_minus, meas_plus, meas_minus, counted from the block's first mass
+    # act_plus, act_minus, meas_plus, meas_minus, counted from the row's first mass
     ports: tuple[int, int, int, int]
     elements: tuple[Element, ...]
 
@@ -94,19 +96,19 @@ def receptance(structure: Arrangement, values: Mapping[str, Ring], s: Ring, one:
     """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong
     to the same ring.
 
-    Blocks without a port do not contribute and are left out, so their parameters have zero
+    Rows without a port do not contribute and are left out, so their parameters have zero
     gradients.
     """
-    blocks = _blocks(structure, values, s, one)
-    den, num = _sum(blocks, one)
+    rows = _matrices(structure, values, s, one)
+    den, num = _sum(rows, one)
     zero = one - one
     num_gradient, den_gradient = (
         {p: zero for p in structure.parameters if p != "Td"} for _ in range(2)
     )
-    for block in blocks:
-        others, rest = _sum([other for other in blocks if other is not block], one)
-        for element in block.elements:
-            d_num, d_den = _gradient(block, element, s)
+    for row in rows:
+        others, rest = _sum([other for other in rows if other is not row], one)
+        for element in row.elements:
+            d_num, d_den = _gradient(row, element, s)
             num_gradient[element.parameter] = d_num * others + d_den * rest
             den_gradient[element.parameter] = d_den * others
     plain = Rational(num, den, num_gradient, den_gradient)
@@ -117,7 +119,7 @@ def plain_receptance(
     structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
 ) -> tuple[Ring, Ring]:
     """num and den of `receptance` without the gradients, which are most of its work."""
-    den, num = _sum(_blocks(structure, values, s, one), one)
+    den, num = _sum(_matrices(structure, values, s, one), one)
     return num, den * (one + values["T1"] * s) if structure.lag else den
 
 
@@ -128,27 +130,29 @@ def values_at(
     return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
 
 
-def _blocks(structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring) -> list[_Block]:
-    return [_block(structure, span, values, s, one) for span in touched(structure)]
+def _matrices(
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
+) -> list[_RowMatrix]:
+    return [_matrix(structure, ends, values, s, one) for ends in touched(structure)]
 
 
 def touched(structure: Arrangement) -> tuple[tuple[int, int], ...]:
     """The rows that the force moves and the sensor sees."""
     p = structure.ports
-    inside = {span: [span[0] <= port <= span[1] for port in p] for span in structure.blocks}
-    return tuple(span for span, (a, b, c, d) in inside.items() if (a or b) and (c or d))
+    inside = {ends: [ends[0] <= port <= ends[1] for port in p] for ends in structure.row_ends}
+    return tuple(ends for ends, (a, b, c, d) in inside.items() if (a or b) and (c or d))
 
 
-def _block(
-    structure: Arrangement, span: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
-) -> _Block:
-    first, last = span
-    elements = tuple(e for e in structure.elements if _nodes(e, span))
+def _matrix(
+    structure: Arrangement, ends: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
+) -> _RowMatrix:
+    first, last = ends
+    elements = tuple(e for e in structure.elements if _nodes(e, ends))
     powers = [one, s, s * s]
     diagonal, off = [one - one] * (last - first + 1), [one - one] * (last - first)
     for e in elements:
         term = values[e.parameter] * powers[POWER[e.kind]]
-        nodes = _nodes(e, span)
+        nodes = _nodes(e, ends)
         for node in nodes:
             diagonal[node - first] = diagonal[node - first] + term
         if len(nodes) == 2:
@@ -156,7 +160,7 @@ def _block(
     matrix = Tridiagonal(tuple(diagonal), tuple(off), one)
     p = structure.ports
     ports = (p.act_plus - first, p.act_minus - first, p.meas_plus - first, p.meas_minus - first)
-    return _Block(first, matrix, ports, elements)
+    return _RowMatrix(first, matrix, ports, elements)
 
 
 def _nodes(element: Element, span: tuple[int, int]) -> tuple[int, ...]:
@@ -166,7 +170,7 @@ def _nodes(element: Element, span: tuple[int, int]) -> tuple[int, ...]:
 
 
 def _response(matrix: Tridiagonal, plus: int, minus: int) -> list[Ring]:
-    """adj(A) (e_plus - e_minus), where a port outside the block does not count."""
+    """adj(A) (e_plus - e_minus), where a port outside the row does not count."""
     size = len(matrix.diagonal)
     up = matrix.adjugate_column(plus) if 0 <= plus < size else None
     down = matrix.adjugate_column(minus) if 0 <= minus < size else None
@@ -181,28 +185,28 @@ def _difference(vector: list[Ring], plus: int, minus: int) -> Ring:
     return inside[0] - inside[1]
 
 
-def _gradient(block: _Block, element: Element, s: Ring) -> tuple[Ring, Ring]:
+def _gradient(row: _RowMatrix, element: Element, s: Ring) -> tuple[Ring, Ring]:
     """(dP_c, dD_c) for one element."""
-    matrix = block.matrix
-    nodes = _nodes(element, (block.first, block.first + len(matrix.diagonal) - 1))
-    i = nodes[0] - block.first
+    matrix = row.matrix
+    nodes = _nodes(element, (row.first, row.first + len(matrix.diagonal) - 1))
+    i = nodes[0] - row.first
     if len(nodes) == 2:
         beside = matrix.adjugate_beside(i)
         square = matrix.adjugate_diagonal(i) + matrix.adjugate_diagonal(i + 1) - beside - beside
-        act, meas = block.act[i] - block.act[i + 1], block.meas[i] - block.meas[i + 1]
+        act, meas = row.act[i] - row.act[i + 1], row.meas[i] - row.meas[i + 1]
     else:
-        square, act, meas = matrix.adjugate_diagonal(i), block.act[i], block.meas[i]
-    d_num = (block.num * square - act * meas) // matrix.determinant
+        square, act, meas = matrix.adjugate_diagonal(i), row.act[i], row.meas[i]
+    d_num = (row.num * square - act * meas) // matrix.determinant
     for _ in range(POWER[element.kind]):
         d_num, square = d_num * s, square * s
     return d_num, square
 
 
-def _sum(blocks: Sequence[_Block], one: Ring) -> tuple[Ring, Ring]:
-    """Product of the blocks' determinants, and the numerator of the sum of the blocks over it."""
+def _sum(rows: Sequence[_RowMatrix], one: Ring) -> tuple[Ring, Ring]:
+    """Product of the determinants, and the numerator of the sum of the receptances over it."""
     num, den = one - one, one
-    for block in blocks:
-        num, den = num * block.matrix.determinant + block.num * den, den * block.matrix.determinant
+    for row in rows:
+        num, den = num * row.matrix.determinant + row.num * den, den * row.matrix.determinant
     return den, num
 
 

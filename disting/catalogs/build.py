@@ -16,6 +16,7 @@ from disting.catalogs.files import (
     name_of,
 )
 from disting.catalogs.provenance import write_provenance
+from disting.conditions.rule import Stage
 from disting.evidence.plain import to_dict
 from disting.files import write_whole
 from disting.model.domain import Domain
@@ -23,8 +24,6 @@ from disting.model.family import Family
 from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import inclusions_to_dict
 from disting.verdict import (
-    FIBRE,
-    PARAMETERS,
     Decisions,
     Engine,
     Progress,
@@ -35,7 +34,7 @@ from disting.verdict import (
 )
 from disting.verdict.chains import ComparedChain
 
-PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, FIBRE: View.EXACT}
+PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, Stage.FIBRE: View.EXACT}
 # what holds over positive parameters follows from the shares of both sides
 PARTS |= {View.REAL.value: View.REAL}
 
@@ -104,12 +103,12 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
     size = len(found["tf"].subjects)
     for i in range(size):
         for j in range(i + 1, size):
-            both = found[FIBRE].inclusions.get((i, j))
+            both = found[Stage.FIBRE].inclusions.get((i, j))
             told = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             yield (
                 {"left": i + 1, "right": j + 1}
                 | told
-                | _shares(found[FIBRE], i, j)
+                | _shares(found[Stage.FIBRE], i, j)
                 | {
                     part: _step(decided, i, j)
                     for part, decided in found.items()
@@ -128,7 +127,7 @@ def _shares(decided: Decisions, i: int, j: int) -> Record:
 def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:
     """Whether this part decides, not an earlier one."""
     domain = decided.query.view.domain
-    where = part if domain is Domain.COMPLEX else PARAMETERS
+    where = part if domain is Domain.COMPLEX else Stage.PARAMETERS
     return (i, j) in decided.steps and decided.steps[i, j].representation == where
 
 
@@ -137,7 +136,7 @@ def _step(decided: Decisions, i: int, j: int) -> Record:
     assert verdict.evidence is not None  # only decided pairs get here
     assert verdict.certainty is not None
     # the condition's number tells the relation
-    told = verdict.representation not in (FIBRE, PARAMETERS)
+    told = verdict.representation not in (Stage.FIBRE, Stage.PARAMETERS)
     relation = {} if told else {"relation": verdict.relation.value}
     return relation | {
         "decided_by": verdict.decided_by,

@@ -4,7 +4,7 @@ of a fit (Fig. 1).
 `candidates.jsonl`: a header, a line a model, then a line for each model but the last with one sign
 for each later model: relation (. distinguishable, = indistinguishable, ? undecided), deciding
 condition (e the exact decision), representation and certainty. The evidence is not kept: `compare`
-gives it. A relation does not depend on the sensor quantity (see `catalogs.variants`), so the
+gives it. A relation does not depend on the sensor quantity, so the
 stored ones serve all three.
 """
 

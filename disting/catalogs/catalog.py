@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from disting.catalogs.export import Row, csv_text, inclusion_text, share_text
 from disting.catalogs.files import (
@@ -112,7 +112,7 @@ class Catalog:
         low, high = sorted((left, right))
         known = self._known.get((low, high, view))
         return (
-            relation_of(deciding(self._pair(low, high), view)[1])
+            relation_of(self._deciding(self._pair(low, high), view))
             if known is None
             else known.relation
         )
@@ -138,7 +138,7 @@ class Catalog:
 
         graph: nx.Graph[int] = nx.Graph()
         pairs = self.records[1 + len(self.family) :]
-        relations = {(r["left"], r["right"]): relation_of(deciding(r, view)[1]) for r in pairs}
+        relations = {(r["left"], r["right"]): relation_of(self._deciding(r, view)) for r in pairs}
         graph.add_edges_from(
             pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE
         )
@@ -163,7 +163,7 @@ class Catalog:
         return tuple(
             (r["left"], r["right"])
             for r in pairs
-            if relation_of(deciding(r, view)[1]) is Relation.SOMETIMES
+            if relation_of(self._deciding(r, view)) is Relation.SOMETIMES
         )
 
     def counts(self, view: View = View.POSITIVE) -> dict[str, int]:
@@ -171,7 +171,8 @@ class Catalog:
         undecided ones.
         """
         found = Counter(
-            deciding(r, view)[1].get("decided_by", "") for r in self.records[1 + len(self.family) :]
+            self._deciding(r, view).get("decided_by", "")
+            for r in self.records[1 + len(self.family) :]
         )
         return {name: found[name] for name in ("", *RULES) if found[name] or not name}
 
@@ -226,12 +227,32 @@ class Catalog:
         number, (numerator, denominator) = record["model"], record["degrees"]
         known = Identifiability.from_dict(record["identifiability"])
         chain, count = self.family[number], len(record["parameters"])
-        return ModelRow(number, chain, numerator, denominator, count, record["rank"], group, known)
+        return ModelRow(
+            number=number,
+            chain=chain,
+            numerator_degree=numerator,
+            denominator_degree=denominator,
+            n_parameters=count,
+            rank=record["rank"],
+            group=group,
+            identifiability=known,
+        )
 
     @cached_property
     def _known(self) -> dict[tuple[int, int, View], Verdict]:
         """Verdicts that were asked for; pages ask for each a few times."""
         return {}
+
+    @cached_property
+    def _steps(self) -> dict[tuple[int, int, View], dict[str, Any]]:
+        """Deciding steps that were asked for: over positive parameters they are made of shares."""
+        return {}
+
+    def _deciding(self, record: Record, view: View) -> dict[str, Any]:
+        key = (record["left"], record["right"], view)
+        if key not in self._steps:
+            self._steps[key] = deciding(record, view)[1]
+        return self._steps[key]
 
     def _verdict(self, record: Record, view: View) -> Verdict:
         key = (record["left"], record["right"], view)

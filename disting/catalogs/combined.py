@@ -4,12 +4,20 @@ Models of different sizes differ in their degrees (conditions 1 and 2); but the 
 lie inside the larger one, as a limit (see `conditions.across_sizes`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
+from typing import Any
 
+from disting.catalogs.catalog import Catalog
+from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE
 from disting.errors import InputError
+from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
+from disting.model.question import Models, Question
+from disting.model.symmetry import canonical
+from disting.questions.inclusion import CLOSURE, IMAGE, inclusions_from_dict, turned
+from disting.questions.same.real_and_positive import POSITIVELY
 from disting.verdict import Decisions, Engine, Progress, Query, silent
 
 
@@ -55,3 +63,30 @@ def combined(
         engine.subject(*named) for named in combined_family(sizes, damped=damped, sensor=sensor)
     ]
     return engine.decisions(subjects, query or Query(), executor=executor, progress=progress)
+
+
+def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
+    """Yield what a catalogue answers about pairs of its models: which are limits or equivalents
+    of others, and which positive ones have positive equivalents.
+
+    The question, the canonical forms in its order, and the answer, as an engine remembers it.
+
+    >>> from disting.catalogs import catalog
+    >>> from collections import Counter
+    >>> sorted(Counter(question.name for question, *_ in answers_in(catalog(2))).items())
+    [('closures', 2), ('images', 2), ('positive equivalents', 4)]
+    """
+    n = len(catalog.family)
+    forms = [canonical(chain).chain for chain in catalog.family]
+    ranks = [record["rank"] for record in catalog.records[1 : 1 + n]]
+    for record in catalog.records[1 + n :]:
+        i, j = record["left"] - 1, record["right"] - 1
+        for name, given, other in ((LEFT_POSITIVE, i, j), (RIGHT_POSITIVE, j, i)):
+            if name in record:
+                found = PositiveFinding.from_dict(record[name])
+                yield POSITIVELY, (forms[given], forms[other]), found
+        if INCLUSIONS in record:
+            both = inclusions_from_dict(record[INCLUSIONS])
+            small, large = (i, j) if ranks[i] < ranks[j] else (j, i)
+            for question, said in ((IMAGE, both.image), (CLOSURE, both.closure)):
+                yield question, (forms[small], forms[large]), said if small == i else turned(said)

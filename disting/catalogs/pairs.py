@@ -10,7 +10,7 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
-from disting.conditions.rule import Role
+from disting.conditions.rule import Role, Stage
 from disting.conditions.table import RULES
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
@@ -18,32 +18,44 @@ from disting.evidence.positive import PositiveFinding
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
-from disting.verdict import FIBRE, PARAMETERS, Relation, Step, Verdict, View, open_note
+from disting.verdict import Relation, Step, Verdict, View, open_note
 
 
 def stored_verdict(record: Record, view: View) -> Verdict:
     """The verdict of a view with all that the record says of the pair."""
     found, settled = _plain(record, view), relation_of(deciding(record, View.EXACT)[1])
-    if FIBRE not in view.representations or settled is Relation.UNDECIDED:
+    if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
         return found
     here, there = _shares(record)
-    found = replace(found, left_positive=here, right_positive=there)
     if INCLUSIONS in record:
         both = inclusions_from_dict(record[INCLUSIONS])
-        return replace(
-            found, image=both.image.inclusion, closure=both.closure.inclusion, inclusions=both
+        image, closure = both.image.inclusion, both.closure.inclusion
+    else:
+        both = None
+        image = closure = (
+            Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
         )
-    told = Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
-    return replace(found, image=told, closure=told)
+    return replace(
+        found,
+        left_positive=here,
+        right_positive=there,
+        image=image,
+        closure=closure,
+        inclusions=both,
+    )
 
 
-def deciding(record: Record, view: View) -> tuple[str, dict[str, Any]]:
-    """The first representation of the view that decides, and its step; ("", {}) if none does."""
+def deciding(record: Record, view: View) -> tuple[Stage, dict[str, Any]]:
+    """The first representation of the view that decides, and its step; NONE and {} if none does."""
     if view is View.POSITIVE:
         return _positively(record)
     if view is View.REAL:
-        return (PARAMETERS, record[view.value]) if view.value in record else _distinguishing(record)
-    return next(((r, record[r]) for r in view.representations if r in record), ("", {}))
+        return (
+            (Stage.PARAMETERS, record[view.value])
+            if view.value in record
+            else _distinguishing(record)
+        )
+    return next(((r, record[r]) for r in view.representations if r in record), (Stage.NONE, {}))
 
 
 def relation_of(step: dict[str, Any]) -> Relation:
@@ -77,28 +89,28 @@ def _plain(record: Record, view: View) -> Verdict:
     )
 
 
-def _positively(record: Record) -> tuple[str, dict[str, Any]]:
+def _positively(record: Record) -> tuple[Stage, dict[str, Any]]:
     """What the shares of both sides give, if they are indistinguishable over complex parameters."""
     here, there = _shares(record)
     if here is None or there is None:
         return _distinguishing(record)
     f = positive_ways(here, there)
     if f.evidence is None:
-        return "", {}
-    relation = Step(PARAMETERS, f).relation.value
+        return Stage.NONE, {}
+    relation = Step(Stage.PARAMETERS, f).relation.value
     plain = {
         "relation": relation,
         "decided_by": f.rule.name,
         "certainty": f.certainty.value,
         "safety": f.safety,
     }
-    return PARAMETERS, plain | {"evidence": to_dict(f.evidence)}
+    return Stage.PARAMETERS, plain | {"evidence": to_dict(f.evidence)}
 
 
-def _distinguishing(record: Record) -> tuple[str, dict[str, Any]]:
+def _distinguishing(record: Record) -> tuple[Stage, dict[str, Any]]:
     """What distinguishes over complex parameters does so over all."""
     where, step = deciding(record, View.EXACT)
-    return (where, step) if relation_of(step) is Relation.DISTINGUISHABLE else ("", {})
+    return (where, step) if relation_of(step) is Relation.DISTINGUISHABLE else (Stage.NONE, {})
 
 
 def _notes(record: Record, view: View) -> tuple[str, ...]:

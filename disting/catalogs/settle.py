@@ -1,7 +1,7 @@
 """Questions about rows that pairs of chains leave open: decided once, for chains of any size, and
 shipped as `rows.jsonl`.
 
-The file is read wherever a pair is decided (see `disting.fibres.ideals.by_rows`), so an answer
+The file is read wherever a pair is decided (see `disting.fibres.ideals.by_one_row`), so an answer
 serves every command at once.
 """
 
@@ -10,11 +10,11 @@ from itertools import combinations
 from pathlib import Path
 
 from disting.algebra.certainty import LEAST_SAFETY
-from disting.fibres.ideals.by_rows import row_pairs
+from disting.fibres.ideals.by_one_row import row_pairs
 from disting.fibres.ideals.row_answers import ROWS, line_of, read_answers
-from disting.fibres.ideals.rows import DampedRow
 from disting.fibres.ideals.zeros import Branched, branches, refute, safety_of_branches
 from disting.model.family import Family
+from disting.model.row import Row
 from disting.questions.same.exact import rational_part
 from disting.verdict import Engine, Query, Relation, View
 
@@ -38,7 +38,7 @@ def settle(n_masses: int, folder: Path, engine: Engine, told: Callable[[str], No
     return count
 
 
-def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
+def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[Row]]:
     """The rows that differ between damped chains which no condition and no known answer
     decides, each pair once.
     """
@@ -47,7 +47,7 @@ def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
         for number, chain in enumerate(Family(n_masses, True), 1)
     ]
     found = engine.decisions(subjects, Query(View.EXACT, inclusion=False))
-    told = set[frozenset[DampedRow]]()
+    told = set[frozenset[Row]]()
     for i, j in combinations(range(len(subjects)), 2):
         if found.relation(i, j) is Relation.UNDECIDED:
             first, second = subjects[i].in_order(subjects[j])
@@ -56,7 +56,7 @@ def open_rows(n_masses: int, engine: Engine) -> Iterator[frozenset[DampedRow]]:
             told |= {pair for _, pair in pairs}
 
 
-def decided(pair: frozenset[DampedRow]) -> Branched | None:
+def decided(pair: frozenset[Row]) -> Branched | None:
     """That the rows of a pair differ, searched in the direction with fewer branches first; None
     if it is not found.
     """

@@ -61,7 +61,7 @@ def _under_experiments(chains: list[Chain], asked: Query, options: argparse.Name
         )
     with engine_for(options) as (engine, _, _progress):
         found = compare_everywhere(chains[0], chains[1], options.also, query=asked, engine=engine)
-    experiments = [named(text).experiment.text for text in options.also]
+    experiments = list(dict.fromkeys(named(text).experiment.text for text in options.also))
     if options.json:
         data = {
             "answer": found.answer.value,

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from disting.measurement import FrequencyResponse, in_si, mean_of, read
-from disting.measurement.units import scaled, with_constant
+from disting.measurement.scaling import scaled, with_constant
 
 
 def measured(files: list[Path], options: argparse.Namespace) -> FrequencyResponse:

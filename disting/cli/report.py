@@ -6,7 +6,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.combined import combined
+from disting.catalogs.combined import answers_in, combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
@@ -58,6 +58,10 @@ def _together(options: argparse.Namespace, choices: Sequence[bool]) -> Iterator[
     sizes = range(1, MOST_TOGETHER + 1)
     for damped in choices if len(set(options.masses).intersection(sizes)) > 1 else []:
         with engine_for(options) as (engine, pool, progress):
+            for shipped in (catalog(n, damped=damped) for n in sizes):
+                if shipped.records[0]["settings"] == engine.settings.to_dict():
+                    for known in answers_in(shipped):
+                        engine.remember(*known)
             decided = combined(
                 sizes, damped=damped, engine=engine, executor=pool, progress=progress
             )

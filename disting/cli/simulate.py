@@ -84,14 +84,14 @@ def run(options: argparse.Namespace) -> int:
     chain, values = _model(options)
     excitation = Excitation(options.excitation, options.low, options.high, options.rms)
     bench = Bench(
-        options.rate,
-        options.samples,
-        options.periods,
-        options.input_noise,
-        options.output_noise,
-        options.quantum,
-        {mass: Friction(coulomb=force) for mass, force in options.friction},
-        options.seed,
+        sampling_rate=options.rate,
+        samples=options.samples,
+        periods=options.periods,
+        input_noise=options.input_noise,
+        output_noise=options.output_noise,
+        quantum=options.quantum,
+        friction={mass: Friction(coulomb=force) for mass, force in options.friction},
+        seed=options.seed,
     )
     series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
     response = series.response(options.to, period=options.samples)

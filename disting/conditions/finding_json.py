@@ -28,10 +28,10 @@ def finding_from_json(text: str) -> Finding:
     if written != WRITTEN:
         raise ValueError("not a finding of the exact decision")
     return Finding(
-        EXACT,
-        Outcome(outcome),
-        Certainty(certainty),
-        safety,
-        evidence_from(evidence) if evidence else None,
-        note,
+        rule=EXACT,
+        outcome=Outcome(outcome),
+        certainty=Certainty(certainty),
+        safety=safety,
+        evidence=evidence_from(evidence) if evidence else None,
+        note=note,
     )

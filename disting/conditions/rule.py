@@ -11,6 +11,19 @@ from enum import StrEnum
 from disting.model.domain import Domain
 
 
+class Stage(StrEnum):
+    """Where a rule looks, in the order in which a verdict does: two exhaustive summaries, the
+    elements, one fibre, the values of the parameters; NONE where nothing decides.
+    """
+
+    NONE = ""
+    TF = "tf"
+    MARKOV = "markov"
+    STRUCTURE = "structure"
+    FIBRE = "fibre"
+    PARAMETERS = "parameters"
+
+
 class Role(StrEnum):
     """What a rule can prove, and on what it is asked.
 

@@ -16,8 +16,6 @@ from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.conditions.side import Side
 
-STRUCTURE = "structure"  # the representation of structural conditions
-
 
 @dataclass(frozen=True, slots=True)
 class Necessary:

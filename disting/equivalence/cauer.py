@@ -5,7 +5,7 @@ In x = s^2 the receptance N/D of a row of masses at its end obeys D/N = m x + 1/
 N'/D' that of the rest (Cauer's continued fraction): m is the ratio of leading coefficients, k the
 limit of P/N, P = D - m x N, and the next receptance is (N - P/k)/P. A free end leaves nothing
 after the last mass, a wall nothing after the last spring. No root is taken, so the map is rational
-from every chain whose receptance, or that of one of its parts, belongs to one place (force and
+from every chain whose receptance, or that of one of its rows, belongs to one place (force and
 sensor together).
 """
 
@@ -21,7 +21,7 @@ from disting.model.chain import Chain
 from disting.model.structure import Ports, Structure
 
 Number = Any  # an element of a field
-Ladder = tuple[list[Number], list[Number]]  # masses and springs from the port outwards
+Outwards = tuple[list[Number], list[Number]]  # masses and springs from the port outwards
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +33,8 @@ class Expansion:
 
 
 def expansions(given: Chain) -> Iterator[Expansion]:
-    """The chains seen from the end of the whole receptance, of the free part, of the grounded
-    part, or of both parts.
+    """The chains seen from the end of the whole receptance, of the free row, of the grounded
+    row, or of both rows.
     """
     if given.damped or given.ground_dampers or given.lag or given.dead_time:
         return
@@ -50,13 +50,13 @@ def expansions(given: Chain) -> Iterator[Expansion]:
         (given.act_plus == given.meas_plus, False), (given.act_minus == given.meas_minus, False)
     ):
         if free or grounded:
-            yield _by_parts(given, n, g, free, grounded)
+            yield _by_rows(given, n, g, free, grounded)
 
 
-def ladder(num: list[Number], den: list[Number], *, wall: bool) -> Ladder:
+def row_from_end(num: list[Number], den: list[Number], *, wall: bool) -> Outwards:
     """Masses and springs from coefficients in x, lowest first, without vanishing leading ones.
 
-    >>> ladder([0.5], [3.0, 1.0], wall=True)
+    >>> row_from_end([0.5], [3.0, 1.0], wall=True)
     ([2.0], [6.0])
     """
     masses: list[Number] = []
@@ -72,8 +72,8 @@ def ladder(num: list[Number], den: list[Number], *, wall: bool) -> Ladder:
     return masses, springs
 
 
-def _by_parts(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
-    """The chain with one or both parts seen from the gap, the other one as it is."""
+def _by_rows(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
+    """The chain with one or both rows seen from the gap, the other one as it is."""
     chain = replace(given, act_plus=g + 1, meas_plus=g + 1) if free else given
     chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
 
@@ -96,14 +96,14 @@ def _by_parts(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expan
     return Expansion(chain, values)
 
 
-def _seen(given: Chain, ports: Ports, *, wall: bool) -> Ladder:
-    """The ladder with the receptance of the given chain between these ports."""
+def _seen(given: Chain, ports: Ports, *, wall: bool) -> Outwards:
+    """The row with the receptance of the given chain between these ports."""
     structure: Structure = replace(given.structure, ports=ports)
     ring = _ring(given)
     one = ring["s"] ** 0
     found = plain_receptance(structure, ring, ring["s"], one)
     num, den = ([RationalFunction(c, one) for c in coefficients(p, "s")[::2]] for p in found)
-    return ladder(num, den, wall=wall)
+    return row_from_end(num, den, wall=wall)
 
 
 def _ring(given: Chain) -> dict[str, Any]:

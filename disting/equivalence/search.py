@@ -69,7 +69,13 @@ def equivalents(
     )
     fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
     special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
-    return Equivalents(_name(given), given, fractions, listings, special_damping)
+    return Equivalents(
+        name=_name(given),
+        chain=given,
+        values=fractions,
+        listings=listings,
+        proportional=special_damping,
+    )
 
 
 def _listing(given: Chain, point: Point, other: Chain, exact: list[Image]) -> Listing:

@@ -8,7 +8,7 @@ from typing import ClassVar, NamedTuple
 _WORDS = {"∞": "without bound", "0": "zero"}
 
 
-class PartLimit(NamedTuple):
+class RowLimit(NamedTuple):
     """A row (free or grounded) of the larger chain becomes one of the smaller chain, by `steps`
     and by a count.
 
@@ -52,12 +52,12 @@ class Limit:
 
     kind: ClassVar[str] = "limit"
     left_is_larger: bool
-    parts: tuple[PartLimit, ...]
+    parts: tuple[RowLimit, ...]
     smaller: tuple[int, ...] = ()
     larger: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", tuple(PartLimit(*part) for part in self.parts))
+        object.__setattr__(self, "parts", tuple(RowLimit(*part) for part in self.parts))
 
     def sentence(self, left: str, right: str) -> str:
         """What becomes of each row."""
@@ -215,7 +215,6 @@ class LimitFibre:
 
 
 AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
-ACROSS_SIZES = {c.kind: c for c in (Limit, Meeting, TooLarge, PoleSharing, LimitFibre)}
 
 
 def _counted(rank: int, coordinates: int, factors: int, same_mass: int) -> str:

@@ -10,7 +10,7 @@ THEOREMS = {
         "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such"
         " impedance"
     ),
-    "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a part",
+    "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a row",
     "duality": (
         "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and"
         " scaled"
@@ -20,7 +20,7 @@ THEOREMS = {
         " resonances (Foster's theorem)"
     ),
     "parts": (
-        "{left} and {right} are undamped and their parts at both sides of the gap can be exchanged"
+        "{left} and {right} are undamped and their rows at both sides of the gap can be exchanged"
         " one by one"
     ),
 }

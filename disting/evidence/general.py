@@ -137,5 +137,8 @@ class Witnesses:
         return "∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A ≠ ∅,  ∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A = ∅"
 
 
+OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
+
+
 def _spelled(point: Point) -> str:
     return ", ".join(f"{name} = {value}" for name, value in point)

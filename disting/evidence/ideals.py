@@ -1,5 +1,5 @@
 """Evidence of fibres as polynomial ideals: what one or more of them show, of whole chains, of
-their parts, of rows.
+their rows.
 
 A label stands for a random prime and a random point, so evidence holds labels, not numbers.
 """
@@ -10,7 +10,7 @@ from typing import Any, ClassVar, get_args
 from disting.evidence import plain
 
 _FULL = "have as many determinable parameters as coefficients ({})"
-SAME = 0  # in place of the number of coefficients of a part
+SAME = 0  # in place of the number of coefficients of a row
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ class Refuted:
 
 @dataclass(frozen=True, slots=True)
 class Vanishing:
-    """Markov parameter `index` of a part is a product of elements and has to be zero, or is
+    """Markov parameter `index` of a row is a product of elements and has to be zero, or is
     zero and has to be something.
     """
 
@@ -89,8 +89,8 @@ Shown = Vanishing | Solved | Refuted
 
 
 @dataclass(frozen=True, slots=True)
-class PartStep:
-    """What is shown of one part of the searched chain in one split."""
+class RowStep:
+    """What is shown of one row (`part`) of the searched chain in one split."""
 
     split: str
     part: str
@@ -98,14 +98,14 @@ class PartStep:
 
 
 @dataclass(frozen=True, slots=True)
-class ByParts:
-    """In each split a part that cannot be, or in one split two parts that can; `left_given`:
+class ByRows:
+    """In each split a row that cannot be, or in one split two rows that can; `left_given`:
     the right model is searched.
     """
 
     kind: ClassVar[str] = "by-parts"
     left_given: bool
-    steps: tuple[PartStep, ...]
+    steps: tuple[RowStep, ...]
 
     @property
     def is_member(self) -> bool:
@@ -118,40 +118,40 @@ class ByParts:
         return all(isinstance(s.shown, Vanishing) for s in self.steps)
 
     def sentence(self, left: str, right: str) -> str:
-        """What was found, part by part."""
+        """What was found, row by row."""
         given, searched = (left, right) if self.left_given else (right, left)
         told = "; ".join(_told(step, searched) for step in self.steps)
         if self.is_member:
             return (
-                f"Both parts of {searched} can have, at least in the limit, the receptances that"
+                f"Both rows of {searched} can have, at least in the limit, the receptances that"
                 f" add up to {given}: {told}."
             )
         start = (
-            f"The poles of each part of a generic {given} stay together in an equivalent {searched}"
+            f"The poles of each row of a generic {given} stay together in an equivalent {searched}"
         )
         if not self.steps:
             return (
-                f"{start}, and no choice of parts has as many poles as the grounded part of"
+                f"{start}, and no choice of rows has as many poles as the grounded row of"
                 f" {searched}."
             )
-        return f"{start}, so its parts have given receptances: {told}."
+        return f"{start}, so its rows have given receptances: {told}."
 
     @property
     def formula(self) -> str:
-        """The sum of both parts."""
+        """The sum of both rows."""
         return "R₂(q) + F₂(q) = R₁(p) + F₁(p)"
 
     def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON: what is shown of a part stands beside the part."""
+        """Plain data, ready for JSON: what is shown of a row stands beside its name."""
         steps = [{"split": s.split, "part": s.part, **plain.to_dict(s.shown)} for s in self.steps]
         return {"kind": self.kind, "left_given": self.left_given, "steps": steps}
 
     @staticmethod
-    def from_dict(data: dict[str, Any]) -> "ByParts":
+    def from_dict(data: dict[str, Any]) -> "ByRows":
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
         if not isinstance(data["steps"], list):
             raise TypeError("the steps are a list")
-        return ByParts(bool(data["left_given"]), tuple(map(_step, data["steps"])))
+        return ByRows(bool(data["left_given"]), tuple(map(_step, data["steps"])))
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +174,7 @@ class Shared:
     def sentence(self, left: str, right: str) -> str:
         """What was found."""
         given, searched = (left, right) if self.left_given else (right, left)
-        where = f"The {self.part} parts decide, the others are the same. " if self.part else ""
+        where = f"The {self.part} rows decide, the others are the same. " if self.part else ""
         return (
             f"{where}For one choice of random parameters of {given} modulo a random prime, no"
             f" parameters of {searched}, in any extension, have the same receptance: each of the"
@@ -212,11 +212,11 @@ class ByRow:
         ports = (
             f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched)
         )
-        where = "are one row" if self.part == "whole" else f"have a {self.part} part"
+        where = "are one row" if self.part == "whole" else f"have a {self.part} row"
         rest = (
             ""
             if self.part == "whole"
-            else " An equivalent model would have the same poles in each of its parts."
+            else " An equivalent model would have the same poles in each of its rows."
         )
         return (
             f"{left} and {right} {where} of {self.masses}"
@@ -233,28 +233,28 @@ class ByRow:
 
 
 @dataclass(frozen=True, slots=True)
-class FullParts:
-    """Exact decision: `free` coefficients of each part, as many as its rank; 0 where both
-    chains have the very same part.
+class FullRows:
+    """Exact decision: `free` coefficients of each row, as many as its rank; 0 where both
+    chains have the very same row.
     """
 
     kind: ClassVar[str] = "full-parts"
     free: tuple[int, ...]
 
     def sentence(self, left: str, right: str) -> str:
-        """Part by part."""
-        parts = zip(("grounded", "free"), self.free, strict=True)
+        """Row by row."""
+        rows = zip(("grounded", "free"), self.free, strict=True)
         told = [
-            f"the {name} parts are equal" if n == SAME else f"both {name} parts {_FULL.format(n)}"
-            for name, n in parts
+            f"the {name} rows are equal" if n == SAME else f"both {name} rows {_FULL.format(n)}"
+            for name, n in rows
         ]
         return (
-            f"In {left} and {right} {' and '.join(told)}, so each can have the parts of the other."
+            f"In {left} and {right} {' and '.join(told)}, so each can have the rows of the other."
         )
 
     @property
     def formula(self) -> str:
-        """Rank and number of coefficients of the parts that are not equal."""
+        """Rank and number of coefficients of the rows that are not equal."""
         return ", ".join(
             f"N_R = {n} = |Φ_{name}|" for name, n in zip("RF", self.free, strict=True) if n != SAME
         )
@@ -264,34 +264,34 @@ def _times(count: int, what: str) -> str:
     return f"one {what}" if count == 1 else f"{count} {what}s"
 
 
-def _step(data: dict[str, Any]) -> PartStep:
+def _step(data: dict[str, Any]) -> RowStep:
     shown = {name: value for name, value in data.items() if name not in ("split", "part")}
-    return PartStep(str(data["split"]), str(data["part"]), plain.from_dict(shown, get_args(Shown)))
+    return RowStep(str(data["split"]), str(data["part"]), plain.from_dict(shown, get_args(Shown)))
 
 
-def _told(step: PartStep, searched: str) -> str:
-    part = f"the {step.part} part of {searched}"
+def _told(step: RowStep, searched: str) -> str:
+    row = f"the {step.part} row of {searched}"
     match step.shown:
         case Vanishing():
             found = (
-                f"Markov parameter {step.shown.index} of {part} is a product of elements and had to"
+                f"Markov parameter {step.shown.index} of {row} is a product of elements and had to"
                 " be zero, or the reverse"
             )
         case Solved():
             found = (
-                f"{part} was solved for {len(step.shown.labels)} random receptances modulo random"
+                f"{row} was solved for {len(step.shown.labels)} random receptances modulo random"
                 " primes"
             )
         case Refuted():
             found = (
-                f"{part} was refuted for {len(step.shown.labels)} random receptances modulo random"
+                f"{row} was refuted for {len(step.shown.labels)} random receptances modulo random"
                 " primes"
             )
     return f"{_SPLITS[step.split]}, {found}"
 
 
 _SPLITS = {
-    "same": "with the same parts",
-    "exchanged": "with the parts exchanged but for a rigid body",
-    "rigid": "with a rigid body as the free part",
+    "same": "with the same rows",
+    "exchanged": "with the rows exchanged but for a rigid body",
+    "rigid": "with a rigid body as the free row",
 }

@@ -7,49 +7,57 @@ Those of findings on positive parameters are `positive.PositiveEvidence`.
 from typing import Any, get_args
 
 from disting.evidence import plain
-from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
-from disting.evidence.conditions import (
-    Counts,
-    Embedding,
-    Forms,
-    FreeChoice,
-    Ranks,
-    Renaming,
-    Supermodel,
+from disting.evidence.across_sizes import (
+    AcrossSizes,
+    Limit,
+    LimitFibre,
+    Meeting,
+    PoleSharing,
+    TooLarge,
 )
+from disting.evidence.conditions import ByConditions, Counts
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
-from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
-from disting.evidence.ideals import ByParts, ByRow, FullParts, Refuted, Shared, Solved
+from disting.evidence.general import OfGeneralModels
+from disting.evidence.ideals import ByRow, ByRows, FullRows, Refuted, Shared, Solved
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
     Outside,
-    PartsInside,
     RelativeDegrees,
+    RowsInside,
 )
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 
-ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
 ByDecision = (
-    Theorem | DeadTime | FibreAt | FibreUnder | FullParts | Solved | ByRow | Refuted | Shared
+    Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | ByRow | Refuted | Shared
 )
-OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
 )
-AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
-PartByPart = Outside | PartsInside | ByParts
+RowByRow = Outside | RowsInside | ByRows
 InclusionEvidence = (
     AcrossSizes
     | Counts
     | LargerProjection
     | FullImage
     | RelativeDegrees
-    | PartByPart
+    | RowByRow
     | FibreAt
     | Solved
     | Refuted
 )
+GROUNDS = {
+    "theorem": "a theorem",
+    "dead time": "dead time",
+    "fibre": "one fibre",
+    "fibre under experiments": "one fibre",
+    "solved": "the ideal of one fibre",
+    "refuted": "the ideal of one fibre",
+    "row": "a row of masses decided once for all",
+    "shared": "all ways to share out the zeros of a row",
+    "full-parts": "rows that can have any receptance",
+    "constants": "constants",
+}  # on which the exact decision rests, by the kind of its evidence
 
 
 def evidence_from(data: dict[str, Any]) -> Evidence:
@@ -74,11 +82,11 @@ def tells_equivalents(evidence: InclusionEvidence) -> bool:
 
 
 def tells_limits(evidence: InclusionEvidence) -> bool:
-    """Whether it shows limits; those of `Solved` and `ByParts` may have elements that are zero."""
-    by_parts = isinstance(evidence, ByParts) and evidence.is_member
+    """Whether it shows limits; those of `Solved` and `ByRows` may have elements that are zero."""
+    by_rows = isinstance(evidence, ByRows) and evidence.is_member
     return (
-        by_parts
-        or isinstance(evidence, Limit | Meeting | LimitFibre | FullImage | PartsInside | Solved)
+        by_rows
+        or isinstance(evidence, Limit | Meeting | LimitFibre | FullImage | RowsInside | Solved)
         or tells_equivalents(evidence)
     )
 

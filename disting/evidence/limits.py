@@ -1,4 +1,4 @@
-"""Evidence on limits of models of one size: of whole chains, and of what a part of a chain can
+"""Evidence on limits of models of one size: of whole chains, and of what a row of a chain can
 be, or cannot.
 """
 
@@ -10,7 +10,7 @@ from disting.evidence.conditions import Labels, spelled
 
 
 class Why(StrEnum):
-    """What is shown of one part; INSIDE, FULL and MOMENTUM speak for limits, the others against."""
+    """What is shown of one row; INSIDE, FULL and MOMENTUM speak for limits, the others against."""
 
     INSIDE = "inside"
     FULL = "full"
@@ -24,9 +24,9 @@ class Why(StrEnum):
 SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
 
 
-class PartLimits(NamedTuple):
-    """What is shown of one `part` in one `split` (see `disting.fibres.ideals.parts`; "whole" for a
-    chain without a gap).
+class RowLimits(NamedTuple):
+    """What is shown of one row (`part`) in one `split` (see `disting.fibres.ideals.splits`; "whole"
+    for a chain without a gap).
 
     `detail`: the coefficient's name, both ranks, or the label from which primes and points of an
     equation are drawn.
@@ -39,8 +39,8 @@ class PartLimits(NamedTuple):
 
     def told(self, searched: str) -> str:
         """The step in words."""
-        part = searched if self.part == WHOLE else f"the {self.part} part of {searched}"
-        return _TOLD[self.why].format(part=part, detail=self.detail) + _IN[self.split]
+        row = searched if self.part == WHOLE else f"the {self.part} row of {searched}"
+        return _TOLD[self.why].format(row=row, detail=self.detail) + _IN[self.split]
 
 
 WHOLE = "whole"
@@ -49,12 +49,10 @@ WHOLE = "whole"
 @dataclass(frozen=True, slots=True)
 class _Steps:
     left_given: bool
-    steps: tuple[PartLimits, ...]
+    steps: tuple[RowLimits, ...]
 
     def __post_init__(self) -> None:
-        made = (
-            PartLimits(split, part, Why(why), detail) for split, part, why, detail in self.steps
-        )
+        made = (RowLimits(split, part, Why(why), detail) for split, part, why, detail in self.steps)
         object.__setattr__(self, "steps", tuple(made))
 
     def _names(self, left: str, right: str) -> tuple[str, str]:
@@ -63,21 +61,21 @@ class _Steps:
 
 @dataclass(frozen=True, slots=True)
 class Outside(_Steps):
-    """In every split some part cannot be, even in a limit; `left_given`: the right model is the
+    """In every split some row cannot be, even in a limit; `left_given`: the right model is the
     one that is searched.
 
-    No steps: no set of poles is large enough for the searched grounded part.
+    No steps: no set of poles is large enough for the searched grounded row.
     """
 
     kind: ClassVar[str] = "outside"
 
     def sentence(self, left: str, right: str) -> str:
-        """Part by part."""
+        """Row by row."""
         given, searched = self._names(left, right)
         if not self.steps:
             return (
-                f"The poles of each part of a generic {given} stay together in every limit of"
-                f" models {searched}, and no choice of parts has as many poles as the grounded part"
+                f"The poles of each row of a generic {given} stay together in every limit of"
+                f" models {searched}, and no choice of rows has as many poles as the grounded row"
                 f" of {searched}."
             )
         told = "; ".join(step.told(searched) for step in self.steps)
@@ -98,39 +96,39 @@ class Outside(_Steps):
 
 
 @dataclass(frozen=True, slots=True)
-class PartsInside(_Steps):
-    """In one split every part can be, at least in a limit, and sums of limits are limits."""
+class RowsInside(_Steps):
+    """In one split every row can be, at least in a limit, and sums of limits are limits."""
 
     kind: ClassVar[str] = "parts-inside"
 
     def sentence(self, left: str, right: str) -> str:
-        """Part by part."""
+        """Row by row."""
         given, searched = self._names(left, right)
         told = "; ".join(step.told(searched) for step in self.steps)
         return f"Every {given} is a limit of models {searched}: {told}."
 
     @property
     def formula(self) -> str:
-        """The sum of the parts."""
+        """The sum of the rows."""
         return "R₁ + F₁ = lim (R₂ + F₂)"
 
 
 _IN = {
     WHOLE: "",
-    "same": ", with the same parts",
-    "exchanged": ", with the parts exchanged but for a rigid body",
-    "rigid": ", with a rigid body as the free part",
+    "same": ", with the same rows",
+    "exchanged": ", with the rows exchanged but for a rigid body",
+    "rigid": ", with a rigid body as the free row",
 }
 _TOLD = {
-    Why.INSIDE: "{part} can be the very same",
-    Why.FULL: "{part} can have any coefficients that it has at all",
-    Why.MOMENTUM: "{part} can have any coefficients that keep the momentum (a₂ b₁ = a₃ b₀)",
-    Why.COEFFICIENT: "coefficient {detail} is zero in {part} and would not be",
-    Why.RANK: "{part} has too few determinable parameters ({detail})",
+    Why.INSIDE: "{row} can be the very same",
+    Why.FULL: "{row} can have any coefficients that it has at all",
+    Why.MOMENTUM: "{row} can have any coefficients that keep the momentum (a₂ b₁ = a₃ b₀)",
+    Why.COEFFICIENT: "coefficient {detail} is zero in {row} and would not be",
+    Why.RANK: "{row} has too few determinable parameters ({detail})",
     Why.RESULTANT: (
-        "the coefficients of {part} fulfil an equation, a resultant, that would not hold"
+        "the coefficients of {row} fulfil an equation, a resultant, that would not hold"
     ),
-    Why.EQUATION: "a polynomial equation between the coefficients of {part} does not hold",
+    Why.EQUATION: "a polynomial equation between the coefficients of {row} does not hold",
 }
 _FORMULAS = {
     Why.COEFFICIENT: "{detail} ≠ 0",

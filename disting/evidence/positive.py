@@ -23,19 +23,19 @@ _OBSTACLES = {
         "the transfer functions of {0} and {1} fall off at different rates for high frequencies"
     ),
     "residues": (
-        "{0} has negative residues in the part where force and sensor are apart, {1} has positive"
+        "{0} has negative residues in the row where force and sensor are apart, {1} has positive"
         " ones alone"
     ),
     "own poles": (
-        "the grounded and the free part of {1} would have to be those of {0}, which are of another"
+        "the grounded and the free row of {1} would have to be those of {0}, which are of another"
         " kind"
     ),
     "signs": (
-        "in the order of the poles the residues of a part of {0} change their signs more often than"
+        "in the order of the poles the residues of a row of {0} change their signs more often than"
         " those of {1} can"
     ),
     "swapped parts": (
-        "the parts of {1} would be those of {0}, equal or exchanged, which decay or positive masses"
+        "the rows of {1} would be those of {0}, equal or exchanged, which decay or positive masses"
         " rule out"
     ),
 }
@@ -43,8 +43,8 @@ _OBSTACLES = {
 
 @dataclass(frozen=True, slots=True)
 class Excluded:
-    """NEVER: the statement of `parts` of that `name`; at the rational `point`, if one is
-    needed, balls are looked at.
+    """NEVER: the statement of that `name`, see `positivity.obstacles`; at the rational `point`, if
+    one is needed, balls are looked at.
     """
 
     kind: ClassVar[str] = "excluded"
@@ -93,9 +93,9 @@ class EmptyFibre:
 
 
 @dataclass(frozen=True, slots=True)
-class PartWords:
-    """A part of both models: number of masses, ports of `given` and of `other`, and words that
-    only `given` can have.
+class RowWords:
+    """A row (`part`) of both models: number of masses, ports of `given` and of `other`, and words
+    that only `given` can have.
 
     A word says how many zeros lie in each gap between neighbouring poles (see `words`).
     """
@@ -109,12 +109,12 @@ class PartWords:
 
 @dataclass(frozen=True, slots=True)
 class Interlacing:
-    """ALWAYS or SOMETIMES: how poles and zeros of each part may lie; rational points with and
+    """ALWAYS or SOMETIMES: how poles and zeros of each row may lie; rational points with and
     without an equivalent.
     """
 
     kind: ClassVar[str] = "interlacing"
-    parts: tuple[PartWords, ...]
+    parts: tuple[RowWords, ...]
     with_one: Values = ()
     without: Values = ()
 
@@ -126,10 +126,10 @@ class Interlacing:
                 f"However the zeros of {given} lie between its poles, positive parameters of"
                 f" {other} can do the same."
             )
-        which = " and ".join(f"{words} in the {part} part" for part, words in lacking)
+        which = " and ".join(f"{words} in the {name} row" for name, words in lacking)
         return (
             f"Some positive parameters of {given} have a positive equivalent in {other}, others"
-            f" have none: those where the zeros of a part lie between its poles as in no {other}"
+            f" have none: those where the zeros of a row lie between its poles as in no {other}"
             f" (zeros a gap, slowest gap first: {which})."
         )
 
@@ -138,14 +138,14 @@ class Interlacing:
         """Numbers of lacking words."""
         counted = ((p.part, len(p.lacking)) for p in self.parts)
         return ", ".join(
-            f"{part}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for part, n in counted
+            f"{name}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for name, n in counted
         )
 
     @staticmethod
     def from_dict(data: dict[str, Any]) -> "Interlacing":
         """From plain data; raises KeyError or TypeError for what is none."""
-        parts = tuple(PartWords(**plain.fields(part)) for part in data["parts"])
-        return Interlacing(**plain.fields(data) | {"parts": parts})
+        rows = tuple(RowWords(**plain.fields(row)) for row in data["parts"])
+        return Interlacing(**plain.fields(data) | {"parts": rows})
 
 
 @dataclass(frozen=True, slots=True)
@@ -340,12 +340,12 @@ class PositiveFinding:
         )
         empirical = Empirical(**data["empirical"]) if "empirical" in data else None
         return PositiveFinding(
-            Share(data["share"]),
-            certainty,
-            data.get("safety", 0),
-            evidence,
-            empirical,
-            data.get("reason", ""),
+            share=Share(data["share"]),
+            certainty=certainty,
+            safety=data.get("safety", 0),
+            evidence=evidence,
+            empirical=empirical,
+            reason=data.get("reason", ""),
         )
 
     def to_json(self) -> str:

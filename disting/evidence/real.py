@@ -22,7 +22,7 @@ class RealFactors:
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says."""
         return (
-            f"Poles and zeros of {left} can always be shared out among the parts of {right} with"
+            f"Poles and zeros of {left} can always be shared out among the rows of {right} with"
             " real coefficients, and the reverse: real polynomials have real factors of the"
             " degrees that are needed. The rest is rational."
         )
@@ -57,7 +57,7 @@ class RealWitnesses:
         )
         return (
             f"{positive} But near {values} no real {given} has a real equivalent in {other}: its"
-            " poles and zeros cannot be shared out among the parts without parting two conjugates."
+            " poles and zeros cannot be shared out among the rows without parting two conjugates."
         )
 
     @property

@@ -9,16 +9,13 @@ a map, so its fibre is that of all experiments with one parameter vector, and it
 of all equations together. More equations make the ideal easier, as a rule.
 """
 
-from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.finding import Finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
 from disting.fibres.ideals import Limits, decide_matched
-from disting.model.question import Membership
 from disting.model.settings import Settings
-from disting.questions.same.exact import SAFETY
+from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=SAFETY)
 
@@ -37,8 +34,4 @@ def by_ideals(
     """What the ideal of one fibre of the stacked map says."""
     maps = matched(left, right)
     found = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits)
-    if found.membership is Membership.UNKNOWN:
-        note = f"the ideal of the fibre is too large for the limits ({found.reason})"
-        return Finding(EXACT, Outcome.ABANDONED, note=note)
-    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, found.evidence)
+    return decided(found)

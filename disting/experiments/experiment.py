@@ -151,11 +151,11 @@ class Entry:
         return Ports(act_minus, act_plus, meas_minus, meas_plus)
 
     @cached_property
-    def blocks(self) -> tuple[tuple[int, int], ...]:
+    def row_ends(self) -> tuple[tuple[int, int], ...]:
         """Rows of masses that move, cut at the locked ones."""
         still = set(self.experiment.locked)
         found = []
-        for first, last in self.structure.blocks:
+        for first, last in self.structure.row_ends:
             walls = [first - 1, *(i for i in range(first, last + 1) if i in still), last + 1]
             found += [(a + 1, b - 1) for a, b in pairwise(walls) if b - a > 1]
         return tuple(found)
@@ -264,7 +264,11 @@ def _quantity(given: object) -> Sensor:
 
 
 def _sizes(what: str, given: object) -> Sizes:
-    items = list(given.items()) if isinstance(given, Mapping) else list(given)  # type: ignore[call-overload]
+    listed = given.items() if isinstance(given, Mapping) else given
+    try:
+        items = [(mass, size) for mass, size in listed]  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        raise InputError(f"known sizes are written {{mass: size}}, not {shown(given)}") from None
     masses = [mass for mass, _ in items]
     if len(_masses(f"the place of a known {what}", masses)) < len(masses):
         raise InputError(f"two known {what}s at one mass: give their sum")

@@ -34,11 +34,12 @@ from disting.fibres.synthesis.decide import (
     rational_point,
     safety_of_point,
 )
-from disting.fibres.synthesis.fibre import fibre, segments
+from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
 from disting.fibres.synthesis.result import Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
+from disting.model.row import rows_of
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 
@@ -84,7 +85,13 @@ def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Fi
                 tuple(k + 1 for k in listed.refuted_by if k is not None),
             )
             safety = safety_of_point(searched.chain)
-            return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety, evidence)
+            return Finding(
+                rule=EXACT,
+                outcome=Outcome.FAILS,
+                certainty=Certainty.BOUNDED,
+                safety=safety,
+                evidence=evidence,
+            )
     return None
 
 
@@ -167,4 +174,4 @@ def _receptance(entry: Entry, values: Values, s: Ring, ring: type) -> tuple[Ring
 
 
 def _is_covered(chain: Chain) -> bool:
-    return all(is_covered(s) for s in segments(canonical(chain).chain) if s is not None)
+    return all(map(is_covered, rows_of(canonical(chain).chain.structure)))

@@ -76,7 +76,13 @@ def _by_points(given: MeasuredChain, other: MeasuredChain, settings: Settings) -
         return PositiveFinding(Share.UNKNOWN, empirical=empirical, reason=ONE_KIND)
     evidence = Points(by_answer[Answer.YES].point, by_answer[Answer.NO].point)
     safety = safety_of_point(other.chain) - ceil(log2(TRIES))
-    return PositiveFinding(Share.SOMETIMES, Certainty.BOUNDED, safety, evidence, empirical)
+    return PositiveFinding(
+        share=Share.SOMETIMES,
+        certainty=Certainty.BOUNDED,
+        safety=safety,
+        evidence=evidence,
+        empirical=empirical,
+    )
 
 
 def _seen(given: MeasuredChain, other: MeasuredChain, seed: str) -> Iterator[tuple[Answer, Listed]]:

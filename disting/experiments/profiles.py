@@ -1,12 +1,13 @@
 """The exhaustive summary of a measured chain and its profile: the coefficients of all transfer
 functions, one after the other, with one parameter vector.
 
-Labels: b0, .., a0, .. of a single experiment; of several b0[1], .., a0[1], .., b0[2], ..
-Experiments on one state of the machine share poles, as a rule. So where the denominators of such
-entries have equal degrees, the later one is given by what its coefficients are more than the first
-one's, a0[2-1], ..: that is as exhaustive, and where both denominators are one and the same these
-invariants are the constant 0, so that what is free is counted once. Entries that are zero have no
-coefficients: their degrees (-1, 0) say so.
+Labels: b0[1], .., a0[1], .., b0[2], .. with the number of the experiment. Experiments on one state
+of the machine share poles, as a rule. So where two entries have denominators of one degree, the
+later one is given by what its coefficients are more than the first one's, a0[2-1], ..: that is as
+exhaustive, and where both denominators are one and the same these invariants are the constant 0,
+so that what is free is counted once. Entries that are zero have no coefficients: their degrees
+(-1, 0) say so. So the degrees alone say which invariants there are: summaries of equal degrees are
+compared entry by entry, whatever is done to either machine.
 
 Condition 7 needs no more: whatever the summary is, of as many free entries as its rank generic
 values of all of them are reached.
@@ -107,7 +108,7 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
             shared = _shared(where.measured, i) if representation is Representation.TF else None
             first = None if shared is None else where.quotients[shared]
             named = named if first is None else _less(named, _terms(first), where.modulus)
-            labels += [_label(where.measured, name, i, shared) for name in named]
+            labels += [_label(name, i, shared) for name in named]
             rows += named.values()
     if where.measured.chain.dead_time and rows:
         n = len(where.point) - 1
@@ -173,24 +174,18 @@ def _less(
 
 
 def _shared(measured: MeasuredChain, at: int) -> int | None:
-    """The first entry before this one on the same state of the machine whose denominator has the
-    same degree.
-    """
+    """The first entry before this one whose denominator has the same degree."""
     entries = measured.entries
     poles = shape(entries[at]).degrees[1]
     same = (
         i
         for i in range(at)
-        if entries[i].experiment.changes == entries[at].experiment.changes
-        and shape(entries[i]).numerator
-        and shape(entries[i]).degrees[1] == poles
+        if shape(entries[i]).numerator and shape(entries[i]).degrees[1] == poles
     )
     return next(same, None)
 
 
-def _label(measured: MeasuredChain, name: str, at: int, shared: int | None) -> str:
-    if len(measured.entries) == 1 and measured.alone(0):
-        return name
+def _label(name: str, at: int, shared: int | None) -> str:
     less = f"-{shared + 1}" if shared is not None and name[0] == "a" else ""
     return f"{name}[{at + 1}{less}]"
 
@@ -204,17 +199,17 @@ def _proven_zeros(
         if not found.numerator:
             continue
         if representation is Representation.MARKOV:
-            yield from (_label(measured, name, i, None) for name in _zero_series(entry, count))
+            yield from (_label(name, i, None) for name in _zero_series(entry, count))
             continue
         first = None if shared is None else shape(measured.entries[shared])
         same = first is not None and first.denominator == found.denominator
         for name in (f"b{k}" for k in range(found.degrees[0] + 1)):
             if name in found.zeros:
-                yield _label(measured, name, i, None)
+                yield _label(name, i, None)
         for name in (f"a{k}" for k in range(found.degrees[1])):
             zero = name in found.zeros and (first is None or name in first.zeros)
             if same or zero:
-                yield _label(measured, name, i, shared)
+                yield _label(name, i, shared)
 
 
 def _zero_series(entry: Entry, count: int) -> Iterator[str]:

@@ -138,11 +138,11 @@ def _misses(residual: Real, missed: Real, cost: Cost) -> tuple[Miss, ...]:
     shares = [float(power[run[0] : run[-1] + 1].sum()) / total for run in runs]
     found = [
         Miss(
-            float(hertz[run[0]]),
-            float(hertz[run[-1]]),
-            float(factor[run].max()),
-            float(angle[run].max()),
-            share,
+            low=float(hertz[run[0]]),
+            high=float(hertz[run[-1]]),
+            factor=float(factor[run].max()),
+            angle=float(angle[run].max()),
+            share=share,
         )
         for run, share in zip(runs, shares, strict=True)
     ]

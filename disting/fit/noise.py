@@ -99,15 +99,19 @@ def noise(residual: Real, sigma: Real, missed: Real | None = None) -> Noise:
     sigma = np.maximum(sigma, np.finfo(float).tiny)  # a line of weight zero
     missed = sigma if missed is None else np.maximum(missed, sigma)
     power = ((residual / missed) ** 2).reshape(2, -1).sum(axis=0)
-    window = np.ones(2 * NEAR + 1)
-    count = 2 * np.convolve(np.ones(len(power)), window, mode="same")
-    local = np.convolve(power, window, mode="same") / count
+    count = 2 * _near(np.ones(len(power)))
+    local = _near(power) / count
     excess = np.tile(np.where(local > 1 + SIGNIFICANT * np.sqrt(2 / count), local, 1.0), 2)
     # Errors of parameters are smooth over the lines: those where they prevail tell nothing of a
     # correlation.
     return Noise(
         sigma * np.sqrt(excess), correlation(residual * sigma / (missed**2 * np.sqrt(excess)))
     )
+
+
+def _near(power: Real) -> Real:
+    """Sums over the lines near each line, also of fewer lines than lie near one."""
+    return np.asarray(np.convolve(power, np.ones(2 * NEAR + 1))[NEAR : NEAR + len(power)])
 
 
 def correlation(residual: Real) -> float:

@@ -120,15 +120,22 @@ def practical(columns: Real, names: Sequence[str], noise: Noise) -> Practical:
     is 1.
     """
     if not names:
-        return Practical((), {}, 1.0, (), {}, {})
+        return Practical(
+            names=(),
+            importance={},
+            collinearity=1.0,
+            condition_indices=(),
+            relative_errors={},
+            worst_direction={},
+        )
     deviations = np.sqrt(np.diag(covariance(columns, noise)))
     return Practical(
-        tuple(names),
-        dict(zip(names, importance(columns).tolist(), strict=True)),
-        collinearity_index(columns),
-        tuple(condition_indices(columns).tolist()),
-        dict(zip(names, deviations.tolist(), strict=True)),
-        worst_direction(columns, names),
+        names=tuple(names),
+        importance=dict(zip(names, importance(columns).tolist(), strict=True)),
+        collinearity=collinearity_index(columns),
+        condition_indices=tuple(condition_indices(columns).tolist()),
+        relative_errors=dict(zip(names, deviations.tolist(), strict=True)),
+        worst_direction=worst_direction(columns, names),
     )
 
 

@@ -136,25 +136,29 @@ def select(
     said = explanation(described.residual, described.missed, test_cost or cost, seen)
     hopeless = not (said.explains or said.noisy)
     return Selection(
-        selected,
-        tuple(fitted),
-        alternatives(selected.chain, candidates, engine, within) if selected else (),
-        limits,
-        typical,
-        choice.margin,
-        "test data" if test else f"{FOLDS}-fold cross-validation over the frequency lines",
-        {c: other for c, other in first.items() if c != other},
-        rule,
-        said,
-        members(choice.near if said.explains else (), task, test_cost, within, executor, progress),
-        (
+        selected=selected,
+        candidates=tuple(fitted),
+        alternatives=alternatives(selected.chain, candidates, engine, within) if selected else (),
+        thresholds=limits,
+        repeatability=typical,
+        margin=choice.margin,
+        validation=(
+            "test data" if test else f"{FOLDS}-fold cross-validation over the frequency lines"
+        ),
+        same_as={c: other for c, other in first.items() if c != other},
+        rule=rule,
+        explanation=said,
+        members=members(
+            choice.near if said.explains else (), task, test_cost, within, executor, progress
+        ),
+        readings=(
             readings(fitted, task, store=engine.store, executor=executor, progress=progress)
             if hopeless
             else ()
         ),
-        choice.better,
-        task,
-        test or train,
+        better=choice.better,
+        task=task,
+        test=test or train,
     )
 
 

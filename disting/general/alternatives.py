@@ -130,12 +130,12 @@ def alternatives(
         ended = run_limited(solved, (equations, other.parameters, seed, AT_MOST), seconds)
         found = ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)
     return Alternatives(
-        model.name,
-        other.name,
-        exact,
-        found.extent,
-        found.equivalents,
-        found.free,
-        found.excluded,
-        found.reason,
+        model=model.name,
+        other=other.name,
+        values=exact,
+        extent=found.extent,
+        equivalents=found.equivalents,
+        free=found.free,
+        excluded=found.excluded,
+        reason=found.reason,
     )

@@ -4,13 +4,10 @@ polynomial ideal.
 
 from dataclasses import replace
 
-from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
-from disting.fibres.ideals import CoefficientMap, Decision, Limits, decide
+from disting.conditions.finding import Finding
+from disting.fibres.ideals import CoefficientMap, Limits, decide
 from disting.general.model import Model
-from disting.model.question import Membership
-from disting.questions.same.exact import SAFETY
+from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(safety=SAFETY)
 
@@ -20,7 +17,7 @@ def exact_finding(left: Model, right: Model, seed: str, limits: Limits = LIMITS)
     found = decide(
         coefficient_map(left), coefficient_map(right), equal_rank=True, seed=seed, limits=limits
     )
-    return _finding(found)
+    return decided(found)
 
 
 def coefficient_map(model: Model) -> CoefficientMap:
@@ -30,10 +27,3 @@ def coefficient_map(model: Model) -> CoefficientMap:
     names = tuple(f"p{i + 1}" for i in range(len(model.parameters)))
     plain = replace(model, parameters=names)
     return CoefficientMap(names, plain.numerator, plain.denominator)
-
-
-def _finding(found: Decision) -> Finding:
-    if found.membership is Membership.UNKNOWN:
-        return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
-    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, found.evidence)

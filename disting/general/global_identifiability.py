@@ -85,7 +85,11 @@ def global_identifiability(model: Model, settings: Settings = SETTINGS) -> Globa
         if vectors and _is_unique(ring, vectors, i, search)
     )
     return GlobalIdentifiability(
-        local, count, infinite, unique, _combinations(ring, model, local.rank, unique)
+        local=local,
+        count=count,
+        is_infinite=infinite,
+        unique=unique,
+        combinations=_combinations(ring, model, local.rank, unique),
     )
 
 

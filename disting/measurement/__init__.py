@@ -19,7 +19,7 @@ from disting.measurement.repeats import are_opposite as are_opposite
 from disting.measurement.repeats import mean_of as mean_of
 from disting.measurement.response import FrequencyResponse as FrequencyResponse
 from disting.measurement.response import Signal as Signal
+from disting.measurement.scaling import in_si as in_si
 from disting.measurement.time_series import TimeSeries as TimeSeries
-from disting.measurement.units import in_si as in_si
 from disting.measurement.writing import csv_text as csv_text
 from disting.measurement.writing import write_csv as write_csv

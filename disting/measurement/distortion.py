@@ -82,7 +82,11 @@ def distortion(
     noise = np.std(rest, axis=0, ddof=1) / np.sqrt(len(rest)) if len(rest) > 1 else None
     omega = np.multiply(between, spacing, dtype=np.float64)
     found = Distortion(
-        omega, np.abs(rest.mean(axis=0)), noise, between % 2 == 0, bool(np.all(excited % 2))
+        omega=omega,
+        level=np.abs(rest.mean(axis=0)),
+        noise=noise,
+        even=between % 2 == 0,
+        told_apart=bool(np.all(excited % 2)),
     )
     return found, _said(found, np.abs(response))
 

@@ -91,7 +91,9 @@ def variables(content: bytes) -> Iterator[Variable]:
         except DAMAGE:
             continue
         if name:
-            yield Variable(name, of, body, kind == COMPRESSED, order)
+            yield Variable(
+                name=name, kind=of, body=body, compressed=kind == COMPRESSED, order=order
+            )
 
 
 def _name(head: bytes, order: str) -> str:

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError
 from disting.measurement.grid import UNIT, known
-from disting.measurement.response import FrequencyResponse, Signal, as_sensor, as_sign
+from disting.measurement.response import FrequencyResponse, Signal, as_sign
 from disting.measurement.table import Table
 from disting.measurement.table_series import time_series
 from disting.measurement.tabular import frequency_response
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.variables import row
-from disting.model.chain import Sensor
+from disting.model.chain import Sensor, as_sensor
 
 
 def from_arrays(
@@ -34,7 +34,12 @@ def from_arrays(
     omega = _numbers(frequency, "frequency") * UNIT[known(frequency_unit)]
     values = _numbers(response, "response") * as_sign(sign)
     return FrequencyResponse(
-        omega, values, deviation, coherence, as_sensor(sensor), origin="arrays"
+        omega=omega,
+        G=values,
+        deviation=deviation,
+        coherence=coherence,
+        sensor=as_sensor(sensor),
+        origin="arrays",
     )
 
 
@@ -116,7 +121,11 @@ def _table(frame: Any) -> Table:
     if not len(values):
         raise InputError("the data frame has no rows")
     return Table(
-        tuple(map(str, whole.columns)), values, tuple(range(1, len(values) + 1)), (), "data frame"
+        headers=tuple(map(str, whole.columns)),
+        values=values,
+        lines=tuple(range(1, len(values) + 1)),
+        comments=(),
+        origin="data frame",
     )
 
 

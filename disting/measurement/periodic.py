@@ -162,13 +162,13 @@ def _estimated(inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str,
         )
     mean = outputs.mean(axis=0) / inputs.mean(axis=0)
     if periods == 1:
-        return Estimated(omega, mean, None, None, notes)
+        return Estimated(omega=omega, G=mean, deviation=None, coherence=None, notes=notes)
     deviation = np.std(outputs / inputs, axis=0, ddof=1) / np.sqrt(periods)
     power = np.sum(np.abs(inputs) ** 2, axis=0) * np.sum(np.abs(outputs) ** 2, axis=0)
     crossed = np.abs(np.sum(outputs * inputs.conj(), axis=0)) ** 2
     # 1 + rounding where nothing is noisy
     coherence = np.clip(crossed / np.where(power > 0, power, 1.0), 0.0, 1.0)
-    return Estimated(omega, mean, deviation, coherence, notes)
+    return Estimated(omega=omega, G=mean, deviation=deviation, coherence=coherence, notes=notes)
 
 
 def _whole(value: int, name: str, least: int) -> int:

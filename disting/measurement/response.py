@@ -2,7 +2,6 @@
 quantity and origin.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
@@ -21,7 +20,8 @@ from disting.measurement.arrays import (
     same,
 )
 from disting.measurement.distortion import Distortion
-from disting.model.chain import Sensor
+from disting.measurement.units import agree, differentiated
+from disting.model.chain import Sensor, as_sensor
 
 ASSUMED_ACCELERATION = (
     'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
@@ -177,11 +177,15 @@ class FrequencyResponse:
     def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":
         """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
         difference of the orders.
+
+        Raises InputError where the unit of the output is that of another quantity than it was read
+        as.
         """
         wanted = as_sensor(sensor)
         steps = wanted.order - self.sensor.order
         if not steps:
             return self
+        agree(self.output.unit, self.sensor)
         return replace(
             self,
             G=self.G * (1j * self.omega) ** steps,
@@ -192,7 +196,7 @@ class FrequencyResponse:
                 if self.distortion is None
                 else self.distortion.times(self.distortion.omega**steps)
             ),
-            output=self.output._replace(unit=_differentiated(self.output.unit, steps)),
+            output=self.output._replace(unit=differentiated(self.output.unit, self.sensor, wanted)),
         )
 
     def sign_reversed(self) -> "FrequencyResponse":
@@ -204,27 +208,8 @@ class FrequencyResponse:
         return replace(self, notes=tuple(dict.fromkeys([*self.notes, *(n for n in notes if n)])))
 
 
-def as_sensor(value: Sensor | str) -> Sensor:
-    """The sensor quantity of that name; raises InputError for another word."""
-    try:
-        return Sensor(value)
-    except ValueError:
-        raise InputError(
-            f"sensor is position, velocity or acceleration, not {shown(value)}"
-        ) from None
-
-
 def as_sign(value: int) -> int:
     """1 or -1; raises InputError for another number."""
     if value not in (1, -1):
         raise InputError(f"the sign of a sensor is 1 or -1, not {shown(value)}")
     return value
-
-
-def _differentiated(unit: str, steps: int) -> str:
-    """Unit after `steps` differentiations in time; "" where the unit is not one of a motion."""
-    for base in ("rad", "m", "mm", "um", "deg"):
-        family: Sequence[str] = (base, f"{base}/s", f"{base}/s^2")
-        if unit in family and 0 <= family.index(unit) + steps < len(family):
-            return family[family.index(unit) + steps]
-    return ""

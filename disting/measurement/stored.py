@@ -17,10 +17,9 @@ from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
     Signal,
-    as_sensor,
     as_sign,
 )
-from disting.model.chain import Sensor
+from disting.model.chain import Sensor, as_sensor
 
 HOLDERS = (STRUCT, OBJECT, mat5.OPAQUE)  # classes of variables in which responses may be
 DEFAULT_UNIT = "rad/TimeUnit"  # of MATLAB, where an object names none

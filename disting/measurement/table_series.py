@@ -6,11 +6,13 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.measurement.arrays import Real
-from disting.measurement.response import as_sign
+from disting.measurement.response import Signal, as_sign
 from disting.measurement.table import Table
 from disting.measurement.time_series import TimeSeries, said
-from disting.measurement.units import named
+from disting.measurement.units import drive, motion
 from disting.model.chain import Sensor
+
+BRACKETED = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
 
 
 def time_series(
@@ -49,6 +51,20 @@ def time_series(
     wanted = None if reference is None else table.column(table.at(reference))
     samples = table.column(u), table.column(y) * as_sign(sign)
     return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, notes, wanted)
+
+
+def named(header: str) -> Signal:
+    """Name and unit of a signal headed like `iq [A]`; no unit where the brackets hold another word.
+
+    >>> named("angle (deg)"), named("out (filtered)")
+    (Signal(label='angle', unit='deg'), Signal(label='out (filtered)', unit=''))
+    """
+    parts = BRACKETED.match(header)
+    return (
+        Signal(parts[1], parts[2])
+        if parts and (motion(parts[2]) or drive(parts[2]))
+        else Signal(header)
+    )
 
 
 def rate_of(time: Real, origin: str) -> float:

@@ -16,12 +16,11 @@ from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
     Signal,
-    as_sensor,
     as_sign,
 )
 from disting.measurement.table import Table
 from disting.measurement.units import ratio
-from disting.model.chain import Sensor
+from disting.model.chain import Sensor, as_sensor
 
 SENSOR_WORDS = {
     Sensor.POSITION: re.compile(

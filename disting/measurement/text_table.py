@@ -61,7 +61,13 @@ def table(text: str, origin: str) -> Table:
         [_numbers(n, fields, headers, decimal, origin) for n, fields in data], dtype=np.float64
     )
     outside = [" ".join(fields) for _, fields in split[:start]]
-    return Table(headers, values, tuple(n for n, _ in data), (*comments, *outside), origin)
+    return Table(
+        headers=headers,
+        values=values,
+        lines=tuple(n for n, _ in data),
+        comments=(*comments, *outside),
+        origin=origin,
+    )
 
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:

@@ -9,8 +9,8 @@ from disting.errors import InputError, shown
 from disting.measurement import checks, periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.closed_loop import follows_output
-from disting.measurement.response import UNNAMED, FrequencyResponse, Signal, as_sensor
-from disting.model.chain import Sensor
+from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
+from disting.model.chain import Sensor, as_sensor
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -136,16 +136,16 @@ class TimeSeries:
             else None
         )
         response = FrequencyResponse(
-            found.omega,
-            found.G,
-            found.deviation,
-            found.coherence,
-            self.sensor,
-            self.input,
-            self.output,
-            self.origin,
-            (*self.notes, *found.notes, *([doubt] if doubt else [])),
-            found.distortion,
+            omega=found.omega,
+            G=found.G,
+            deviation=found.deviation,
+            coherence=found.coherence,
+            sensor=self.sensor,
+            input=self.input,
+            output=self.output,
+            origin=self.origin,
+            notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
+            distortion=found.distortion,
         )
         return response if sensor is None else response.to_quantity(sensor)
 

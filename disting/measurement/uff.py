@@ -19,10 +19,9 @@ from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
     Signal,
-    as_sensor,
     as_sign,
 )
-from disting.model.chain import Sensor
+from disting.model.chain import Sensor, as_sensor
 
 RESPONSE, COHERENCE = 4, 6
 QUANTITIES = {8: Sensor.POSITION, 11: Sensor.VELOCITY, 12: Sensor.ACCELERATION}

@@ -19,12 +19,11 @@ from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
     Signal,
-    as_sensor,
     as_sign,
 )
 from disting.measurement.table_series import rate_of
 from disting.measurement.time_series import TimeSeries, said
-from disting.model.chain import Sensor
+from disting.model.chain import Sensor, as_sensor
 
 HERTZ_NAMES = ("f", "freq", "frequency", "Frequency", "f_Hz", "fHz", "freqs", "frequencies", "F")
 OMEGA_NAMES = ("w", "omega", "Omega", "om", "wout")

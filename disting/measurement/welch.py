@@ -87,7 +87,11 @@ def estimate(
     notes += [_left_out(grid[kept], good, level)] * (not good.all())
     coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
     return Estimated(
-        2 * np.pi * grid[kept][good], response[good], deviation[good], coherence[good], tuple(notes)
+        omega=2 * np.pi * grid[kept][good],
+        G=response[good],
+        deviation=deviation[good],
+        coherence=coherence[good],
+        notes=tuple(notes),
     )
 
 

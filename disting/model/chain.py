@@ -67,7 +67,7 @@ class Chain:
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violated(self.indices, (36, 37)):
             raise ConstraintViolation(_refusal(self.indices, broken.equation, broken.text))
-        object.__setattr__(self, "sensor", _sensor(self.sensor))
+        object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
 
     @property
@@ -119,13 +119,13 @@ def _structure(chain: Chain) -> Structure:
     )
 
 
-def _sensor(value: str) -> Sensor:
+def as_sensor(value: Sensor | str) -> Sensor:
+    """The sensor quantity of that name; raises InputError for another word."""
     try:
         return Sensor(value)
     except ValueError:
-        raise InputError(
-            f"sensor is position, velocity or acceleration, not {shown(value)}"
-        ) from None
+        *others, last = Sensor
+        raise InputError(f"sensor is {', '.join(others)} or {last}, not {shown(value)}") from None
 
 
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:

@@ -13,8 +13,12 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from disting.errors import InputError
+
 if TYPE_CHECKING:
     import networkx as nx
+
+HIGHEST = 2  # derivative that has Markov parameters and a state space whatever the ports
 
 
 def _between(i: int) -> str:
@@ -117,6 +121,13 @@ class Structure:
     lag: bool = False
     dead_time: bool = False
 
+    def __post_init__(self) -> None:
+        if not 0 <= self.sensor_order <= HIGHEST:
+            raise InputError(
+                "a sensor shows the position or one of its first two derivatives, not derivative"
+                f" {self.sensor_order}: beyond, the transfer function of a mass is not proper"
+            )
+
     @cached_property
     def parameters(self) -> tuple[str, ...]:
         """Parameter names in the order of the elements, then T1 and Td."""
@@ -128,8 +139,8 @@ class Structure:
         return 2 * self.n_masses + self.lag
 
     @cached_property
-    def blocks(self) -> tuple[tuple[int, int], ...]:
-        """Connected rows of masses (first, last), ground not counted as a connection."""
+    def row_ends(self) -> tuple[tuple[int, int], ...]:
+        """First and last mass of each row; the ground is not counted as a connection."""
         joints = {e.at for e in self.elements if e.kind in "kd"}
         cuts = [0, *(i for i in range(1, self.n_masses) if i not in joints), self.n_masses]
         return tuple((a + 1, b) for a, b in pairwise(cuts))

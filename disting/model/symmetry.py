@@ -1,8 +1,8 @@
 """Symmetries that hold for every parameter value: renamings of condition 6 that need no search.
 
-With a gap, the receptance is the sum of the grounded part's (between `act_minus` and `meas_minus`)
-and the free part's (between `act_plus` and `meas_plus`). Each part is reciprocal on its own (A(s)
-is symmetric, so is its inverse), and the free part may be mirrored: mass i becomes mass n_gap + 1
+With a gap, the receptance is the sum of the grounded row's (between `act_minus` and `meas_minus`)
+and the free row's (between `act_plus` and `meas_plus`). Each row is reciprocal on its own (A(s)
+is symmetric, so is its inverse), and the free row may be mirrored: mass i becomes mass n_gap + 1
 + N_B - i. So every chain has up to eight equivalent forms, with the same transfer function after a
 renaming of the parameters, over complex, real and positive parameters alike.
 """
@@ -99,7 +99,7 @@ def _renaming(chain: Chain, symmetries: tuple[Symmetry, ...]) -> dict[str, str]:
 
 
 def _folded(element: Element, chain: Chain, mirrored: bool) -> Element:
-    """Where reflection of the free part takes an element: a joint between i and i+1 goes to
+    """Where reflection of the free row takes an element: a joint between i and i+1 goes to
     between fold(i+1) and fold(i).
     """
     if not mirrored or element.at <= chain.gap:

@@ -92,51 +92,62 @@ def _all_distinguishable(found: list[Verdict]) -> bool:
 
 CANDIDATE_CLAIMS = (
     Claim(
-        "dead-time",
-        "Section 5.2",
-        "“delay time cannot be confused with a fractional polynomial TF, unless the order is very"
-        " high”",
-        "distinguishable",
-        dead_time,
-        Outcome.AGREES,
-        "An exponential is no rational function, of whatever order.",
+        key="dead-time",
+        place="Section 5.2",
+        text=(
+            "“delay time cannot be confused with a fractional polynomial TF, unless the order is"
+            " very high”"
+        ),
+        printed="distinguishable",
+        check=dead_time,
+        outcome=Outcome.AGREES,
+        reason="An exponential is no rational function, of whatever order.",
     ),
     Claim(
-        "lag",
-        "Section 5.2",
-        "“the first-order hold model leads to augmented models that are distinguishable from the"
-        " original models in all eleven cases”",
-        "all eleven",
-        lag,
-        Outcome.AGREES,
-        "Read as the first-order lag of the torque control.",
+        key="lag",
+        place="Section 5.2",
+        text=(
+            "“the first-order hold model leads to augmented models that are distinguishable from"
+            " the original models in all eleven cases”"
+        ),
+        printed="all eleven",
+        check=lag,
+        outcome=Outcome.AGREES,
+        reason="Read as the first-order lag of the torque control.",
     ),
     Claim(
-        "figure-14",
-        "Section 5.2, Fig. 14",
-        "“For each of the eleven 3-mass systems it is shown which combinations of dampers are"
-        " distinguishable …”",
-        "figure lost",
-        figure_14,
-        Outcome.AGREES,
-        "The figure is lost; what the text says of it holds.",
+        key="figure-14",
+        place="Section 5.2, Fig. 14",
+        text=(
+            "“For each of the eleven 3-mass systems it is shown which combinations of dampers are"
+            " distinguishable …”"
+        ),
+        printed="figure lost",
+        check=figure_14,
+        outcome=Outcome.AGREES,
+        reason="The figure is lost; what the text says of it holds.",
     ),
     Claim(
-        "candidates-distinguishable",
-        "Section 5.2",
-        "“the set of candidate models was chosen appropriately with distinguishable models only”",
-        "all distinguishable",
-        candidates,
-        Outcome.AGREES,
-        "Conditions 1 to 9 leave some of these pairs open; the exact decision settles them.",
+        key="candidates-distinguishable",
+        place="Section 5.2",
+        text=(
+            "“the set of candidate models was chosen appropriately with distinguishable models"
+            " only”"
+        ),
+        printed="all distinguishable",
+        check=candidates,
+        outcome=Outcome.AGREES,
+        reason="Conditions 1 to 9 leave some of these pairs open; the exact decision settles them.",
     ),
     Claim(
-        "a3",
-        "Section 5.2",
-        "“for other system, e.g. A3 it would not be possible to determine the correct positions of"
-        " dampers”",
-        "not possible",
-        model_a3,
-        Outcome.AGREES,
+        key="a3",
+        place="Section 5.2",
+        text=(
+            "“for other system, e.g. A3 it would not be possible to determine the correct positions"
+            " of dampers”"
+        ),
+        printed="not possible",
+        check=model_a3,
+        outcome=Outcome.AGREES,
     ),
 )

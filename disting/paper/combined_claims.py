@@ -5,8 +5,8 @@
 from collections import Counter
 from itertools import combinations
 
-from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome as Holding
+from disting.conditions.rule import Stage
 from disting.conditions.structural import condition_9
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome
@@ -48,9 +48,7 @@ def eight_cases(findings: Findings) -> Found:
     """Undamped 4-mass pairs that Markov parameters decide and coefficients do not."""
     catalog = findings.catalog(4)
     gained = [
-        v.relation
-        for i, j, v in catalog.pairs(View.COMBINED)
-        if v.representation == Representation.MARKOV
+        v.relation for i, j, v in catalog.pairs(View.COMBINED) if v.representation is Stage.MARKOV
     ]
     return Found(
         f"{len(gained)} cases, all distinguishable", set(gained) != {Relation.DISTINGUISHABLE}
@@ -123,82 +121,95 @@ NINE = (
 )
 COMBINED_CLAIMS = (
     Claim(
-        "condition-9",
-        "Section 5.2",
-        "Condition 9: “For three masses there is no such occurrence, for four masses the criterion"
-        " proves indistinguishability of one combination (not covered by any other criterion) … and"
-        " for five masses this is true for six combinations.”",
-        "it proves 0, 1 and 6 pairs of 3, 4 and 5 masses",
-        condition_9_holds,
-        Outcome.DIFFERS,
-        NINE,
+        key="condition-9",
+        place="Section 5.2",
+        text=(
+            "Condition 9: “For three masses there is no such occurrence, for four masses the"
+            " criterion proves indistinguishability of one combination (not covered by any other"
+            " criterion) … and for five masses this is true for six combinations.”"
+        ),
+        printed="it proves 0, 1 and 6 pairs of 3, 4 and 5 masses",
+        check=condition_9_holds,
+        outcome=Outcome.DIFFERS,
+        reason=NINE,
     ),
     Claim(
-        "figure-13",
-        "Section 5.2, Fig. 13",
-        "Combined TFA and MPA for the 4-mass system without damping; unknown areas remain.",
-        "pairs stay open",
-        figure_13,
-        Outcome.AGREES,
-        "The figure is lost: that pairs stay open is printed, their number is not. With G_0 to"
-        " G_12, of which the odd ones are zero without damping, the eight extra decisions of the"
-        " text appear.",
+        key="figure-13",
+        place="Section 5.2, Fig. 13",
+        text="Combined TFA and MPA for the 4-mass system without damping; unknown areas remain.",
+        printed="pairs stay open",
+        check=figure_13,
+        outcome=Outcome.AGREES,
+        reason=(
+            "The figure is lost: that pairs stay open is printed, their number is not. With G_0 to"
+            " G_12, of which the odd ones are zero without damping, the eight extra decisions of"
+            " the text appear."
+        ),
     ),
     Claim(
-        "eight-cases",
-        "Section 5.2, Fig. 13",
-        "“In eight cases the MPA proved indistinguishability which could not be proved by the"
-        " TFA.”",
-        "8 cases of indistinguishability",
-        eight_cases,
-        Outcome.DIFFERS,
-        "The number is right. " + MISREAD,
+        key="eight-cases",
+        place="Section 5.2, Fig. 13",
+        text=(
+            "“In eight cases the MPA proved indistinguishability which could not be proved by the"
+            " TFA.”"
+        ),
+        printed="8 cases of indistinguishability",
+        check=eight_cases,
+        outcome=Outcome.DIFFERS,
+        reason="The number is right. " + MISREAD,
     ),
     Claim(
-        "11-and-13",
-        "Section 5.2, Fig. 13",
-        "“Equivalence of models 11 and 13 was shown by cond. 9.”",
-        "by condition 9",
-        eleven_and_thirteen,
-        Outcome.DIFFERS,
-        "They are equivalent, and condition 7 proves it. " + NINE,
+        key="11-and-13",
+        place="Section 5.2, Fig. 13",
+        text="“Equivalence of models 11 and 13 was shown by cond. 9.”",
+        printed="by condition 9",
+        check=eleven_and_thirteen,
+        outcome=Outcome.DIFFERS,
+        reason="They are equivalent, and condition 7 proves it. " + NINE,
     ),
     Claim(
-        "condition-6",
-        "Section 5.2",
-        "“Damping is neglected because otherwise … condition 6 could never be applied.”",
-        "condition 6 never applies",
-        condition_6_damped,
-        Outcome.DIFFERS,
-        "Exchanging force and sensor and mirroring the free part are renamings with damping too;"
-        " condition 7 is the one that never applies there.",
+        key="condition-6",
+        place="Section 5.2",
+        text="“Damping is neglected because otherwise … condition 6 could never be applied.”",
+        printed="condition 6 never applies",
+        check=condition_6_damped,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "Exchanging force and sensor and mirroring the free row are renamings with damping too;"
+            " condition 7 is the one that never applies there."
+        ),
     ),
     Claim(
-        "2-and-8",
-        "Section 6",
-        "“Conditions 2 and 8 never appeared to be pivotal.”",
-        "never",
-        conditions_2_and_8,
-        Outcome.DIFFERS,
-        "Within one family, the setting that the paper gives as the reason, it is so. But the"
-        " dampers of Fig. 14 are its own comparison too, and there condition 8 decides: a base"
-        " damper that adds to what is there makes a submodel of equal rank. Between undamped models"
-        " of different sizes condition 2 decides as well.",
+        key="2-and-8",
+        place="Section 6",
+        text="“Conditions 2 and 8 never appeared to be pivotal.”",
+        printed="never",
+        check=conditions_2_and_8,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "Within one family, the setting that the paper gives as the reason, it is so. But the"
+            " dampers of Fig. 14 are its own comparison too, and there condition 8 decides: a base"
+            " damper that adds to what is there makes a submodel of equal rank. Between undamped"
+            " models of different sizes condition 2 decides as well."
+        ),
     ),
     Claim(
-        "superior",
-        "Section 7",
-        "“The transfer function approach is mostly superior over the Markov parameter approach …”",
-        "mostly superior",
-        superior,
-        Outcome.AGREES,
+        key="superior",
+        place="Section 7",
+        text=(
+            "“The transfer function approach is mostly superior over the Markov parameter"
+            " approach …”"
+        ),
+        printed="mostly superior",
+        check=superior,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "almost-all",
-        "Abstract",
-        "“It can be proved or disproved for almost all combinations of potential models.”",
-        "almost all",
-        almost_all,
-        Outcome.AGREES,
+        key="almost-all",
+        place="Abstract",
+        text="“It can be proved or disproved for almost all combinations of potential models.”",
+        printed="almost all",
+        check=almost_all,
+        outcome=Outcome.AGREES,
     ),
 )

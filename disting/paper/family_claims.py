@@ -98,58 +98,70 @@ def _series(findings: Findings, chain: Chain, count: int) -> frozenset[str]:
 
 FAMILY_CLAIMS = (
     Claim(
-        "table-2",
-        "Table 2",
-        "“Number of possible models for different numbers of masses”, 1 to 5.",
-        "1, 3, 11, 29 and 73",
-        table_2,
-        Outcome.AGREES,
+        key="table-2",
+        place="Table 2",
+        text="“Number of possible models for different numbers of masses”, 1 to 5.",
+        printed="1, 3, 11, 29 and 73",
+        check=table_2,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "numbering",
-        "Table 3, section 5.2",
-        "A3 alone has 7 non-constant coefficients; 4-mass models 11 and 13 have the same actuator"
-        " and sensor location, but a different gap.",
-        "A3; 11 and 13",
-        numbering,
-        Outcome.AGREES,
-        "Table 3 itself did not survive in the text; this order fits every statement that names a"
-        " model.",
+        key="numbering",
+        place="Table 3, section 5.2",
+        text=(
+            "A3 alone has 7 non-constant coefficients; 4-mass models 11 and 13 have the same"
+            " actuator and sensor location, but a different gap."
+        ),
+        printed="A3; 11 and 13",
+        check=numbering,
+        outcome=Outcome.AGREES,
+        reason=(
+            "Table 3 itself did not survive in the text; this order fits every statement that names"
+            " a model."
+        ),
     ),
     Claim(
-        "figure-9",
-        "Section 5.1, Fig. 9",
-        "“In the example in Fig. 9 the second condition [of (37)] is violated”; “In Fig. 9 both"
-        " rules [(38)] are violated.”",
-        "second of (37), both of (38)",
-        figure_9,
-        Outcome.AGREES,
+        key="figure-9",
+        place="Section 5.1, Fig. 9",
+        text=(
+            "“In the example in Fig. 9 the second condition [of (37)] is violated”; “In Fig. 9 both"
+            " rules [(38)] are violated.”"
+        ),
+        printed="second of (37), both of (38)",
+        check=figure_9,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "figure-1",
-        "Section 5",
-        "“Figure 1 represents a special case with single-sided force input and collocated"
-        " measurement.”",
-        "special case",
-        figure_1_models,
-        Outcome.AGREES,
+        key="figure-1",
+        place="Section 5",
+        text=(
+            "“Figure 1 represents a special case with single-sided force input and collocated"
+            " measurement.”"
+        ),
+        printed="special case",
+        check=figure_1_models,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "collocated",
-        "Table 3",
-        "“Collocated systems, i.e. sensor and actuator at the same position, are marked with an"
-        " asterisk.”",
-        "asterisks, lost with the table",
-        collocated,
-        Outcome.AGREES,
+        key="collocated",
+        place="Table 3",
+        text=(
+            "“Collocated systems, i.e. sensor and actuator at the same position, are marked with an"
+            " asterisk.”"
+        ),
+        printed="asterisks, lost with the table",
+        check=collocated,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "sensors",
-        "Section 5.2",
-        "“For velocity (position) sensors, the same results can be obtained, except that the Markov"
-        " parameters and TF coefficients are shifted by one (two) …”",
-        "shifted by one (two)",
-        sensors,
-        Outcome.AGREES,
+        key="sensors",
+        place="Section 5.2",
+        text=(
+            "“For velocity (position) sensors, the same results can be obtained, except that the"
+            " Markov parameters and TF coefficients are shifted by one (two) …”"
+        ),
+        printed="shifted by one (two)",
+        check=sensors,
+        outcome=Outcome.AGREES,
     ),
 )

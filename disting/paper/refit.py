@@ -95,7 +95,14 @@ def refitted(given: Mapping[str, float] = GIVEN) -> Refit:
     omega = np.geomspace(low, high, LINES)
     measured = FrequencyResponse(omega, Plant(source.structure, omega).response(p))
     found = estimates([target], Task(Cost(measured)))[target]
-    return Refit(source, target, given, found.parameters, measured, found.j)
+    return Refit(
+        given=source,
+        fitted=target,
+        given_parameters=given,
+        fitted_parameters=found.parameters,
+        measured=measured,
+        j=found.j,
+    )
 
 
 def _vector(chain: Chain, values: Mapping[str, float]) -> Real:

@@ -173,154 +173,176 @@ def thresholds(findings: Findings) -> Found:
 TEST_BEDS = "It depends on measurements of the authors' test beds, which are not published."
 SELECTION_CLAIMS = (
     Claim(
-        "weights",
-        "Section 2.3, after (14)",
-        "“… π and 1 can be chosen as weightings for amplitude and phase, respectively. Then 20 dB"
-        " difference in the amplitude has an equivalent effect as 180° in the phase.”",
-        "20 dB ≙ 180°",
-        weights,
-        Outcome.AGREES,
+        key="weights",
+        place="Section 2.3, after (14)",
+        text=(
+            "“… π and 1 can be chosen as weightings for amplitude and phase, respectively. Then 20"
+            " dB difference in the amplitude has an equivalent effect as 180° in the phase.”"
+        ),
+        printed="20 dB ≙ 180°",
+        check=weights,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "sensitivities",
-        "Equations (13), (15)",
-        "The sensitivities of amplitude, of its logarithm and of the phase in terms of S_r and"
-        " S_i.",
-        "formulas",
-        sensitivities,
-        Outcome.AGREES,
+        key="sensitivities",
+        place="Equations (13), (15)",
+        text=(
+            "The sensitivities of amplitude, of its logarithm and of the phase in terms of S_r and"
+            " S_i."
+        ),
+        printed="formulas",
+        check=sensitivities,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "phase",
-        "Section 2.3, end",
-        "“A potential problem is, however, that the measured and simulated phase must be"
-        " interpolated continuous beyond ±2π.”",
-        "must be interpolated",
-        phase,
-        Outcome.DIFFERS,
-        "The difference of the phases is the argument of the quotient; neither phase has to be"
-        " unwrapped.",
+        key="phase",
+        place="Section 2.3, end",
+        text=(
+            "“A potential problem is, however, that the measured and simulated phase must be"
+            " interpolated continuous beyond ±2π.”"
+        ),
+        printed="must be interpolated",
+        check=phase,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "The difference of the phases is the argument of the quotient; neither phase has to be"
+            " unwrapped."
+        ),
     ),
     Claim(
-        "importance",
-        "Equation (16)",
-        "msqr parameter importance index “given by Brun et al. (2001): δ_j = ‖S_j Δp_j‖₂”",
-        "‖S_j Δp_j‖₂",
-        importance_index,
-        Outcome.AGREES,
-        "Brun et al. divide by the number of rows under the root; the ratio of two indices, which"
-        " is thresholded, is the same.",
+        key="importance",
+        place="Equation (16)",
+        text="msqr parameter importance index “given by Brun et al. (2001): δ_j = ‖S_j Δp_j‖₂”",
+        printed="‖S_j Δp_j‖₂",
+        check=importance_index,
+        outcome=Outcome.AGREES,
+        reason=(
+            "Brun et al. divide by the number of rows under the root; the ratio of two indices,"
+            " which is thresholded, is the same."
+        ),
     ),
     Claim(
-        "collinearity",
-        "Equation (17)",
-        "“γ_k = 1/√λ_k … λ_k is the smallest singular value of S̃”",
-        "smallest singular value under the root",
-        collinearity_formula,
-        Outcome.DIFFERS,
-        "A misprint: with unit columns 1 ≤ μ_max ≤ √N_p, which the printed formula contradicts in"
-        " every row of Table 1. Brun et al. take the smallest eigenvalue of S̃ᵀS̃.",
+        key="collinearity",
+        place="Equation (17)",
+        text="“γ_k = 1/√λ_k … λ_k is the smallest singular value of S̃”",
+        printed="smallest singular value under the root",
+        check=collinearity_formula,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "A misprint: with unit columns 1 ≤ μ_max ≤ √N_p, which the printed formula contradicts"
+            " in every row of Table 1. Brun et al. take the smallest eigenvalue of S̃ᵀS̃."
+        ),
     ),
     Claim(
-        "condition",
-        "Equation (18)",
-        "“η̃_k = μ_max/μ_k”, with the singular values of S̃",
-        "μ_max/μ_k",
-        condition_index,
-        Outcome.AGREES,
+        key="condition",
+        place="Equation (18)",
+        text="“η̃_k = μ_max/μ_k”, with the singular values of S̃",
+        printed="μ_max/μ_k",
+        check=condition_index,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "candidates",
-        "Section 3.1",
-        "“a maximum of 4 masses are considered (120 different models)”",
-        "120",
-        candidates,
-        Outcome.AGREES,
+        key="candidates",
+        place="Section 3.1",
+        text="“a maximum of 4 masses are considered (120 different models)”",
+        printed="120",
+        check=candidates,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "sizes",
-        "Section 3.1",
-        "The best models, such as “a 3-mass system with additional damper to the base at mass 2 and"
-        " delay time”, have 9, 12, 9 and 6 estimation parameters.",
-        "9, 12, 9 and 6",
-        sizes,
-        Outcome.AGREES,
+        key="sizes",
+        place="Section 3.1",
+        text=(
+            "The best models, such as “a 3-mass system with additional damper to the base at mass 2"
+            " and delay time”, have 9, 12, 9 and 6 estimation parameters."
+        ),
+        printed="9, 12, 9 and 6",
+        check=sizes,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "numerical",
-        "Section 3.1",
-        "4-mass models “often require numerical sensitivity matrix calculation due to TF"
-        " complexity”",
-        "numerical differentiation",
-        numerical_sensitivity,
-        Outcome.DIFFERS,
-        "The transfer function is never expanded: its derivatives are products of two solutions of"
-        " the same linear equations.",
+        key="numerical",
+        place="Section 3.1",
+        text=(
+            "4-mass models “often require numerical sensitivity matrix calculation due to TF"
+            " complexity”"
+        ),
+        printed="numerical differentiation",
+        check=numerical_sensitivity,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "The transfer function is never expanded: its derivatives are products of two solutions"
+            " of the same linear equations."
+        ),
     ),
     Claim(
-        "table-1",
-        "Table 1",
-        "Every best model fulfils the thresholds of its setting.",
-        "18 values within their thresholds",
-        table_1,
-        Outcome.DIFFERS,
-        "Either a digit of the table is wrong, or the comparison allowed for rounding.",
+        key="table-1",
+        place="Table 1",
+        text="Every best model fulfils the thresholds of its setting.",
+        printed="18 values within their thresholds",
+        check=table_1,
+        outcome=Outcome.DIFFERS,
+        reason="Either a digit of the table is wrong, or the comparison allowed for rounding.",
     ),
     Claim(
-        "thresholds",
-        "Section 3.2, Figs. 5 and 6",
-        "“mostly the number of parameters increases as the threshold increases. Exceptions"
-        " exist …”",
-        "mostly increases",
-        thresholds,
-        Outcome.AGREES,
-        "Checked on other data than the paper's.",
+        key="thresholds",
+        place="Section 3.2, Figs. 5 and 6",
+        text=(
+            "“mostly the number of parameters increases as the threshold increases. Exceptions"
+            " exist …”"
+        ),
+        printed="mostly increases",
+        check=thresholds,
+        outcome=Outcome.AGREES,
+        reason="Checked on other data than the paper's.",
     ),
     Claim(
-        "test-bed-1",
-        "Section 3.1, Fig. 3",
-        "Test bed 1: three masses, damper at mass 2 and delay time, for all three settings.",
-        "3 masses, b2, delay",
-        None,
-        Outcome.UNCHECKED,
-        TEST_BEDS,
+        key="test-bed-1",
+        place="Section 3.1, Fig. 3",
+        text="Test bed 1: three masses, damper at mass 2 and delay time, for all three settings.",
+        printed="3 masses, b2, delay",
+        check=None,
+        outcome=Outcome.UNCHECKED,
+        reason=TEST_BEDS,
     ),
     Claim(
-        "test-bed-2",
-        "Section 3.1, Fig. 4",
-        "Test bed 2: four masses, three or two, depending on the thresholds.",
-        "4, 3 or 2 masses",
-        None,
-        Outcome.UNCHECKED,
-        TEST_BEDS,
+        key="test-bed-2",
+        place="Section 3.1, Fig. 4",
+        text="Test bed 2: four masses, three or two, depending on the thresholds.",
+        printed="4, 3 or 2 masses",
+        check=None,
+        outcome=Outcome.UNCHECKED,
+        reason=TEST_BEDS,
     ),
     Claim(
-        "values",
-        "Table 1",
-        "The values of the criteria of the best models.",
-        "18 values",
-        None,
-        Outcome.UNCHECKED,
-        TEST_BEDS,
+        key="values",
+        place="Table 1",
+        text="The values of the criteria of the best models.",
+        printed="18 values",
+        check=None,
+        outcome=Outcome.UNCHECKED,
+        reason=TEST_BEDS,
     ),
     Claim(
-        "edge",
-        "Section 3.2, Figs. 7 and 8",
-        "“The graphs of testbed 1 show a clear edge at approx. 60 models.”",
-        "about 60",
-        None,
-        Outcome.UNCHECKED,
-        TEST_BEDS,
+        key="edge",
+        place="Section 3.2, Figs. 7 and 8",
+        text="“The graphs of testbed 1 show a clear edge at approx. 60 models.”",
+        printed="about 60",
+        check=None,
+        outcome=Outcome.UNCHECKED,
+        reason=TEST_BEDS,
     ),
     Claim(
-        "hours",
-        "Section 3.1",
-        "The calculation takes about seven hours, for at most three masses 35 minutes.",
-        "7 h, 35 min",
-        None,
-        Outcome.UNCHECKED,
-        "It depends on the authors' program and computer; here a selection takes seconds to a"
-        " minute.",
+        key="hours",
+        place="Section 3.1",
+        text="The calculation takes about seven hours, for at most three masses 35 minutes.",
+        printed="7 h, 35 min",
+        check=None,
+        outcome=Outcome.UNCHECKED,
+        reason=(
+            "It depends on the authors' program and computer; here a selection takes seconds to a"
+            " minute."
+        ),
     ),
 )
 """In the paper's order, what depends on the test beds last."""

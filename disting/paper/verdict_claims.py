@@ -181,143 +181,171 @@ MISREAD = (
 )
 VERDICT_CLAIMS = (
     Claim(
-        "same-pictures",
-        "Section 5.2",
-        "“For velocity (position) sensors, the same results can be obtained …”",
-        "same results",
-        same_pictures,
-        Outcome.AGREES,
+        key="same-pictures",
+        place="Section 5.2",
+        text="“For velocity (position) sensors, the same results can be obtained …”",
+        printed="same results",
+        check=same_pictures,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "figure-10-left",
-        "Section 5.2, Fig. 10 left",
-        "“without damping a conclusive result is obtained for all model combinations with the TFA”",
-        "0 of 55 open",
-        figure_10_left,
-        Outcome.AGREES,
+        key="figure-10-left",
+        place="Section 5.2, Fig. 10 left",
+        text=(
+            "“without damping a conclusive result is obtained for all model combinations with the"
+            " TFA”"
+        ),
+        printed="0 of 55 open",
+        check=figure_10_left,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "figure-10-right",
-        "Section 5.2, Fig. 10 right",
-        "“The MPA with 8 Markov parameters produces no contradictions but it cannot prove"
-        " indistinguishability of the indistinguishable models …”",
-        "all indistinguishable pairs open",
-        figure_10_right,
-        Outcome.AGREES,
+        key="figure-10-right",
+        place="Section 5.2, Fig. 10 right",
+        text=(
+            "“The MPA with 8 Markov parameters produces no contradictions but it cannot prove"
+            " indistinguishability of the indistinguishable models …”"
+        ),
+        printed="all indistinguishable pairs open",
+        check=figure_10_right,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "determinable",
-        "Section 5.2",
-        "“the 5 determinable parameters” (3 masses, undamped)",
-        "5 determinable parameters",
-        determinable,
-        Outcome.DIFFERS,
-        "Five is the number of parameters; several transfer functions determine fewer combinations"
-        " of them.",
+        key="determinable",
+        place="Section 5.2",
+        text="“the 5 determinable parameters” (3 masses, undamped)",
+        printed="5 determinable parameters",
+        check=determinable,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "Five is the number of parameters; several transfer functions determine fewer"
+            " combinations of them."
+        ),
     ),
     Claim(
-        "condition-7-markov",
-        "Section 5.2",
-        "“Condition 7 is not applicable because there are typically more non-constant moment"
-        " invariants than the 5 determinable parameters”",
-        "condition 7 not applicable",
-        more_markov_than_parameters,
-        Outcome.AGREES,
+        key="condition-7-markov",
+        place="Section 5.2",
+        text=(
+            "“Condition 7 is not applicable because there are typically more non-constant moment"
+            " invariants than the 5 determinable parameters”"
+        ),
+        printed="condition 7 not applicable",
+        check=more_markov_than_parameters,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "fewer-than-8",
-        "Section 5.2",
-        "“For the case of calculating fewer Markov parameters than 8 the unknown area expands”",
-        "expands",
-        fewer_than_eight,
-        Outcome.AGREES,
+        key="fewer-than-8",
+        place="Section 5.2",
+        text=(
+            "“For the case of calculating fewer Markov parameters than 8 the unknown area expands”"
+        ),
+        printed="expands",
+        check=fewer_than_eight,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "all-12",
-        "Section 5.2",
-        "“for significantly more than 8, up to 12 the computation time would be formidable”",
-        "out of reach",
-        all_twelve,
-        Outcome.DIFFERS,
-        "At random points modulo primes all 12 take a fraction of a second for the whole family;"
-        " condition 6 then applies.",
+        key="all-12",
+        place="Section 5.2",
+        text="“for significantly more than 8, up to 12 the computation time would be formidable”",
+        printed="out of reach",
+        check=all_twelve,
+        outcome=Outcome.DIFFERS,
+        reason=(
+            "At random points modulo primes all 12 take a fraction of a second for the whole"
+            " family; condition 6 then applies."
+        ),
     ),
     Claim(
-        "no-more",
-        "Section 5.2",
-        "“the TFA seems more powerful and the MPA provides no additional information” (undamped)",
-        "none",
-        no_additional_information,
-        Outcome.AGREES,
+        key="no-more",
+        place="Section 5.2",
+        text=(
+            "“the TFA seems more powerful and the MPA provides no additional information”"
+            " (undamped)"
+        ),
+        printed="none",
+        check=no_additional_information,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "figure-11",
-        "Section 5.2, Fig. 11",
-        "“neither the TFA, nor the MPA with 7 Markov parameters can derive an answer to the"
-        " distinguishability question for all combinations” (damped)",
-        "both leave pairs open",
-        figure_11,
-        Outcome.AGREES,
+        key="figure-11",
+        place="Section 5.2, Fig. 11",
+        text=(
+            "“neither the TFA, nor the MPA with 7 Markov parameters can derive an answer to the"
+            " distinguishability question for all combinations” (damped)"
+        ),
+        printed="both leave pairs open",
+        check=figure_11,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "non-constant",
-        "Section 5.2",
-        "“the number of non-constant TF coefficients (7...9, 7 only for model A3) … Without damping"
-        " … (3...5)”",
-        "7 to 9, 7 for A3 only; 3 to 5",
-        non_constant,
-        Outcome.AGREES,
+        key="non-constant",
+        place="Section 5.2",
+        text=(
+            "“the number of non-constant TF coefficients (7...9, 7 only for model A3) … Without"
+            " damping … (3...5)”"
+        ),
+        printed="7 to 9, 7 for A3 only; 3 to 5",
+        check=non_constant,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "beyond",
-        "Section 5.2",
-        "“in some cases the MPA proves indistinguishability that cannot be proved with the TFA”",
-        "indistinguishability",
-        beyond_coefficients,
-        Outcome.DIFFERS,
-        MISREAD,
+        key="beyond",
+        place="Section 5.2",
+        text=(
+            "“in some cases the MPA proves indistinguishability that cannot be proved with the TFA”"
+        ),
+        printed="indistinguishability",
+        check=beyond_coefficients,
+        outcome=Outcome.DIFFERS,
+        reason=MISREAD,
     ),
     Claim(
-        "figure-12-pair",
-        "Section 5.2, Fig. 12",
-        "A1 and A4 are such a case.",
-        "decided by the MPA only",
-        figure_12_pair,
-        Outcome.AGREES,
+        key="figure-12-pair",
+        place="Section 5.2, Fig. 12",
+        text="A1 and A4 are such a case.",
+        printed="decided by the MPA only",
+        check=figure_12_pair,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "figure-12-frequencies",
-        "Section 5.2, Fig. 12",
-        "“the frequencies of resonances and antiresonances are in agreement”",
-        "in agreement",
-        figure_12_frequencies,
-        Outcome.AGREES,
-        "A1 with damped first coupling (Fig. 12 below); the paper's parameters are not given.",
+        key="figure-12-frequencies",
+        place="Section 5.2, Fig. 12",
+        text="“the frequencies of resonances and antiresonances are in agreement”",
+        printed="in agreement",
+        check=figure_12_frequencies,
+        outcome=Outcome.AGREES,
+        reason=(
+            "A1 with damped first coupling (Fig. 12 below); the paper's parameters are not given."
+        ),
     ),
     Claim(
-        "figure-12-damping",
-        "Section 5.2, Fig. 12",
-        "“it is not possible to match the damping at all four (anti)resonances simultaneously”",
-        "not possible",
-        figure_12_damping,
-        Outcome.AGREES,
-        "The best fit of many starts; the proof is the verdict on A1 and A4. "
-        "Dampers in proportion to the springs are an exception: then A4 matches exactly.",
+        key="figure-12-damping",
+        place="Section 5.2, Fig. 12",
+        text=(
+            "“it is not possible to match the damping at all four (anti)resonances simultaneously”"
+        ),
+        printed="not possible",
+        check=figure_12_damping,
+        outcome=Outcome.AGREES,
+        reason=(
+            "The best fit of many starts; the proof is the verdict on A1 and A4. "
+            "Dampers in proportion to the springs are an exception: then A4 matches exactly."
+        ),
     ),
     Claim(
-        "8-as-7",
-        "Section 5.2",
-        "“For 8 Markov parameters the same pattern results” (damped)",
-        "same pattern",
-        eight_as_seven,
-        Outcome.AGREES,
+        key="8-as-7",
+        place="Section 5.2",
+        text="“For 8 Markov parameters the same pattern results” (damped)",
+        printed="same pattern",
+        check=eight_as_seven,
+        outcome=Outcome.AGREES,
     ),
     Claim(
-        "fewer-than-7",
-        "Section 5.2",
-        "“6 or fewer Markov parameters lead to larger unknown areas.”",
-        "larger",
-        fewer_than_seven,
-        Outcome.AGREES,
+        key="fewer-than-7",
+        place="Section 5.2",
+        text="“6 or fewer Markov parameters lead to larger unknown areas.”",
+        printed="larger",
+        check=fewer_than_seven,
+        outcome=Outcome.AGREES,
     ),
 )

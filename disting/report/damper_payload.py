@@ -110,7 +110,7 @@ def bits(masses: Masses) -> int:
 
 
 def mirror(chain: Chain) -> int:
-    """Mass m of the free part may be taken for mass (this number) - m, because force and sensor
+    """Mass m of the free row may be taken for mass (this number) - m, because force and sensor
     are at its centre; else 0.
 
     >>> mirror(Chain(3, 0, 0, 2, 0, 2)), mirror(Chain(3))

@@ -4,7 +4,7 @@ apart, and the parts of drawings.
 What is told apart is told over positive parameters.
 
 A description is any chain under (36) and (37), so one that breaks (38) too: the page finds its
-model by the symmetries that (38) breaks (mirrored free part, force and sensor exchanged). Every
+model by the symmetries that (38) breaks (mirrored free row, force and sensor exchanged). Every
 layer of a drawing depends on the gap, one port, or one element and whether there are dampers,
 never on the number of masses: so each is held once, under a name that the page's script can spell.
 """

@@ -59,12 +59,12 @@ def over(catalog: Catalog, view: View) -> Over:
     groups = catalog.classes(view)
     sides = tuple(one_sided(catalog)) if view is View.POSITIVE else ()
     return Over(
-        view,
-        totals(catalog, view),
-        groups,
-        catalog.depending(view),
-        sides,
-        blocks(catalog.classes(View.EXACT), groups),
+        view=view,
+        totals=totals(catalog, view),
+        groups=groups,
+        depending=catalog.depending(view),
+        one_sided=sides,
+        blocks=blocks(catalog.classes(View.EXACT), groups),
     )
 
 

@@ -9,12 +9,21 @@ and nothing is lost.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from markupsafe import Markup
 
 from disting.algebra.notation import Sum, latex, latex_symbol
 from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import Polynomial, coefficients, factors, terms
+from disting.algebra.symbols import (
+    Content,
+    Polynomial,
+    coefficients,
+    content,
+    factors,
+    polynomial_of,
+    terms,
+)
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
@@ -78,14 +87,15 @@ def written(chain: Chain) -> TransferFunction:
     sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
     head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
     flat = [
-        (f"{letter}{power}", _readable(p))
+        (f"{letter}{power}", _shown(content(p)))
         for letter, coefficients in sides
         for power, p in coefficients
     ]
     lines = tuple(
-        (math(f"{symbol(label)}<mo>=</mo>"), _typeset(shown, stiffness)) for label, shown in flat
+        (math(f"{symbol(label)}<mo>=</mo>"), _typeset(parts, stiffness))
+        for label, (parts, _) in flat
     )
-    text = _latex(sides, flat)
+    text = _latex(sides, [(label, of) for label, (_, of) in flat])
     return TransferFunction(
         head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness
     )
@@ -93,14 +103,18 @@ def written(chain: Chain) -> TransferFunction:
 
 def correspondence(given: Chain, other: Chain) -> Correspondence | None:
     """The explicit map from one chain to another where a short one is known."""
-    ones = dict.fromkeys(given.parameters, 1.0)
-    if given.n_masses > CAUER_UP_TO and all(image.chain != other for image in images(given, ones)):
+    if given.n_masses > CAUER_UP_TO and other not in _images(given):
         return None
     found = explicit_map(given, other)
     if found is None:
         return None
     lines = (equation(primed(name), expression(value)) for name, value in found.formulas.items())
     return Correspondence(tuple(lines), found.latex, ", then ".join(found.steps))
+
+
+@cache
+def _images(given: Chain) -> frozenset[Chain]:
+    return frozenset(image.chain for image in images(given, dict.fromkeys(given.parameters, 1.0)))
 
 
 def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:
@@ -115,6 +129,17 @@ def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
     return [(power, p) for power, p in enumerate(coefficients(polynomial, "s")) if not p.is_zero()]
 
 
+@cache
+def _shown(known: Content) -> tuple[tuple[str, ...], str]:
+    """A polynomial in MathML and in LaTeX.
+
+    Many chains of a family share it: a denominator does not depend on the ports.
+    """
+    shown = _readable(polynomial_of(known))
+    parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
+    return tuple(parts), latex(shown)
+
+
 def _readable(polynomial: Polynomial) -> RationalFunction | Sum:
     """To be written factorised where no factor is long, else term by term."""
     brackets = (sum(map(sum, p.monoms())) for p, _ in factors(polynomial)[1] if len(p) > 1)
@@ -122,8 +147,7 @@ def _readable(polynomial: Polynomial) -> RationalFunction | Sum:
     return RationalFunction(polynomial, polynomial**0) if is_short else terms(polynomial)
 
 
-def _typeset(shown: RationalFunction | Sum, stiffness: bool) -> tuple[Markup, ...]:
-    parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
+def _typeset(parts: Sequence[str], stiffness: bool) -> tuple[Markup, ...]:
     return tuple(
         math(part.replace("<mi>k</mi>", "<mi>κ</mi>") if stiffness else part) for part in parts
     )
@@ -136,15 +160,15 @@ def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
 
 
 def _latex(
-    sides: Sequence[tuple[str, Sequence[Coefficient]]],
-    flat: Sequence[tuple[str, RationalFunction | Sum]],
+    sides: Sequence[tuple[str, Sequence[Coefficient]]], flat: Sequence[tuple[str, str]]
 ) -> str:
-    top, bottom = (_latex_in_s(*side) for side in sides)
+    top, bottom = (_latex_in_s(letter, tuple(n for n, _ in found)) for letter, found in sides)
     rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [
-        f"{latex_symbol(label)} &= {latex(shown)}" for label, shown in flat
+        f"{latex_symbol(label)} &= {of}" for label, of in flat
     ]
     return "\\begin{align}\n  " + " \\\\\n  ".join(rows) + "\n\\end{align}"
 
 
-def _latex_in_s(letter: str, found: Sequence[Coefficient]) -> str:
-    return latex([(1, {f"{letter}{n}": 1, "s": n}) for n, _ in reversed(found)])
+@cache
+def _latex_in_s(letter: str, powers: tuple[int, ...]) -> str:
+    return latex([(1, {f"{letter}{n}": 1, "s": n}) for n in reversed(powers)])

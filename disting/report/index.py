@@ -122,4 +122,12 @@ def _card(
     name: str, title: str, models: int, groups: int, counts: dict[Relation, int], scene: Scene
 ) -> Card:
     box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    return Card(name, title, models, groups, counts, box, Markup(body(scene, PAGE_PALETTE)))
+    return Card(
+        name=name,
+        title=title,
+        models=models,
+        groups=groups,
+        totals=counts,
+        box=box,
+        drawing=Markup(body(scene, PAGE_PALETTE)),
+    )

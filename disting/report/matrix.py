@@ -66,7 +66,7 @@ def figure(catalog: Catalog) -> Scene:
     top, left = TOP * k, MARGIN + 2.2 * cell
     panel = max(size * cell, 150.0) + 3 * cell
     panels = (
-        _panel(Grid(catalog, view, left + i * panel, top, cell), k)
+        _panel(Grid(catalog=catalog, view=view, x=left + i * panel, y=top, cell=cell), k)
         for i, view in enumerate(VIEW_TITLES)
     )
     foot = top + size * cell + 26 * k

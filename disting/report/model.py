@@ -8,11 +8,13 @@ paper, is told behind it.
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache, cached_property
 
 from markupsafe import Markup
 
 from disting.catalogs import Catalog, ModelRow
 from disting.evidence.positive import PositiveFinding, Share
+from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.questions.identifiability import Level
 from disting.questions.inclusion import Inclusion
@@ -28,7 +30,7 @@ from disting.verdict import Relation, Verdict, View
 DRAWN = 4  # indistinguishable models up to this number are drawn, more are sketched in letters
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Drawing:
     """A chain's drawing, held once by a page and shown wherever it is referred to."""
 
@@ -40,7 +42,7 @@ class Drawing:
         """What is seen, in words."""
         return f"A{self.number}: {self.scene.title}"
 
-    @property
+    @cached_property
     def definition(self) -> Markup:
         """The drawing itself."""
         return Markup(f'<g id="chain-{self.number}">{body(self.scene, PAGE_PALETTE)}</g>')
@@ -123,7 +125,13 @@ class Limits:
 def model_of(catalog: Catalog, number: int) -> Model:
     """A model of a catalogue, with its drawing."""
     row = catalog.rows[number - 1]
-    return Model(row, Drawing(number, draw(row.chain)))
+    return Model(row, _drawing(number, row.chain))
+
+
+@cache
+def _drawing(number: int, chain: Chain) -> Drawing:
+    """Drawn once: the pages of a model, of its twins and of the family show it."""
+    return Drawing(number, draw(chain))
 
 
 def folder_of(catalog: Catalog) -> str:

@@ -35,7 +35,8 @@ def png(
     for shape in scene.shapes:
         _draw(pen, shape, palette, scale * oversample)
     out = BytesIO()
-    canvas.reduce(oversample).save(out, "PNG", optimize=True)
+    # 6: a twentieth larger than at 9, which takes half of the time of all figures
+    canvas.reduce(oversample).save(out, "PNG", compress_level=6)
     return out.getvalue()
 
 

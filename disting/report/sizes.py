@@ -97,7 +97,13 @@ def between(decided: Decisions) -> Iterator[Between]:
         )
         count = Counter(decided.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)
         inside, unknown = count[Inclusion.LEFT_IN_RIGHT], count[Inclusion.UNKNOWN]
-        yield Between(small, large, inside, count.total() - inside - unknown, unknown)
+        yield Between(
+            small=small,
+            large=large,
+            inside=inside,
+            outside=count.total() - inside - unknown,
+            unknown=unknown,
+        )
 
 
 def outside(decided: Decisions) -> Iterator[Outside]:

@@ -2,7 +2,8 @@
 data beside them.
 """
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
@@ -25,31 +26,60 @@ from disting.report.page import page
 from disting.report.svg import svg
 
 STYLE = "models/style.css"
-GUIDE: Link = (
-    "guide/index.html",
-    "Guide",
-    "what a verdict says, how to read a fit, how it works, how fast and how reliable it is",
+Files = Iterable[tuple[str, bytes]]
+
+
+@dataclass(frozen=True, slots=True)
+class SitePage:
+    """A page that the index leads to, with its `files`, made of all catalogues that are listed; a
+    page without is written by another command, and listed where it is in the folder already.
+    """
+
+    link: Link
+    files: Callable[[Sequence[Catalog]], Files] | None = None
+
+
+PAGES: tuple[SitePage, ...] = (
+    SitePage(
+        link=(
+            "guide/index.html",
+            "Guide",
+            "what a verdict says, how to read a fit, how it works, how fast and how reliable it is",
+        ),
+        files=lambda _: guide_files(),
+    ),
+    SitePage(
+        link=(
+            "sizes-undamped.html",
+            "Different sizes, undamped",
+            "which smaller models are limits of larger ones",
+        )
+    ),
+    SitePage(
+        link=(
+            "sizes-damped.html",
+            "Different sizes, damped",
+            "which smaller models are limits of larger ones",
+        )
+    ),
+    SitePage(
+        link=(
+            "paper/index.html",
+            "The paper, claim by claim",
+            "what the paper prints, and what is found here, side by side",
+        )
+    ),
+    *(
+        SitePage(
+            link=(
+                address,
+                "A fit",
+                "which structure a measured frequency response supports",
+            )
+        )
+        for address in ("fit.html", "fit/index.html")
+    ),
 )
-LINKS: tuple[Link, ...] = (
-    (
-        "sizes-undamped.html",
-        "Different sizes, undamped",
-        "which smaller models are limits of larger ones",
-    ),
-    (
-        "sizes-damped.html",
-        "Different sizes, damped",
-        "which smaller models are limits of larger ones",
-    ),
-    (
-        "paper/index.html",
-        "The paper, claim by claim",
-        "what the paper prints, and what is found here, side by side",
-    ),
-    ("fit.html", "A fit", "which structure a measured frequency response supports"),
-    ("fit/index.html", "A fit", "which structure a measured frequency response supports"),
-)
-"""Pages that other commands write, listed where they are in the folder already."""
 
 
 def write_report(
@@ -69,11 +99,12 @@ def write_report(
         [*dampers, *_dampers_beside(dampers, out)],
         key=lambda f: (f.family.n_masses, f.family.damped),
     )
-    links = [GUIDE, *(link for link in LINKS if (out / link[0]).is_file())]
+    links = [p.link for p in PAGES if p.files or (out / p.link[0]).is_file()]
     names = {c.name for c in listed}
     with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
     files = [file for c in catalogs for file in _files(c, with_dampers)]
-    files += [*(_damper_file(f, names) for f in dampers), *guide_files()]
+    files += [_damper_file(f, names) for f in dampers]
+    files += [file for p in PAGES if p.files for file in p.files(listed)]
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
     start = index(listed, links, families)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]

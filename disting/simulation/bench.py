@@ -92,12 +92,12 @@ def simulate(
     )
     recorded = output + bench.output_noise * noise[1]
     return TimeSeries(
-        np.tile(period, bench.periods) + bench.input_noise * noise[0],
-        np.round(recorded / bench.quantum) * bench.quantum if bench.quantum else recorded,
-        bench.sampling_rate,
-        list(Sensor)[structure_of(model).sensor_order],
-        Signal("input"),
-        Signal("output"),
+        u=np.tile(period, bench.periods) + bench.input_noise * noise[0],
+        y=np.round(recorded / bench.quantum) * bench.quantum if bench.quantum else recorded,
+        sampling_rate=bench.sampling_rate,
+        sensor=list(Sensor)[structure_of(model).sensor_order],
+        input=Signal("input"),
+        output=Signal("output"),
         origin="simulation",
     )
 

@@ -155,7 +155,13 @@ class Store(contextlib.AbstractContextManager["Store", None]):
     def info(self) -> StoreInfo:
         """Path, number of entries, size in bytes and versions."""
         entries, size = self._run(lambda connection: connection.execute(COUNT).fetchone(), (0, 0))
-        return StoreInfo(self._path, entries, size, SCHEMA_VERSION, sqlite3.sqlite_version)
+        return StoreInfo(
+            path=self._path,
+            entries=entries,
+            bytes=size,
+            schema_version=SCHEMA_VERSION,
+            sqlite_version=sqlite3.sqlite_version,
+        )
 
     def clear(self) -> int:
         """Remove all entries, and return how many there were. Files set aside earlier stay."""

@@ -23,8 +23,6 @@ from disting.verdict.engine import silent as silent
 from disting.verdict.joint import classes_safety as classes_safety
 from disting.verdict.joint import family_safety as family_safety
 from disting.verdict.query import ALL_CONDITIONS as ALL_CONDITIONS
-from disting.verdict.query import FIBRE as FIBRE
-from disting.verdict.query import PARAMETERS as PARAMETERS
 from disting.verdict.query import Query as Query
 from disting.verdict.query import View as View
 from disting.verdict.result import Relation as Relation

@@ -15,16 +15,17 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import Role
-from disting.conditions.table import CONDITIONS, STRUCTURE, Necessary, Structural, Sufficient
+from disting.conditions.rule import Role, Stage
+from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.compared import Compared
-from disting.verdict.query import FIBRE, PARAMETERS, Query
+from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
+SUMMARIES = (Stage.TF, Stage.MARKOV)  # exhaustive ones, which profiles are made of
 _APART, _SAME = (
     {Outcome.FAILS: Relation.DISTINGUISHABLE},
     {Outcome.HOLDS: Relation.INDISTINGUISHABLE},
@@ -41,7 +42,7 @@ PROVES: dict[Role, dict[Outcome, Relation]] = {
 class Step:
     """One condition in one representation, with what it found."""
 
-    representation: str
+    representation: Stage
     finding: Finding
 
     @property
@@ -59,8 +60,8 @@ def steps(left: Compared, right: Compared, query: Query) -> Iterator[Step]:
         for condition in CONDITIONS:
             if query.asks(condition.rule):
                 yield from _step(condition, left, right, representation, count)
-        if representation == FIBRE:
-            yield Step(FIBRE, left.exact(right))
+        if representation is Stage.FIBRE:
+            yield Step(Stage.FIBRE, left.exact(right))
 
 
 def decide(left: Compared, right: Compared, query: Query) -> Verdict:
@@ -75,7 +76,7 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
         return replace(found, domain=domain)
     grade = (found.certainty or Certainty.NUMERICAL, found.safety)
     step = Step(
-        PARAMETERS,
+        Stage.PARAMETERS,
         resting_on(left.admissible(right, domain, found.evidence), grade, found.evidence),
     )
     open_pair = Verdict(
@@ -176,15 +177,15 @@ def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLE
     """The verdict that a deciding step gives."""
     f = step.finding
     return Verdict(
-        left,
-        right,
-        step.relation,
-        f.rule.name,
-        step.representation,
-        f.certainty,
-        f.safety,
-        f.evidence,
-        domain,
+        left=left,
+        right=right,
+        relation=step.relation,
+        decided_by=f.rule.name,
+        representation=step.representation,
+        certainty=f.certainty,
+        safety=f.safety,
+        evidence=f.evidence,
+        domain=domain,
     )
 
 
@@ -192,17 +193,17 @@ def _step(
     condition: Necessary | Sufficient | Structural,
     left: Compared,
     right: Compared,
-    representation: str,
+    representation: Stage,
     count: int,
 ) -> Iterator[Step]:
     match condition:
-        case Structural() if representation == STRUCTURE:
+        case Structural() if representation is Stage.STRUCTURE:
             yield Step(representation, condition.check(left, right))
-        case Necessary() if representation in tuple(Representation):
+        case Necessary() if representation in SUMMARIES:
             r = Representation(representation)
             n = count if r is Representation.MARKOV else 0
             yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
-        case Sufficient() if representation in tuple(Representation):
+        case Sufficient() if representation in SUMMARIES:
             r = Representation(representation)
             yield Step(
                 representation,

@@ -163,7 +163,7 @@ class Classes:
 
     @staticmethod
     def _turned(base: Chain, masses: Masses) -> Iterator[tuple[Chain, Masses]]:
-        """The chain itself, and mirrored where force and sensor of the free part sit at its
+        """The chain itself, and mirrored where force and sensor of the free row sit at its
         centre.
         """
         yield base, masses

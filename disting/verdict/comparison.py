@@ -16,6 +16,7 @@ from disting.verdict.result import Verdict
 
 # masses; larger families are long to list, so their chains are named by their indices
 NUMBERED_UP_TO = 8
+NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
 def compare(
@@ -65,7 +66,7 @@ def findings(
     """What every condition finds in every representation, in order, whether it decides or not.
 
     >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
-    >>> [(s.representation, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
+    >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
     return tuple(steps(*_sides(left, right, engine or Engine()), query or Query()))
@@ -81,17 +82,18 @@ def _measured(
 ) -> Verdict:
     """The verdict under experiments, with what is to be known of those that tell nothing."""
     if isinstance(left, Model) or isinstance(right, Model):
-        raise InputError("experiments are on chains: a general model has no masses to measure at")
+        raise InputError(NOT_CHAINS)
     pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
     chains = zip((left, right), zip(*pairs, strict=True), strict=True)
     a, b = (MeasuredChain(chain, side) for chain, side in chains)
     names = [side.name for side in _sides(left, right, engine)]
     silent = [i for i in a.silent if i in b.silent]
     telling = [i for i in range(len(pairs)) if i not in silent]
-    alone = [m.alone(telling[0]) if len(telling) == 1 else None for m in (a, b)]
+    # as they are: what a verdict's evidence says is then of the chains that were given
+    as_they_are = len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b))
     sides: tuple[Compared, Compared] = (
-        (engine.subject(names[0], alone[0]), engine.subject(names[1], alone[1]))
-        if alone[0] and alone[1]
+        (engine.subject(names[0], left), engine.subject(names[1], right))
+        if as_they_are
         else (engine.measured_subject(names[0], a), engine.measured_subject(names[1], b))
     )
     found = engine.verdict(*sides, query, audited=audit)

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import Rule
-from disting.conditions.table import NECESSARY, STRUCTURAL, STRUCTURE, SUFFICIENT
+from disting.conditions.rule import Rule, Stage
+from disting.conditions.table import NECESSARY, STRUCTURAL, SUFFICIENT
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.cascade import Step
 from disting.verdict.compared import Ask, Compared
-from disting.verdict.decisions import NUMBERS, REPRESENTATIONS, Decisions, markov_count
-from disting.verdict.query import FIBRE, PARAMETERS, Query
+from disting.verdict.decisions import NUMBERS, STAGES, Decisions, markov_count
+from disting.verdict.query import Query
 from disting.verdict.result import Relation
 
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
@@ -39,16 +39,16 @@ def decisions(
         tuple(subjects), query, np.zeros((n, n), np.uint8), np.zeros((n, n), np.uint8)
     )
     open_pairs = np.triu(np.ones((n, n), bool), 1)
-    for representation in query.view.representations:
-        if representation == STRUCTURE:
+    for stage in query.view.representations:
+        if stage is Stage.STRUCTURE:
             _structural(result, open_pairs)
             continue
-        if representation == FIBRE:
+        if stage is Stage.FIBRE:
             if open_pairs.any():
                 subjects[0].prepare_exact(_pairs(result, open_pairs), ask)
-            _each(result, open_pairs, FIBRE, lambda a, b: a.exact(b))
+            _each(result, open_pairs, Stage.FIBRE, lambda a, b: a.exact(b))
             continue
-        r = Representation(representation)
+        r = Representation(stage)
         active = np.flatnonzero(open_pairs.any(axis=0) | open_pairs.any(axis=1))
         prefetch([subjects[int(i)] for i in active], r, markov_count(r, query, subjects))
         _necessary(result, open_pairs, r, active)
@@ -116,12 +116,14 @@ def _admissible(result: Decisions, ask: Ask) -> None:
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
         left, right = result.subjects[i], result.subjects[j]
         found = left.admissible(right, domain, equal.evidence)
-        step = Step(PARAMETERS, resting_on(found, (equal.certainty, equal.safety), equal.evidence))
+        step = Step(
+            Stage.PARAMETERS, resting_on(found, (equal.certainty, equal.safety), equal.evidence)
+        )
         known = step.relation is not Relation.UNDECIDED
         if known:
             result.steps[int(i), int(j)] = step
         result.decided_by[i, j] = NUMBERS[step.finding.rule.name] if known else 0
-        result.representation[i, j] = REPRESENTATIONS.index(PARAMETERS if known else "")
+        result.representation[i, j] = STAGES.index(Stage.PARAMETERS if known else Stage.NONE)
 
 
 def _necessary(
@@ -139,7 +141,7 @@ def _necessary(
                 & known[None, :]
                 & open_pairs
             )
-            _settle(result, open_pairs, differ, condition.rule, r.value)
+            _settle(result, open_pairs, differ, condition.rule, Stage(r))
 
 
 def _buckets(
@@ -159,31 +161,31 @@ def _sufficient(result: Decisions, open_pairs: NDArray[np.bool_], r: Representat
     count = markov_count(r, result.query, result.subjects)
     for condition in SUFFICIENT:
         if result.query.asks(condition.rule):
-            _each(result, open_pairs, r.value, lambda a, b, c=condition: c.check(a, b, r, count))
+            _each(result, open_pairs, Stage(r), lambda a, b, c=condition: c.check(a, b, r, count))
 
 
 def _structural(result: Decisions, open_pairs: NDArray[np.bool_]) -> None:
     for condition in STRUCTURAL:
         if result.query.asks(condition.rule):
-            _each(result, open_pairs, STRUCTURE, condition.check)
+            _each(result, open_pairs, Stage.STRUCTURE, condition.check)
 
 
 def _each(
     result: Decisions,
     open_pairs: NDArray[np.bool_],
-    representation: str,
+    stage: Stage,
     check: Callable[..., object],
 ) -> None:
     for i, j in zip(*np.nonzero(open_pairs), strict=True):
-        step = Step(representation, check(result.subjects[i], result.subjects[j]))  # type: ignore[arg-type]
+        step = Step(stage, check(result.subjects[i], result.subjects[j]))  # type: ignore[arg-type]
         if step.relation is not Relation.UNDECIDED:
             result.steps[int(i), int(j)] = step
-            _settle(result, open_pairs, (i, j), step.finding.rule, representation)
+            _settle(result, open_pairs, (i, j), step.finding.rule, stage)
 
 
 def _settle(
-    result: Decisions, open_pairs: NDArray[np.bool_], pairs: Where, rule: Rule, where: str
+    result: Decisions, open_pairs: NDArray[np.bool_], pairs: Where, rule: Rule, stage: Stage
 ) -> None:
     result.decided_by[pairs] = NUMBERS[rule.name]
-    result.representation[pairs] = REPRESENTATIONS.index(where)
+    result.representation[pairs] = STAGES.index(stage)
     open_pairs[pairs] = False

@@ -14,27 +14,27 @@ from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
-from disting.conditions.rule import ADMISSIBLE
-from disting.conditions.table import NECESSARY, RULES, STRUCTURE
+from disting.conditions.rule import ADMISSIBLE, Stage
+from disting.conditions.table import NECESSARY, RULES
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
 from disting.verdict.cascade import Step, decide, verdict_of
 from disting.verdict.chains import ComparedChain
 from disting.verdict.compared import Compared
-from disting.verdict.query import FIBRE, PARAMETERS, Query
+from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
 NAMES = ("", *RULES)  # what the numbers in `decided_by` stand for
 NUMBERS = {name: number for number, name in enumerate(NAMES)}
 GRADES = {c.rule.name: c for c in NECESSARY}
-REPRESENTATIONS = ("", "tf", "markov", STRUCTURE, FIBRE, PARAMETERS)
+STAGES = tuple(Stage)
 Numbers = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
 class Decisions:
-    """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` REPRESENTATIONS.
+    """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` STAGES.
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs
     whose bounded finding by a necessary condition was proven afterwards, `inclusions` the findings
@@ -64,7 +64,7 @@ class Decisions:
         """Numbers of masses of the chains."""
         return [chain.n_masses for chain in self.chains]
 
-    def profile(self, representation: str, i: int) -> Profile:
+    def profile(self, representation: Stage, i: int) -> Profile:
         """The profile by which pairs of model i were decided in a representation."""
         r = Representation(representation)
         return self.subjects[i].profile(r, 0 if r is Representation.TF else self._markov)
@@ -92,7 +92,7 @@ class Decisions:
             return self._included(
                 i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain)
             )
-        rule, where = self.rule(i, j), REPRESENTATIONS[self.representation[i, j]]
+        rule, where = self.rule(i, j), STAGES[self.representation[i, j]]
         if not rule:
             return decide(left, right, self.query)
         finding = GRADES[rule].check(self.profile(where, i), self.profile(where, j))
@@ -142,7 +142,7 @@ class Decisions:
         def profile(where: int, i: int) -> Profile:
             """The profile of model i in the representation of this number, looked up once."""
             if (where, i) not in profiles:
-                profiles[where, i] = self.profile(REPRESENTATIONS[where], i)
+                profiles[where, i] = self.profile(STAGES[where], i)
             return profiles[where, i]
 
         for i, j in combinations(range(len(self.subjects)), 2):
@@ -154,7 +154,7 @@ class Decisions:
                 grade = (self.steps[i, j].finding.certainty, self.steps[i, j].finding.safety)
             elif rule:
                 grade = GRADES[rule].grade(profile(where, i), profile(where, j))
-            yield i, j, rule, REPRESENTATIONS[where], str(grade[0]), grade[1]
+            yield i, j, rule, STAGES[where], str(grade[0]), grade[1]
 
     def counts(self) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the

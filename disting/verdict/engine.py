@@ -59,11 +59,23 @@ class Engine:
 
     def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
-        return ComparedChain(name, chain, self.settings, self.profile, self.answer)
+        return ComparedChain(
+            name=name,
+            chain=chain,
+            settings=self.settings,
+            source=self.profile,
+            answerer=self.answer,
+        )
 
     def general_subject(self, name: str, model: Model) -> ComparedModel:
         """The same for a general model."""
-        return ComparedModel(name, model, self.settings, self.profile, self.answer)
+        return ComparedModel(
+            name=name,
+            model=model,
+            settings=self.settings,
+            source=self.profile,
+            answerer=self.answer,
+        )
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
         """The same for a chain under several experiments."""
@@ -89,6 +101,10 @@ class Engine:
             self.answer_all(question, [models])
         found: T = self.answers[key]
         return found
+
+    def remember(self, question: Question[T], models: Models, answer: T) -> None:
+        """Take over an answer that is known already, such as a catalogue's; it is not stored."""
+        self.answers[question_key(question, models, self.settings)] = answer
 
     def verdict(
         self, left: Compared, right: Compared, query: Query, *, audited: bool = False

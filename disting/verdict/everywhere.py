@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+from disting.errors import InputError
 from disting.experiments import Experiment, Named, Places, moved, named, ways
 from disting.model.chain import Chain
-from disting.verdict.comparison import compare
+from disting.verdict.comparison import NOT_CHAINS, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
@@ -64,6 +65,8 @@ def compare_everywhere(
     >>> compare_everywhere(a[1], a[11], ["sensor=2"]).answer.value
     'surely'
     """
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
+        raise InputError(NOT_CHAINS)
     engine = engine or Engine()
     asked = [named(e) if isinstance(e, str) else Named(e) for e in also]
     found = []

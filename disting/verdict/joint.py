@@ -14,7 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
-from disting.behaviour.sample import Representation
+from disting.conditions.rule import Stage
 from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions
 
@@ -52,12 +52,12 @@ def _safeties(decided: Decisions) -> Iterator[int]:
     """Yield the bits of everything that rests on chance. Those of an exact decision count the
     ranks it needs.
     """
-    profiles = set[tuple[str, int]]()
+    profiles = set[tuple[Stage, int]]()
     for i, j, _, where, certainty, safety in decided.grades():
         if certainty == Certainty.BOUNDED and (i, j) in decided.steps:
             yield safety
         elif certainty == Certainty.BOUNDED:
-            profiles |= {(where, i), (where, j)}
+            profiles |= {(Stage(where), i), (Stage(where), j)}
     if decided.query.tells_inclusion:
         profiles |= set(_uncertain_ranks(decided))
     yield from (decided.profile(where, i).safety for where, i in profiles)
@@ -67,9 +67,9 @@ def _safeties(decided: Decisions) -> Iterator[int]:
     yield from (share.safety for share in decided.shares.values() if share.safety)
 
 
-def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[str, int]]:
+def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[Stage, int]]:
     """Yield the models whose ranks are not proven, with the representation that tells them."""
-    where = Representation.TF.value
+    where = Stage.TF
     yield from (
         (where, i)
         for i in range(len(decided.subjects))

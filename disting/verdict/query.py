@@ -8,15 +8,13 @@ positive. The paper's views speak of generic complex parameters.
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.conditions.rule import Rule
-from disting.conditions.table import CONDITIONS, STRUCTURE
+from disting.conditions.rule import Rule, Stage
+from disting.conditions.table import CONDITIONS
 from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.verdict.compared import Compared
 
 ALL_CONDITIONS = tuple(c.rule.name for c in CONDITIONS)
-FIBRE = "fibre"  # the representation of the exact decision
-PARAMETERS = "parameters"  # and of the question whether equivalents have admissible parameters
 
 
 class View(StrEnum):
@@ -41,15 +39,12 @@ class View(StrEnum):
         return Domain(self.value) if self in (View.REAL, View.POSITIVE) else Domain.COMPLEX
 
     @property
-    def representations(self) -> tuple[str, ...]:
+    def representations(self) -> tuple[Stage, ...]:
         """The representations of this view, in order."""
         if self in (View.TF, View.MARKOV):
-            return (self.value,)
-        return (
-            ("tf", "markov", STRUCTURE)
-            if self is View.COMBINED
-            else ("tf", "markov", STRUCTURE, FIBRE)
-        )
+            return (Stage(self.value),)
+        conditions = (Stage.TF, Stage.MARKOV, Stage.STRUCTURE)
+        return conditions if self is View.COMBINED else (*conditions, Stage.FIBRE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +83,7 @@ class Query:
         """Whether verdicts say whose models have equivalents on the other side: not in the
         paper's views.
         """
-        return self.inclusion and FIBRE in self.view.representations
+        return self.inclusion and Stage.FIBRE in self.view.representations
 
     def count(self, left: Compared, right: Compared) -> int:
         """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.algebra.certainty import Certainty
-from disting.conditions.rule import EXACT, Role
+from disting.conditions.rule import EXACT, Role, Stage
 from disting.conditions.table import RULES
-from disting.evidence.kinds import Evidence
+from disting.evidence.kinds import GROUNDS, Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
@@ -34,20 +34,6 @@ class Relation(StrEnum):
     UNDECIDED = "undecided"
 
 
-GROUNDS = {
-    "theorem": "a theorem",
-    "dead time": "dead time",
-    "fibre": "one fibre",
-    "fibre under experiments": "one fibre",
-    "solved": "the ideal of one fibre",
-    "refuted": "the ideal of one fibre",
-    "row": "a row of masses decided once for all",
-    "shared": "all ways to share out the zeros of a row",
-    "full-parts": "parts that can have any receptance",
-    "constants": "constants",
-}  # on which the exact decision rests, by the kind of its evidence
-
-
 def error_bound(certainty: str, safety: int) -> str:
     """Text of the bound that goes with a certainty."""
     if not certainty:
@@ -56,12 +42,15 @@ def error_bound(certainty: str, safety: int) -> str:
     return bound if certainty == Certainty.BOUNDED else "0"
 
 
+WHERE = {Stage.TF: "transfer function", Stage.MARKOV: "Markov parameters"}
+
+
 @dataclass(frozen=True, slots=True)
 class Verdict:
     """Relation of a pair with its proof.
 
     `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided;
-    `representation`: "tf", "markov", "structure", "fibre", "parameters" or ""; with certainty
+    `representation`: the stage at which it looked; with certainty
     BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned.
     `image` tells, over complex parameters, whose generic models have equivalents on the other
     side, elements finite and not zero; `closure` whose are limits of models there; for models of
@@ -74,7 +63,7 @@ class Verdict:
     right: str
     relation: Relation
     decided_by: str = ""
-    representation: str = ""
+    representation: Stage = Stage.NONE
     certainty: Certainty | None = None
     safety: int = 0
     evidence: Evidence | None = None
@@ -126,9 +115,7 @@ class Verdict:
             return ""
         rule = RULES[self.decided_by]
         if rule.role is not Role.DECISION:
-            where = {"tf": "transfer function", "markov": "Markov parameters"}.get(
-                self.representation, "structure"
-            )
+            where = WHERE.get(self.representation, "structure")
             return f"{rule.in_words()}, {where}"
         grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence and rule is EXACT else ""
         return ", ".join(filter(None, [rule.in_words(self.domain).removeprefix("the "), grounds]))
@@ -165,7 +152,7 @@ class Verdict:
             str(data["right"]),
             Relation(str(data["relation"])),
             str(data["decided_by"]),
-            str(data["representation"]),
+            Stage(str(data["representation"])),
             Certainty(str(certainty)) if certainty else None,
             int(str(data["safety"])),
             evidence_from(evidence) if isinstance(evidence, dict) and evidence else None,

@@ -17,6 +17,7 @@ from disting.algebra.matroid import (
     rank_in,
     separating_rows,
 )
+from disting.algebra.sampling import residues
 
 P = 2**31 - 1
 LIMIT = 10**6
@@ -323,6 +324,21 @@ def test_dependent_flats_are_the_spans_of_all_short_circuits(rows, p):
     table = np.array([[int(e) for e in row] for row in reduced.tolist()[:k]], dtype=np.uint64)
     spans = {(closure_mask(rows, c, p), len(c) - 1) for c in circuits(rows, p, k)}
     assert dependent_flats(table, p) == sorted(spans)
+
+
+@pytest.mark.parametrize(
+    "planted", [[(0, 1, 5)], [(3, 9, 14, 18, 20, 21, 23)], [(0, 1, 5), (2, 5, 8, 11, 14, 22, 23)]]
+)
+def test_planted_circuits_are_all_that_is_found_where_the_search_is_wide(planted):
+    """24 columns of rank 7: 134,596 sets of 6, more than are kept at once. The last column of each
+    circuit is the sum of its others, all else is random modulo a large prime.
+    """
+    numbers = iter(residues("wide", 24 * 7, P))
+    rows = [[next(numbers) for _ in range(7)] for _ in range(24)]
+    for *others, last in planted:
+        rows[last] = [sum(column) % P for column in zip(*(rows[i] for i in others), strict=True)]
+    (component,) = form(rows).components
+    assert component.flats == tuple((c, len(c) - 1) for c in planted)
 
 
 def test_search_size():

@@ -105,7 +105,7 @@ def test_all_constant_markov_parameters_of_short_chains_are_proven(chain):
 
 
 def test_zeros_are_known_exactly_where_terms_may_cancel():
-    """Without a gap, force and sensor references lie in one block with both signs: there the
+    """Without a gap, force and sensor references lie in one row with both signs: there the
     polynomials are written out.
     """
     whole = Chain(4, 1, 1, 3, 1, 3).structure.united(Chain(4, 2, 1, 3, 1, 3).structure)

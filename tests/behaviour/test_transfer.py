@@ -326,7 +326,7 @@ def test_the_transfer_function_of_two_masses_written_out():
 
 @pytest.mark.parametrize(("free", "grounded"), list(product((1, 2), repeat=2)))
 def test_with_a_gap_the_two_parts_add(free, grounded):
-    """G = response of the free part + response of the grounded part, each as if alone (values
+    """G = response of the free row + response of the grounded row, each as if alone (values
     at a point).
     """
     n = free + grounded

@@ -23,9 +23,10 @@ import pytest
 from sympy import Symbol, expand, prod, symbols
 
 from disting import Chain, Engine, Family, Query, Relation, Settings, View
+from disting.conditions.rule import Stage
 from disting.model.symmetry import canonical
 from disting.questions.same.exact import exact_finding
-from disting.verdict import FIBRE, Step
+from disting.verdict import Step
 from tests.bench.measure import in_fresh_process, seconds, table
 from tests.oracles.sympy_twin import Summary, summary
 
@@ -213,7 +214,7 @@ def by_disting(chosen: list[tuple[Chain, Chain, Relation]]) -> float:
             pair = (canonical(a).chain, canonical(b).chain)
             if pair not in found:
                 finding = exact_finding(*pair, Settings())
-                found[pair] = Step(FIBRE, finding).relation
+                found[pair] = Step(Stage.FIBRE, finding).relation
             assert found[pair] is relation
 
     return statistics.median(seconds(run) for _ in range(3))

@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from disting import Engine, Inclusion, InputError, Query, Relation, catalog
-from disting.catalogs.combined import combined, combined_family
+from disting.catalogs.combined import answers_in, combined, combined_family
 from disting.cli import main
 from disting.questions.inclusion import Sense
 
@@ -17,6 +17,24 @@ ENGINE = Engine()
 @pytest.fixture(scope="module", params=[False, True], ids=["undamped", "damped"])
 def three(request):
     return request.param, combined((1, 2, 3), damped=request.param, engine=ENGINE)
+
+
+def test_the_answers_in_catalogues_are_those_that_would_be_computed(three):
+    """And with them nothing is asked about the pairs of one size."""
+    damped, computed = three
+    engine, asked = Engine(), set()
+    for n in (1, 2, 3):
+        for known in answers_in(catalog(n, damped=damped)):
+            engine.remember(*known)
+    found = combined(
+        (1, 2, 3),
+        damped=damped,
+        engine=engine,
+        progress=lambda what, done, total: asked.add(what),
+    )
+    assert found.inclusions == computed.inclusions
+    assert found.shares == computed.shares
+    assert not {"images", "positive equivalents"} & asked
 
 
 def test_forty_four_models_of_one_to_four_masses():

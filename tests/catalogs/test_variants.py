@@ -9,19 +9,19 @@ from itertools import combinations
 import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
-from disting.catalogs.variants import (
-    originals_against_lagged,
-    sensor_effects,
-    sensor_sentence,
-    with_and_without_dead_time,
-    with_and_without_lag,
-)
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.model.settings import Settings
 from disting.questions.same.exact import exact_finding, mirrored
 from disting.questions.same.verify import Witness
+from tests.catalogs.variants import (
+    originals_against_lagged,
+    sensor_effects,
+    sensor_sentence,
+    with_and_without_dead_time,
+    with_and_without_lag,
+)
 
 APART = Relation.DISTINGUISHABLE
 ENGINE = Engine()
@@ -140,7 +140,7 @@ def test_the_sensor_quantity_changes_no_verdict(n, damped):
 
 
 def test_with_ground_dampers_another_condition_may_decide_but_the_same():
-    """One model with a damper to the ground in its free part, the other without: poles at zero
+    """One model with a damper to the ground in its free row, the other without: poles at zero
     of different multiplicity.
     """
     chains = [Chain(2, damped=True, ground_dampers=m) for m in ((), (1,), (2,), (1, 2))]

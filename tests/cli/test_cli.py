@@ -17,7 +17,7 @@ def test_models_lists_the_family():
 
 
 def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
-    listed = disting("models", 6, "--no-cache").stdout
+    listed = called("models", 6, "--no-cache").stdout
     assert "· not asked (--identifiability asks)" in listed and "A98" not in listed
     rows = [
         line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line

@@ -27,6 +27,10 @@ DRIVE = (
 ONE_MASS = ("1:1+b1+delay", "--set", "m1=0.01,b1=0.05,Td=2e-4", "--output-noise", "1e-6")
 
 
+# names of other systems are Unicode
+ODD = b"\xff.csv" if os.name == "posix" else b"odd.csv"
+
+
 def simulated(drive, folder):
     """Training and test responses of a simulated drive."""
     paths = [folder / f"{seed}.csv" for seed in (0, 1)]
@@ -99,16 +103,21 @@ def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
 
 
 def test_a_folder_gets_everything(rigid, tmp_path):
-    """The page leads to the catalogue that is named."""
-    out = tmp_path / "out"
-    done = called(
-        "fit", rigid[0], "--test", rigid[1], "--masses", "1", "--out", out, "--site", REPORTS
+    """The page leads to the catalogue that is named, and names the file, whose name is no text
+    and could not be encoded.
+    """
+    data, out = os.path.join(os.fsencode(tmp_path), ODD), tmp_path / "out"
+    with open(data, "wb") as file:
+        file.write(rigid[0].read_bytes())
+    done = disting(
+        *("fit", os.fsdecode(data), "--test", rigid[1], "--masses", "1"),
+        *("--out", out, "--site", REPORTS),
     )
-    assert f"open {out / 'fit.html'}" in done.stdout
+    assert done.returncode == 0 and f"open {out / 'fit.html'}" in done.stdout
     assert {"fit.html", "fit.json", "model.mat"} <= {p.name for p in out.iterdir()}
-    assert 'reports/models/1-damped/1.html">1:1 in the catalogue</a>' in (
-        out / "fit.html"
-    ).read_text(encoding="utf-8")
+    page = (out / "fit.html").read_text(encoding="utf-8")
+    assert 'reports/models/1-damped/1.html">1:1 in the catalogue</a>' in page
+    assert os.fsdecode(ODD).replace("\udcff", "\\udcff") in page
 
 
 def test_options_reach_the_fit(rigid, tmp_path):
@@ -205,17 +214,3 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
     out, err = capsys.readouterr()
     lines = [line for line in err.splitlines() if " detected in the input" not in line]
     assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
-
-
-@pytest.mark.skipif(os.name != "posix", reason="names of other systems are Unicode")
-def test_a_file_whose_name_is_no_text_gets_its_page(rigid, tmp_path):
-    """The page names the file; it could not be encoded."""
-    data = os.path.join(os.fsencode(tmp_path), b"\xff.csv")
-    with open(data, "wb") as file:
-        file.write(rigid[0].read_bytes())
-    done = disting(
-        "fit", os.fsdecode(data), "--test", rigid[1], "--masses", "1", "--out", tmp_path / "out"
-    )
-    assert done.returncode == 0 and "\\udcff.csv" in (tmp_path / "out" / "fit.html").read_text(
-        encoding="utf-8"
-    )

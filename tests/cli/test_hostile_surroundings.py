@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from tests.cli.process import COMMAND, disting, heed_signals, marked
+from tests.cli.process import COMMAND, called, heed_signals, marked
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ def test_output_that_the_terminal_cannot_encode_is_no_error(encoding, command):
     assert done.returncode == 0, done.stderr
     assert b"Traceback" not in done.stderr and done.stdout
     # every sign has a substitute
-    assert done.stdout.decode(encoding).count("?") == disting(*command).stdout.count("?")
+    assert done.stdout.decode(encoding).count("?") == called(*command).stdout.count("?")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="processes are looked up by POSIX means")
@@ -84,7 +84,8 @@ def disting_with_small_files(*arguments):
     limit = "import resource, runpy; resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))"
     limited = f"{limit}; runpy.run_module('disting', run_name='__main__')"
     environment = os.environ | {"DISTING_CACHE": "off"}
-    command = [sys.executable, "-c", limited, *map(str, arguments)]
+    # -B: nor may a compiled module be written, which would stay cut off
+    command = [sys.executable, "-B", "-c", limited, *map(str, arguments)]
     return subprocess.run(
         command, capture_output=True, text=True, env=environment, timeout=600, check=False
     )
@@ -96,7 +97,7 @@ def test_pipes_and_links_stay_what_they_are(tmp_path):
     os.mkfifo(pipe)
     link.symlink_to(there)
     reader = subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True)
-    assert disting("verdicts", 2, "--csv", pipe).returncode == 0
+    assert called("verdicts", 2, "--csv", pipe).returncode == 0
     read, _ = reader.communicate(timeout=600)
-    assert disting("verdicts", 2, "--csv", link).returncode == 0
+    assert called("verdicts", 2, "--csv", link).returncode == 0
     assert pipe.is_fifo() and link.is_symlink() and there.read_text() == read != ""

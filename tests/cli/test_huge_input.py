@@ -4,7 +4,7 @@ and comes before the work.
 
 import pytest
 
-from tests.cli.process import disting
+from tests.cli.process import called, disting
 
 LONG = "9" * 100_000
 
@@ -21,14 +21,19 @@ LONG = "9" * 100_000
     ],
 )
 def test_refusals_are_short_and_printable(command):
-    done = disting(*command)
+    done = called(*command)
     assert done.returncode == 2 and len(done.stderr) < 300, done.stderr[:500]
     assert done.stderr.rstrip("\n").isprintable()
+
+
+def test_a_process_says_the_same():
+    done = disting("compare", LONG, "3:4")
+    assert (done.returncode, done.stderr) == (2, called("compare", LONG, "3:4").stderr)
 
 
 def test_an_error_does_not_list_every_column_of_a_wide_file(tmp_path):
     (tmp_path / "wide.csv").write_text(
         ",".join(f"c{i}" for i in range(20_000)) + "\n" + 9 * (",".join(["1"] * 20_000) + "\n")
     )
-    done = disting("fit", tmp_path / "wide.csv", "--read", "response=G")
+    done = called("fit", tmp_path / "wide.csv", "--read", "response=G")
     assert done.returncode == 2 and len(done.stderr) < 700, done.stderr[:800]

@@ -53,7 +53,7 @@ from disting.algebra.groebner.own_process import run_limited
 if __name__ == "__main__":
     for command in {COMMANDS!r}:
         assert main(command) == 0, command
-    assert run_limited(divmod, (7, 2), 60).value == (3, 1)
+    assert run_limited(divmod, (7, 2), 600).value == (3, 1)
 """
 
 

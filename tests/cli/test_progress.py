@@ -25,7 +25,7 @@ def told(*arguments: str, progress: str | None) -> subprocess.CompletedProcess[s
 
 
 def test_a_pipe_is_told_what_is_done_and_the_result_stays_as_it_is() -> None:
-    done, silent = told(*WORK, progress="0.02"), told(*WORK, progress="off")
+    done, silent = told(*WORK, progress="0.02"), called(*WORK)  # which is told of no progress
     lines = done.stderr.splitlines()
     assert any(re.fullmatch(r"disting: [a-z ]+: \d+ of \d+, \d+ s", line) for line in lines)
     assert all(line.startswith("disting: ") for line in lines)

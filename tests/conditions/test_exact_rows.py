@@ -13,7 +13,7 @@ from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.evidence.ideals import ByRow
 from disting.evidence.kinds import evidence_from
 from disting.fibres.ideals import Limits
-from disting.fibres.ideals.by_rows import row_pairs
+from disting.fibres.ideals.by_one_row import row_pairs
 from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.questions.same import exact

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import disting
+from tests.cli.process import called
 
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
 RULES = """
@@ -78,22 +79,19 @@ def run(folder, *arguments):
     return done.stdout
 
 
-def rows(folder, *arguments):
-    found = csv.DictReader(
-        run(
-            folder, "verdicts", "3", "--damped", "--no-cache", "--csv", "-", *arguments
-        ).splitlines()
-    )
-    return {(row["left"], row["right"]): row for row in found}
+VERDICTS = ("verdicts", "3", "--damped", "--no-cache", "--csv", "-", "--conditions")
+
+
+def rows(text):
+    return {(row["left"], row["right"]): row for row in csv.DictReader(text.splitlines())}
 
 
 def test_it_changes_no_other_verdict(copied):
     before, after = (
-        rows(folder, "--conditions", "1-9")
-        for folder in (Path(disting.__file__).parents[1], copied)
+        rows(text) for text in (called(*VERDICTS, "1-9").stdout, run(copied, *VERDICTS, "1-9"))
     )
     assert before == after and before[MARKED]["relation"] == "undecided"
-    every = rows(copied, "--conditions", "1-marked")
+    every = rows(run(copied, *VERDICTS, "1-marked"))
     assert {pair for pair in every if every[pair] != before[pair]} == {MARKED}
     assert (every[MARKED]["relation"], every[MARKED]["decided_by"]) == (
         "indistinguishable",

@@ -81,7 +81,7 @@ def test_duality_of_eight_masses_is_checked_with_a_bound():
 
 
 def test_part_by_part():
-    """Both parts have two masses; the grounded one is seen from the gap."""
+    """Both rows have two masses; the grounded one is seen from the gap."""
     chain, other = Chain(4, 2, 1, 3, 1, 3), Chain(4, 2, 2, 3, 2, 3)
     found = explicit_map(chain, other)
     assert tuple(text(found.formulas[name]) for name in ("m3", "m2", "k12")) == (

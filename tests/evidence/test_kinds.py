@@ -10,7 +10,7 @@ import pytest
 import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
-from disting.evidence.ideals import ByParts, PartStep, Refuted, Solved, Vanishing
+from disting.evidence.ideals import ByRows, Refuted, RowStep, Solved, Vanishing
 from disting.evidence.kinds import (
     Evidence,
     InclusionEvidence,
@@ -19,7 +19,7 @@ from disting.evidence.kinds import (
 )
 from disting.evidence.limits import LargerProjection
 from disting.evidence.plain import from_dict, to_dict
-from disting.evidence.positive import EmptyFibre, Interlacing, PartWords, PositiveEvidence
+from disting.evidence.positive import EmptyFibre, Interlacing, PositiveEvidence, RowWords
 
 UNIONS = [set(get_args(union)) for union in (Evidence, InclusionEvidence, PositiveEvidence)]
 
@@ -37,7 +37,7 @@ def written():
 
 
 def test_each_kind_is_registered():
-    """Of a part alone speaks `Vanishing`, which stands inside of `ByParts`."""
+    """Of a part alone speaks `Vanishing`, which stands inside of `ByRows`."""
     assert written() - set.union(*UNIONS) == {Vanishing}
 
 
@@ -63,11 +63,11 @@ def test_what_belongs_to_another_statement_is_refused():
         (Theorem("duality"), {"kind": "theorem", "name": "duality"}),
         (EmptyFibre((("m1", "1/2"),)), {"kind": "no-equivalent", "point": (("m1", "1/2"),)}),
         (
-            ByParts(
+            ByRows(
                 True,
                 (
-                    PartStep("same", "free", Vanishing(3)),
-                    PartStep("rigid", "free", Refuted(True, ("x",), 2, False)),
+                    RowStep("same", "free", Vanishing(3)),
+                    RowStep("rigid", "free", Refuted(True, ("x",), 2, False)),
                 ),
             ),
             {
@@ -88,7 +88,7 @@ def test_what_belongs_to_another_statement_is_refused():
             },
         ),
         (
-            Interlacing((PartWords("free", 3, (1, 2), (1, 3), ((0, 2),)),)),
+            Interlacing((RowWords("free", 3, (1, 2), (1, 3), ((0, 2),)),)),
             {
                 "kind": "interlacing",
                 "parts": (

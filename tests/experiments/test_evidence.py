@@ -1,6 +1,7 @@
 """What the exact decision and the question of positive equivalents rest on, and its check."""
 
 from dataclasses import replace
+from itertools import combinations
 
 import pytest
 
@@ -70,7 +71,19 @@ def test_a_rank_of_several_experiments_is_not_proven_as_that_of_one():
     left, right = U[2], U[5]
     asked = [AS_IT_IS, Experiment(sensor=2)]
     found = compare(left, right, experiments=asked, query=Query(View.EXACT, conditions=("4",)))
-    assert prove(found, left, right) == found
+    assert found.decided_by == "4" and prove(found, left, right) == found
+
+
+def test_a_rank_with_a_moved_sensor_is_not_proven_as_that_of_the_chain():
+    four = Query(View.EXACT, conditions=("4",))
+    moved = [Experiment(sensor=2)]
+    for left, right in combinations(U, 2):
+        found = compare(left, right, experiments=moved, query=four)
+        if found.decided_by == "4":
+            assert prove(found, left, right) == found
+            assert all("[1]" in row for row in found.evidence.rows)
+            return
+    raise AssertionError("no pair is told apart by its rank")
 
 
 def test_the_order_of_sides_is_that_of_the_evidence():

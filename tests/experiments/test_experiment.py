@@ -1,7 +1,17 @@
 import pytest
 from sympy import Poly, Rational, sympify
 
-from disting import Chain, Engine, Experiment, Family, InputError, Query, View, compare
+from disting import (
+    Chain,
+    Engine,
+    Experiment,
+    Family,
+    InputError,
+    Query,
+    View,
+    compare,
+    compare_everywhere,
+)
 from disting.experiments import MeasuredChain
 from disting.experiments.polynomials import expanded, shape
 from disting.experiments.profiles import degrees
@@ -24,6 +34,11 @@ COMPLEX = Query(View.EXACT)
         ({"inertias": {1: "heavy"}}, "a positive number or generic"),
         ({"inertias": {1: "1e999999999"}}, "a positive number or generic"),
         ({"inertias": [(1, 2), (1, 3)]}, "give their sum"),
+        ({"inertias": "1:2"}, "are written"),
+        ({"inertias": 5}, "are written"),
+        ({"springs": [1]}, "are written"),
+        ({"inertias": {1: float("nan")}}, "a positive number or generic"),
+        ({"inertias": {1: float("inf")}}, "a positive number or generic"),
         ({"quantity": "jerk"}, "position, velocity or acceleration"),
     ],
 )
@@ -50,6 +65,8 @@ def test_general_models_have_no_places():
     from disting import Model
 
     with pytest.raises(InputError, match="no masses to measure at"):
+        compare_everywhere(Model.from_chain(A[1]), A[2], ["sensor=1"])
+    with pytest.raises(InputError, match="no masses to measure at"):
         compare(Model.from_chain(A[1]), A[2], experiments=[Experiment(sensor=1)])
 
 
@@ -72,6 +89,27 @@ def test_one_that_sees_nothing_differs_from_one_that_sees_something():
     found = compare(one, one, experiments=[Experiment(), pair], query=COMPLEX)
     assert found.decided_by == "1" and found.relation.value == "distinguishable"
     assert "In experiment 2" in found.sentence and "a sensor that does not move" in found.sentence
+
+
+@pytest.mark.parametrize(
+    ("chain", "experiments"),
+    [
+        # one mass that varies, with and without what is known
+        (Chain(1, damped=True), [(Experiment(), Experiment(inertias={1: 1}))]),
+        (Chain(2, damped=True), [(Experiment(), Experiment(inertias={2: "1/3"}))]),
+        # nobody sees mass 1: whatever is added to it
+        (
+            Chain(3, 1, 1, 2, 1, 2, damped=True),
+            [
+                (Experiment(2, 2), Experiment(2, 2)),
+                (Experiment(2, 3), Experiment(2, 3, inertias={1: 1})),
+            ],
+        ),
+    ],
+)
+def test_what_is_done_to_one_side_alone_is_compared_all_the_same(chain, experiments):
+    found = compare(chain, chain, experiments=experiments, query=COMPLEX, audit=True)
+    assert found.relation.value == "indistinguishable"
 
 
 def test_nothing_moves_in_any_experiment():

@@ -77,26 +77,32 @@ def test_a_candidate_that_contains_another_is_never_worse_on_the_bench(side):
     assert len(found) == 120 and worst_excess(found) < 1e-6
 
 
-def test_the_same_seed_gives_the_same_bytes_with_workers_or_without():
-    chain = Chain(2, damped=True, dead_time=True)
-    task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
+LATE = Chain(2, damped=True, dead_time=True)
+
+
+@pytest.fixture(scope="module")
+def alone():
+    """A few candidates, a task, and their estimates, by one process without a cache."""
     few = [c for c in figure_1((1, 2)) if not c.lag]
-    alone = estimates(few, task)
+    task = Task(Cost(response(LATE, truth(LATE, 6), noise=0.02)))
+    return few, task, estimates(few, task)
+
+
+def test_the_same_seed_gives_the_same_bytes_with_workers_or_without(alone):
+    few, task, found = alone
     with ThreadPoolExecutor(3) as pool:
         together = estimates(few, task, executor=pool)
-    assert {c: estimate_to_json(e) for c, e in alone.items()} == {
+    assert {c: estimate_to_json(e) for c, e in found.items()} == {
         c: estimate_to_json(e) for c, e in together.items()
     }
-    assert estimate_from_json(chain, estimate_to_json(alone[chain])) == alone[chain]
+    assert estimate_from_json(LATE, estimate_to_json(found[LATE])) == found[LATE]
 
 
-def test_interrupted_work_resumes_where_it_stopped(tmp_path):
+def test_interrupted_work_resumes_where_it_stopped(alone, tmp_path):
     """Also within the exchange between neighbours: after 4 fits of one mass and 8 of two, steps
     go on with all 12 ready.
     """
-    chain = Chain(2, damped=True, dead_time=True)
-    task = Task(Cost(response(chain, truth(chain, 6), noise=0.02)))
-    few = [c for c in figure_1((1, 2)) if not c.lag]
+    few, task, uninterrupted = alone
 
     def stopping(when):
         steps = []
@@ -119,13 +125,13 @@ def test_interrupted_work_resumes_where_it_stopped(tmp_path):
         found = estimates(
             few, task, store=store, progress=lambda what, done, total: steps.append(done)
         )
-        assert found == estimates(few, task) and steps[-1] == len(few) == 12
+        assert found == uninterrupted and steps[-1] == len(few) == 12
         entries = store.info().entries
         assert (
             estimates(few, task, store=store) == found and store.info().entries == entries > before
         )
-        other = Task(Cost(response(chain, truth(chain, 7), noise=0.02)))
-        assert estimates([chain], other, store=store)[chain] != found[chain]
+        other = Task(Cost(response(LATE, truth(LATE, 7), noise=0.02)))
+        assert estimates([LATE], other, store=store)[LATE] != found[LATE]
 
 
 @pytest.mark.slow

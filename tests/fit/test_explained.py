@@ -187,9 +187,13 @@ def test_what_is_missed_is_named_by_its_frequencies():
 
 
 def test_an_excluded_candidate_that_fits_better_is_named_with_its_reason():
-    data = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)]
-    found = select(data[0], [Chain(1), DRIVE], test=data[1], bounds={"k12": (0.0, 2.9e4)})
-    assert found.selected.chain == Chain(1) and [c.chain for c in found.better] == [DRIVE]
+    """A parameter at its bound excludes it; one that is given does not count."""
+    data, low = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)], {"k12": (0.0, 2.9e4)}
+    found = select(data[0], [Chain(1), DRIVE], test=data[1], bounds=low, fixed={"b2": 20.0})
+    (better,) = found.better
+    assert found.selected.chain == Chain(1) and better.chain == DRIVE
+    assert better.at_bound == ("k12",) and "k12 is at its bound" in better.reasons
+    assert better.n_parameters == 4
     assert any(
         "2:1+b2 fits better" in line and "k12 is at its bound" in line
         for line in first_lines(found)

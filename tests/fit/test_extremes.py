@@ -10,9 +10,12 @@ import pytest
 from disting import Chain, InputError
 from disting.fit import select
 from disting.measurement import FrequencyResponse
+from tests.fit.drives import response as drive
 
 OMEGA = np.linspace(10.0, 100.0, 30)
-RESPONSE = 1 / (1 - (OMEGA / 50) ** 2 + 0.05j)
+TWO = Chain(2, damped=True)
+VALUES = {"m1": 1.0, "m2": 0.5, "k12": 1e3, "d12": 2.0}  # resonance at 55 rad/s
+RESPONSE = drive(TWO, VALUES, OMEGA, noise=0.01).G
 REFUSED = {
     "huge": (OMEGA, RESPONSE * 1e306),
     "denormal": (OMEGA, RESPONSE * 1e-318),
@@ -27,13 +30,15 @@ TAKEN = {
     "wide": (OMEGA, RESPONSE * np.logspace(-25, 25, 30)),
     "slow": (OMEGA * 1e-28, RESPONSE),
     "fast": (OMEGA * 1e26, RESPONSE),
+    "8 lines": (OMEGA[::4], RESPONSE[::4]),
+    "10 lines": (OMEGA[::3], RESPONSE[::3]),  # fewer than lie near a line
 }
 
 
 def fitted(omega, response):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        return select(FrequencyResponse(omega, response), [Chain(1), Chain(2, damped=True)])
+        return select(FrequencyResponse(omega, response), [Chain(1), TWO])
 
 
 @pytest.mark.parametrize("data", REFUSED.values(), ids=REFUSED)
@@ -42,6 +47,9 @@ def test_numbers_that_floating_point_cannot_square_are_refused(data):
         fitted(*data)
 
 
-@pytest.mark.parametrize("data", TAKEN.values(), ids=TAKEN)
-def test_other_numbers_are_fitted_without_a_warning(data):
-    assert all(np.isfinite(c.estimate.j) for c in fitted(*data).candidates)
+@pytest.mark.parametrize("name", TAKEN)
+def test_other_numbers_are_fitted_without_a_warning(name):
+    """What only the units make large or small is explained as it is in other units."""
+    found = fitted(*TAKEN[name])
+    assert all(np.isfinite(c.estimate.j) for c in found.candidates)
+    assert found.explanation.explains == (name != "wide")

@@ -12,7 +12,7 @@ from disting.fit.candidates import figure_1
 from disting.fit.modes import physical
 from disting.fit.select import select
 from disting.model.chain import Chain
-from disting.report.fit import fit_page
+from disting.report.fit import collinearity_dots, fit_page, importance_bars, waterfall
 from disting.report.fit.write import fit_figures
 from disting.simulation import demo
 from disting.verdict import Relation
@@ -102,10 +102,19 @@ def test_a_selection_of_given_values_alone():
     assert "m1   = 2           given" in "\n".join(_told(found, train))
     (inertia,) = [r for r in physical(found.selected, found.task) if r.name == "total inertia"]
     assert (inertia.value, inertia.standard_error) == (2.0, 0.0)
-    figures = fit_figures(found, physical(found.selected, found.task), train)
-    assert len(figures) > 3 and "2" in fit_page(
-        found, physical(found.selected, found.task), figures, train
-    )
+    assert importance_bars(found.selected, found.thresholds) is None
+    assert collinearity_dots(found.selected, found.task, found.thresholds) is None
+    page = fit_page(found, [inertia], [waterfall(found.selected)], train)
+    assert '<th scope="row">m1</th><td class="value">2</td>' in page
+    assert '<td class="n">given</td>' in page
+
+
+@pytest.mark.slow
+def test_all_figures_of_a_selection_of_given_values_alone():
+    """In the other test: those of parameters and of starts."""
+    train = response(Chain(1, damped=True), {"m1": 2.0}, noise=0.01)
+    found = select(train, [Chain(1, damped=True)], fixed={"m1": 2.0})
+    assert len(fit_figures(found, physical(found.selected, found.task), train)) > 3
 
 
 def test_what_is_given_does_not_count_as_determined():

@@ -236,18 +236,6 @@ def test_a_reversed_sensor_is_found():
     assert select(planted(1), [PLANTED], sign=0).task.sign == 1
 
 
-def test_a_parameter_at_its_bound_excludes_and_a_fixed_one_does_not_count():
-    found = select(
-        planted(1), [PLANTED], test=planted(2), bounds={"k12": (0.0, 2e4)}, fixed={"Td": 4e-4}
-    )
-    (candidate,) = found.candidates
-    assert (
-        candidate.at_bound == ("k12",)
-        and "k12 is at its bound" in candidate.reasons
-        and candidate.n_parameters == 5
-    )
-
-
 def test_input_that_does_not_fit_together_is_refused():
     with pytest.raises(InputError, match="at least one candidate"):
         select(planted(1), [])

@@ -288,7 +288,7 @@ def test_a_larger_ideal_is_solved_in_a_process_of_its_own_or_given_up():
     values = {name: Fraction(1 + 3 * i % 7) for i, name in enumerate(two.parameters)}
     with pytest.raises(TooLarge):
         basis(fibre_equations(target(two, tuple(values.items())), five), 8, AT_ONCE)
-    found, itself = alternatives(two, values, five, seconds=60), alternatives(two, values, two)
+    found, itself = alternatives(two, values, five, seconds=600), alternatives(two, values, two)
     assert values in [x.values for x in itself.equivalents]
     assert (found.extent, counts(found)) == (Extent.FINITE, counts(itself))
     given_up = alternatives(two, values, five, seconds=0.01)

@@ -30,7 +30,7 @@ PATIENT = """
 from disting import Model, alternatives
 
 model = Model.from_transfer_function(["a**50"], ["1", "1"])  # more solutions than are looked for at once
-found = alternatives(model, {"a": 2}, model, seconds=120)
+found = alternatives(model, {"a": 2}, model, seconds=600)
 assert len(found.equivalents) == 50, found.reason
 """
 CHAINS = """
@@ -55,7 +55,7 @@ def test_the_body_of_a_script_without_a_guard_runs_once(tmp_path, body):
         [sys.executable, script],
         capture_output=True,
         text=True,
-        timeout=600,
+        timeout=1200,
         check=False,
         env=environment,
     )

@@ -132,7 +132,7 @@ def test_evidence_of_another_pair_is_refused(kind):
 
 
 def test_a_supermodel_of_larger_rank_is_refused():
-    """The chain without gap has rank 8, its two parts have 7."""
+    """The chain without gap has rank 8, its two rows have 7."""
     left, right = Family(4)[11], Family(4)[13]
     names = left.structure.united(right.structure).parameters
     assert not any(

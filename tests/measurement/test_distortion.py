@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disting.measurement import TimeSeries, read
-from disting.measurement.units import scaled
+from disting.measurement.scaling import scaled
 from tests.measurement.bench_data import measured_data
 
 PERIOD, PERIODS = 1000, 21

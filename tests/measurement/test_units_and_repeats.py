@@ -7,7 +7,8 @@ from disting.cli import main
 from disting.errors import InputError
 from disting.measurement import FrequencyResponse, Signal, in_si, mean_of, read, read_time_series
 from disting.measurement.grid import in_omega
-from disting.measurement.units import scaled, with_constant
+from disting.measurement.scaling import scaled, with_constant
+from disting.measurement.units import DRIVES, MOTIONS, motion, ratio
 from disting.model.chain import Sensor
 from disting.report.fit.words import unit_of
 from tests.measurement.bench_data import measured_data
@@ -57,6 +58,50 @@ def test_what_is_no_unit_is_left_alone(tmp_path):
     for comment in ("", "# a mass of 3 kg, and m per s\n", "# rad/A or rad/s per A\n"):
         found = in_si(read(parts(tmp_path, comment), sensor="position"))
         assert (found.output.unit, found.input.unit) == ("", "") and np.array_equal(found.G, G)
+
+
+@pytest.mark.parametrize("unit", [*MOTIONS, "cm/s", "mrad/s²", "rev/s", "mm/s2", "rpm/s"])
+@pytest.mark.parametrize("wanted", Sensor)
+def test_another_quantity_keeps_the_unit_whatever_it_is(unit, wanted):
+    """Units that were not in one of two lists were lost, so that a record in rev was read as rad,
+    one in cm as m, wherever another quantity was asked for.
+    """
+    seen = FrequencyResponse(
+        2 * np.pi * FREQUENCY, G, sensor=motion(unit).sensor, output=Signal("y", unit)
+    )
+    found, before = in_si(seen.to_quantity(wanted)), in_si(seen).to_quantity(wanted)
+    np.testing.assert_allclose(found.G, before.G, rtol=1e-14)
+    assert found.output == before.output and found.output.unit
+
+
+def test_a_record_in_turns_is_one_in_radians(tmp_path):
+    samples = np.arange(400)
+    torque = np.sign(np.sin(2 * np.pi * samples / 40) + np.sin(2 * np.pi * 3 * samples / 40))
+    angle = np.cumsum(np.cumsum(torque - torque.mean()))
+    angle = angle - np.linspace(0, angle[-1], 400)
+    options = {"input": "T [Nm]", "sampling_rate": 100.0, "segment": 80, "to": "acceleration"}
+    found = []
+    for unit, size in (("rad", 2 * np.pi), ("rev", 1.0), ("mrad", 2000 * np.pi)):
+        path = written(
+            tmp_path / "a.csv", f"T [Nm],y [{unit}]", zip(torque, angle * size, strict=True)
+        )
+        found.append(in_si(read(path, output=f"y [{unit}]", sensor="position", **options)))
+    for other in found[1:]:
+        np.testing.assert_allclose(other.G, found[0].G, rtol=1e-9)
+        assert other.output.unit == found[0].output.unit == "rad/s^2"
+
+
+def test_a_unit_that_contradicts_the_quantity_is_not_lost():
+    """The speed of a record that is taken as a position was differentiated twice without a word."""
+    said = {"sensor": "position", "output": Signal("w", "rad/s")}
+    with pytest.raises(InputError, match=r"in rad/s is a velocity, .* give sensor=velocity"):
+        FrequencyResponse(2 * np.pi * FREQUENCY, G, **said).to_quantity("acceleration")
+
+
+@pytest.mark.parametrize("drive", [name.replace(" ", gap) for name in DRIVES for gap in ("", " ")])
+@pytest.mark.parametrize("name", [name for name, unit in MOTIONS.items() if not unit.order])
+def test_a_unit_that_is_known_is_known_in_a_comment(name, drive):
+    assert ratio([f"# {name}/s^2 per {drive}, of June"]) == (f"{name}/s^2", drive)
 
 
 def test_units_that_the_caller_gives():

@@ -1,9 +1,11 @@
-"""Structures as graphs: parts, unions, blocks; and the drawing in one line."""
+"""Structures as graphs: parts, unions, rows; and the drawing in one line."""
+
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
 
-from disting import Chain, Family
+from disting import Chain, Family, InputError
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.structure import GroundDamper, Spring, Structure
 from tests.laws.strategies import chains
@@ -25,6 +27,13 @@ def without(structure, *elements):
         structure.lag,
         structure.dead_time,
     )
+
+
+@pytest.mark.parametrize("order", [-1, 3])
+def test_a_derivative_whose_transfer_function_is_not_proper_is_refused(order):
+    """Its Markov parameters were those of the proper part alone, and verdicts rested on them."""
+    with pytest.raises(InputError, match="is not proper"):
+        replace(Chain(2).structure, sensor_order=order)
 
 
 # --- embeddings
@@ -145,7 +154,7 @@ def test_united_gaps_have_none():
         "d23",
         "d34",
     )
-    assert (left.blocks, right.blocks, whole.blocks) == (
+    assert (left.row_ends, right.row_ends, whole.row_ends) == (
         ((1, 1), (2, 4)),
         ((1, 2), (3, 4)),
         ((1, 4),),
@@ -164,22 +173,22 @@ def test_united_sizes_and_extras():
     assert whole.parameters == ("m1", "m2", "m3", "k12", "k23", "b3", "T1", "Td")
 
 
-# --- blocks
+# --- rows
 # ----------------------------------------------------------------------------------------------------------
 
 
 @quick
 @given(chains(max_masses=6))
-def test_a_gap_makes_two_blocks(chain):
+def test_a_gap_makes_two_rows(chain):
     n, gap = chain.n_masses, chain.gap
-    assert chain.structure.blocks == (((1, gap), (gap + 1, n)) if gap else ((1, n),))
+    assert chain.structure.row_ends == (((1, gap), (gap + 1, n)) if gap else ((1, n),))
 
 
-def test_blocks_of_a_structure_with_few_springs():
+def test_rows_of_a_structure_with_few_springs():
     chain = Chain(4).structure
-    assert without(chain, Spring(2)).blocks == ((1, 2), (3, 4))
-    assert without(chain, Spring(1), Spring(3)).blocks == ((1, 1), (2, 3), (4, 4))
-    assert without(chain, GroundDamper(1)).blocks == ((1, 4),)
+    assert without(chain, Spring(2)).row_ends == ((1, 2), (3, 4))
+    assert without(chain, Spring(1), Spring(3)).row_ends == ((1, 1), (2, 3), (4, 4))
+    assert without(chain, GroundDamper(1)).row_ends == ((1, 4),)
 
 
 # --- drawings

@@ -5,7 +5,7 @@ A second route to `disting.questions.positive`: by the chains that the inverse s
 by the order of poles and zeros.
 
 Damped chains have finitely many solutions, all of which are listed. Undamped ones with force and
-sensor apart have families. There poles and zeros of a positive chain are real, and each part is
+sensor apart have families. There poles and zeros of a positive chain are real, and each row is
 looked at by itself:
 
 Collocated: finitely many chains. Neighbours, b = a + 1: one chain for each spring kappa > 0
@@ -27,15 +27,16 @@ from flint import acb, acb_poly, ctx, fmpq
 from disting.algebra.sampling import residues
 from disting.fibres.synthesis.ball import Ball, Imprecise, roots, shifted
 from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf
-from disting.fibres.synthesis.construction import exact_parts, is_untested
-from disting.fibres.synthesis.fibre import PRECISIONS, fibre, segments
+from disting.fibres.synthesis.construction import exact_rows, is_untested
+from disting.fibres.synthesis.fibre import PRECISIONS, fibre
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
+from disting.fibres.synthesis.receptance import Receptance
 from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.segment import Data, Segment
 from disting.fibres.synthesis.target import Target, is_regular, target
 from disting.fibres.synthesis.undamped import neighbours_at
 from disting.model.chain import Chain
+from disting.model.row import Row, grounded_and_free
 from disting.model.symmetry import canonical
 
 T = TypeVar("T")
@@ -50,7 +51,7 @@ def positive_equivalent(given: Chain, point: Mapping[str, fmpq], other: Chain) -
     whole = target(given.structure, point)
     if other.damped:
         return _damped(other, whole)
-    grounded, free = segments(canonical(other).chain)
+    grounded, free = grounded_and_free(canonical(other).chain.structure)
     if not is_regular(whole.folded(1), 1, other.n_masses, free if grounded is None else None):
         return Answer.UNKNOWN
     if any(_both(pair) is Answer.YES for pair in _exact(given, point, whole, grounded, free)):
@@ -88,26 +89,26 @@ def _damped(other: Chain, whole: Target) -> Answer:
 
 
 def _exact(
-    given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Segment | None, free: Segment
-) -> Iterator[list[tuple[Segment, Target]]]:
-    """Yield the parts' receptances where they are known as fractions: nothing is left to balls,
+    given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Row | None, free: Row
+) -> Iterator[list[tuple[Row, Target]]]:
+    """Yield the rows' receptances where they are known as fractions: nothing is left to balls,
     so what fits exists.
     """
     if grounded is None:
         if whole.folded(1).numerator.degree() == free.numerator_degree:
             yield [(free, whole.folded(1))]
     else:
-        yield from exact_parts(given, point, whole.folded(1), grounded, free)
+        yield from exact_rows(given, point, whole.folded(1), grounded, free)
 
 
-def _both(parts: list[tuple[Segment, Target]]) -> Answer:
+def _both(pairs: list[tuple[Row, Target]]) -> Answer:
     def answer() -> Answer:
-        return _all(_part(segment, exact.balls) for segment, exact in parts)
+        return _all(_part(row, exact.balls) for row, exact in pairs)
 
     return _at_some_precision(answer, Answer.UNKNOWN)
 
 
-def _over_splits(whole: Target, grounded: Segment | None, free: Segment) -> Answer:
+def _over_splits(whole: Target, grounded: Row | None, free: Row) -> Answer:
     """What all splits of the poles give, as far as balls tell: NO is proven, YES only where no
     test occurs.
     """
@@ -120,33 +121,31 @@ def _over_splits(whole: Target, grounded: Segment | None, free: Segment) -> Answ
     return _any(_split(split, grounded, free) for split in pole_splits(data, grounded, free))
 
 
-def _split(split: Split | Dead, grounded: Segment, free: Segment) -> Answer:
+def _split(split: Split | Dead, grounded: Row, free: Row) -> Answer:
     if isinstance(split, Dead):
         return Answer.UNKNOWN if split == BOUNDARY else Answer.NO
     return _all(_part(*pair) for pair in ((grounded, split.grounded), (free, split.free)))
 
 
-def _part(segment: Segment, data: Data) -> Answer:
-    """Whether one part can be positive."""
-    zeros = roots(data.numerator, segment.numerator_degree)
-    if not _real(zeros) or not data.gain(segment).real > 0:
+def _part(row: Row, data: Receptance) -> Answer:
+    """Whether one row can be positive."""
+    zeros = roots(data.numerator, row.numerator_degree)
+    if not _real(zeros) or not data.gain(row).real > 0:
         return (
-            Answer.NO
-            if _certainly_not_real(zeros) or data.gain(segment).real < 0
-            else Answer.UNKNOWN
+            Answer.NO if _certainly_not_real(zeros) or data.gain(row).real < 0 else Answer.UNKNOWN
         )
-    if segment.distance == 1:
-        return _any(_family(segment, data, kappa) for kappa in _representatives(segment, data))
-    found = _leaves(list(synthesise(segment, data)))
-    return found if segment.distance == 0 or found is Answer.YES else Answer.UNKNOWN
+    if row.distance == 1:
+        return _any(_family(row, data, kappa) for kappa in _representatives(row, data))
+    found = _leaves(list(synthesise(row, data)))
+    return found if row.distance == 0 or found is Answer.YES else Answer.UNKNOWN
 
 
-def _family(segment: Segment, data: Data, kappa: fmpq) -> Answer:
+def _family(row: Row, data: Receptance, kappa: fmpq) -> Answer:
     """Whether a chain with this spring between the ports is positive."""
-    both = roots(data.denominator + kappa * data.numerator, segment.nodes)
+    both = roots(data.denominator + kappa * data.numerator, row.n_masses)
     if not _real(both):
         return Answer.NO if _certainly_not_real(both) else Answer.UNKNOWN
-    return _leaves(list(neighbours_at(segment, data, kappa)))
+    return _leaves(list(neighbours_at(row, data, kappa)))
 
 
 def _leaves(leaves: list[Leaf]) -> Answer:
@@ -163,7 +162,7 @@ def _positive(leaf: Leaf) -> Answer:
     return Answer.YES if all(v.real > 0 for v in values) else Answer.UNKNOWN
 
 
-def _representatives(segment: Segment, data: Data) -> Iterator[fmpq]:
+def _representatives(row: Row, data: Receptance) -> Iterator[fmpq]:
     """One kappa from each interval of the positive axis between zeros of the discriminant of D +
     kappa N.
 
@@ -171,7 +170,7 @@ def _representatives(segment: Segment, data: Data) -> Iterator[fmpq]:
     degree is 2 n - 3; it is interpolated. Raises Imprecise where its zeros cannot be isolated,
     which multiple ones never can.
     """
-    n = segment.nodes
+    n = row.n_masses
     places = [acb(i) for i in range(2 * n - 2)]
     values = [
         _discriminant(roots(data.denominator + place * data.numerator, n)) for place in places

@@ -146,7 +146,15 @@ def test_what_does_not_agree_has_a_reason():
         Claim("k", "place", "text", "printed", None, Outcome.AGREES)
 
 
-@pytest.mark.parametrize(("d12", "d23"), [(0.02, 0.2), (0.05, 0.1), (0.1, 0.05)])
+@pytest.mark.parametrize(
+    ("d12", "d23"),
+    [
+        (0.1, 0.05),
+        # for the dampers of Fig. 12 a claim says it too
+        pytest.param(0.02, 0.2, marks=pytest.mark.slow),
+        pytest.param(0.05, 0.1, marks=pytest.mark.slow),
+    ],
+)
 def test_a4_with_the_antiresonances_of_a1_has_other_dampings(d12, d23):
     found = refitted({**GIVEN, "d12": d12, "d23": d23})
     assert [m.name for m in found.modes] == [
@@ -169,11 +177,11 @@ def test_dampers_in_proportion_to_the_springs_can_be_matched():
         assert mode.damping[0] == pytest.approx(beta * 2 * pi * mode.frequencies[0] / 2, rel=1e-9)
 
 
-def test_the_frequencies_of_the_given_a1_by_hand():
+def test_the_frequencies_of_the_given_a1_by_hand(findings):
     """Free masses 2 and 3 with mass 1 held: k12, k23 = 1000, m = 0.01: omega^2 = (3 -+ sqrt
     5)/2 * 1e5.
     """
-    first, second = refitted().modes[:2]
+    first, second = findings.refit.modes[:2]
     for mode, factor in ((first, 3 - 5**0.5), (second, 3 + 5**0.5)):
         undamped = (factor / 2 * 1e5) ** 0.5 / (2 * pi)
         assert mode.frequencies[0] == pytest.approx(undamped, rel=1e-3)

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import replace
+from functools import cache
 from itertools import combinations
 
 import pytest
@@ -11,6 +12,12 @@ from disting.model.family import Family
 from tests.oracles import sympy_best, sympy_twin
 
 OPEN = 0
+
+
+@cache
+def decided(n_masses: int, damped: bool, representation: str, count: int = 0):  # type: ignore[no-untyped-def]
+    """Of a family, computed once for all tests."""
+    return sympy_twin.decide_family(Family(n_masses, damped), representation, count)
 
 
 def counts(found: dict[tuple[int, int], int]) -> dict[int, int]:
@@ -58,30 +65,27 @@ def counts(found: dict[tuple[int, int], int]) -> dict[int, int]:
 def test_pairs_by_deciding_condition(
     n_masses: int, damped: bool, representation: str, count: int, expected: dict[int, int]
 ) -> None:
-    assert (
-        counts(sympy_twin.decide_family(Family(n_masses, damped), representation, count))
-        == expected
-    )
+    assert counts(decided(n_masses, damped, representation, count)) == expected
 
 
 def test_both_representations_agree_on_the_three_mass_classes() -> None:
     """Undamped, Markov parameters leave exactly the indistinguishable pairs; damped, both
     together leave six pairs.
     """
-    undamped = sympy_twin.decide_family(Family(3), "tf")
-    series = sympy_twin.decide_family(Family(3), "markov", 8)
+    undamped = decided(3, False, "tf")
+    series = decided(3, False, "markov", 8)
     assert all((undamped[pair] in (6, 7)) == (series[pair] == OPEN) for pair in undamped)
 
-    damped = sympy_twin.decide_family(Family(3, damped=True), "tf")
-    series = sympy_twin.decide_family(Family(3, damped=True), "markov", 7)
+    damped = decided(3, True, "tf")
+    series = decided(3, True, "markov", 7)
     assert {pair for pair, by in damped.items() if by == 6} == {(2, 5), (9, 10)}
     assert sum(damped[pair] == series[pair] == OPEN for pair in damped) == 6
 
 
 @pytest.mark.slow
 def test_markov_parameters_decide_eight_of_the_seventeen_four_mass_pairs() -> None:
-    by_coefficients = sympy_twin.decide_family(Family(4), "tf")
-    by_series = sympy_twin.decide_family(Family(4), "markov", 12)
+    by_coefficients = decided(4, False, "tf")
+    by_series = decided(4, False, "markov", 12)
     left = [pair for pair, by in by_coefficients.items() if by == OPEN]
     assert Counter(by_series[pair] for pair in left) == {OPEN: 9, 5: 8}
     assert by_coefficients[11, 13] == 7
@@ -163,5 +167,5 @@ def test_the_tuned_baseline_on_the_four_mass_damped_class() -> None:
 
 @pytest.mark.slow
 def test_the_twin_on_the_four_mass_damped_class_with_markov_parameters() -> None:
-    found = sympy_twin.decide_family(Family(4, damped=True), "markov", 12)
+    found = decided(4, True, "markov", 12)
     assert counts(found) == {OPEN: 91, 3: 208, 4: 55, 5: 52}

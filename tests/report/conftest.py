@@ -25,13 +25,24 @@ def browser() -> Iterator[object]:
         chromium.close()
 
 
+@pytest.fixture(scope="module")
+def window(browser) -> Iterator[object]:  # type: ignore[no-untyped-def]
+    """Where the tests of a module open a tab each: a window for each test costs a second more.
+    An empty tab keeps it open. The pages keep nothing between visits: no cookies, no storage.
+    """
+    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    context.new_page()
+    yield context
+    assert context.storage_state() == {"cookies": [], "origins": []}
+    context.close()
+
+
 @pytest.fixture
-def visit(browser, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
+def visit(window, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     """Open a page of the site; at the end of the test: no message on the console, no request
     but for the site's files.
     """
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    tab, troubles, requests = context.new_page(), [], []
+    tab, troubles, requests = window.new_page(), [], []
     tab.on("console", lambda message: troubles.append(message.text))
     tab.on("pageerror", lambda error: troubles.append(str(error)))
     tab.on("request", lambda request: requests.append(request.url.split("#")[0]))
@@ -43,6 +54,7 @@ def visit(browser, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-d
         return tab
 
     yield go
+    tab.close()
     assert troubles == []
     assert all(
         re.fullmatch(
@@ -52,4 +64,3 @@ def visit(browser, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-d
         )
         for r in requests
     )
-    context.close()

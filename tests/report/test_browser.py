@@ -11,6 +11,7 @@ import pytest
 from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict import View
+from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
@@ -311,17 +312,14 @@ def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[
     ],
 )
 def test_there_is_no_serious_barrier(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip(
-        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
-    )
     tab = visit(path, 390 if scheme == "dark" else 1280, scheme)
-    found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
-    said = [
-        (v["id"], v["nodes"][0]["html"][:120], v["nodes"][0]["failureSummary"])
-        for v in found
-        if v["impact"] in ("serious", "critical")
-    ]
-    assert said == []
+    assert barriers(tab) == []
+
+
+def test_a_barrier_would_be_found(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
+    nameless = '<!doctype html><html lang="en"><title>t</title><main><button></button></main>'
+    (site / "barrier.html").write_text(nameless, encoding="utf-8")
+    assert [rule for rule, _, _ in barriers(visit("barrier.html"))] == ["button-name"]
 
 
 def test_printing_shows_the_matrix_and_no_controls(visit) -> None:  # type: ignore[no-untyped-def]

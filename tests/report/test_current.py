@@ -15,7 +15,7 @@ from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.report import write_report
 from disting.report.sizes import write_sizes
-from disting.report.write import LINKS
+from disting.report.write import PAGES
 
 REPORTS = Path(__file__).parents[2] / "reports"
 REMEDY = "run: disting report 1 2 3 4 5"
@@ -23,7 +23,7 @@ REMEDY = "run: disting report 1 2 3 4 5"
 
 def others(folder: Path) -> set[str]:
     """Pages of other commands that the index leads to."""
-    return {address for address, _, _ in LINKS if (folder / address).is_file()}
+    return {p.link[0] for p in PAGES if not p.files and (folder / p.link[0]).is_file()}
 
 
 def written_anew(folder: Path) -> dict[str, Path]:

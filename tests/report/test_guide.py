@@ -16,6 +16,7 @@ from markdown_it import MarkdownIt
 from disting.cli.parser import parser
 from disting.report.guide import GuidePage, guide_files, guide_page, guide_texts
 from tests.cli.process import called
+from tests.report.barriers import barriers
 from tests.report.outline import Outline
 
 ROOT = Path(__file__).parents[2]
@@ -237,16 +238,8 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ("width", "scheme", "read"), [(390, "dark", "decisions"), (1280, "light", "fit")]
 )
 def test_pages_are_legible_and_only_boxes_scroll(visit, width: int, scheme: str, read: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip(
-        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
-    )
     for name in guide_texts() if width < 500 else [read]:
         tab = visit(f"guide/{name}.html", width, scheme)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, name
     tab = visit(f"guide/{read}.html", width, scheme)
-    found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
-    assert [
-        (v["id"], v["nodes"][0]["html"][:120])
-        for v in found
-        if v["impact"] in ("serious", "critical")
-    ] == []
+    assert barriers(tab) == []

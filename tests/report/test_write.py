@@ -7,6 +7,7 @@ from pathlib import Path
 from disting.catalogs import catalog
 from disting.catalogs.damper_family import damper_family
 from disting.report import write_report
+from disting.report.write import PAGES
 
 ENDINGS = (".html", "-matrix.svg", "-matrix.png", ".csv", ".json")
 
@@ -15,17 +16,20 @@ def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
     catalogs = [catalog(1), catalog(2, damped=True)]
     paths = write_report(catalogs, tmp_path / "new" / "folder")
     folder = tmp_path / "new" / "folder"
+    ours = [page.link[0] for page in PAGES if page.files]
     names = [p.relative_to(folder).as_posix() for p in paths]
     plain = [f"{c.name}{ending}" for c in catalogs for ending in ENDINGS]
     found = [name for name in names if "/" not in name]
-    assert found == [*plain, "next-2-damped.html", "index.html"]
+    outside = [name for name in ours if "/" not in name]
+    assert found == [*plain, "next-2-damped.html", *outside, "index.html"]
     models = ["models/1-undamped/1.html", *(f"models/2-damped/{i}.html" for i in range(1, 4))]
     guide = [name for name in names if name.startswith("guide/")]
     assert [name for name in names if "/" in name] == [*models, *guide, "models/style.css"]
     assert {"guide/index.html", "guide/verdicts.html", "guide/style.css"} <= set(guide)
     assert all(p.is_file() for p in paths)
     start = paths[-1].read_text(encoding="utf-8")
-    assert all(f'href="{c.name}.html"' in start for c in catalogs)
+    assert all(f'href="{name}"' in start for name in (*ours, *(f"{c.name}.html" for c in catalogs)))
+    assert set(ours) < set(names)
     text = paths[0].read_text(encoding="utf-8")
     assert all(f'href="{catalogs[0].name}{ending}"' in text for ending in ENDINGS[1:])
 

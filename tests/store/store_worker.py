@@ -107,6 +107,7 @@ def use(path: str) -> None:
 
 def limited(path: str, size: str) -> None:
     """Use the store while no file may grow beyond a size in bytes, as on a full disk."""
+    sys.dont_write_bytecode = True  # a compiled module would stay cut off
     resource.setrlimit(resource.RLIMIT_FSIZE, (int(size), int(size)))
     use(path)
 

@@ -13,7 +13,7 @@ from tests.store.store_tools import aside, cache_warnings, first_line, start, st
 from tests.store.store_worker import items
 
 
-@pytest.mark.parametrize("times", [4, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("times", [3, pytest.param(30, marks=pytest.mark.slow)])
 def test_nothing_committed_is_lost_when_the_process_is_killed_again_and_again(
     path: Path, times: int
 ) -> None:

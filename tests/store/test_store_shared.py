@@ -30,7 +30,7 @@ from tests.store.store_worker import items, key, value
 
 
 @pytest.mark.parametrize(
-    ("number", "rounds"), [(4, 40), pytest.param(8, 200, marks=pytest.mark.slow)]
+    ("number", "rounds"), [(3, 30), pytest.param(8, 200, marks=pytest.mark.slow)]
 )
 @pytest.mark.parametrize("journal", ["wal", "delete"])
 def test_many_processes_share_the_same_keys(
@@ -48,7 +48,7 @@ def test_many_processes_share_the_same_keys(
 
 
 @pytest.mark.parametrize(
-    ("number", "rounds"), [(3, 30), pytest.param(6, 200, marks=pytest.mark.slow)]
+    ("number", "rounds"), [(3, 15), pytest.param(6, 200, marks=pytest.mark.slow)]
 )
 def test_processes_that_keep_replacing_the_file_do_not_disturb_each_other(
     path: Path, number: int, rounds: int
@@ -62,7 +62,7 @@ def test_processes_that_keep_replacing_the_file_do_not_disturb_each_other(
 def test_a_write_waits_for_another_process(filled: Path) -> None:
     worker, found = start("hold", filled), []
     assert first_line(worker) == "held\n"
-    with Store.open(filled, wait_seconds=20) as store:
+    with Store.open(filled, wait_seconds=LONG) as store:
         waiting = threading.Thread(target=lambda: found.append(works(store)), daemon=True)
         waiting.start()
         waiting.join(0.3)

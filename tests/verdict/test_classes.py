@@ -109,7 +109,7 @@ def four():
 
 def test_four_masses_at_random_as_compare_says(four):
     random = Random(3)
-    for _ in range(60):
+    for _ in range(25):  # of three masses all are compared
         i, j = random.sample(range(len(four)), 2)
         relation, rule = four.found.look_up(i, j)
         if rule != "exact":

@@ -5,19 +5,18 @@ For any two models that are given as coefficient maps, not only chains; chains w
 apart first (`by_two_rows`). Independent of `disting.fibres.synthesis`.
 """
 
-from disting.fibres.ideals.by_rows import confirms_row as confirms_row
-from disting.fibres.ideals.by_rows import differ_by_row as differ_by_row
+from disting.fibres.decision import Decision as Decision
+from disting.fibres.ideals.by_one_row import confirms_row as confirms_row
+from disting.fibres.ideals.by_one_row import differ_by_row as differ_by_row
 from disting.fibres.ideals.by_shares import chains_told_apart as chains_told_apart
-from disting.fibres.ideals.by_two_rows import PartsDecision as PartsDecision
-from disting.fibres.ideals.by_two_rows import confirms_by_parts as confirms_by_parts
-from disting.fibres.ideals.by_two_rows import decide_by_parts as decide_by_parts
-from disting.fibres.ideals.by_two_rows import included_by_parts as included_by_parts
-from disting.fibres.ideals.by_two_rows import refuted_by_parts as refuted_by_parts
+from disting.fibres.ideals.by_two_rows import confirms_by_rows as confirms_by_rows
+from disting.fibres.ideals.by_two_rows import decide_by_rows as decide_by_rows
+from disting.fibres.ideals.by_two_rows import included_by_rows as included_by_rows
+from disting.fibres.ideals.by_two_rows import refuted_by_rows as refuted_by_rows
 from disting.fibres.ideals.confirm import confirms as confirms
 from disting.fibres.ideals.confirm import confirms_matched as confirms_matched
 from disting.fibres.ideals.fibre_ideal import generic_rank as generic_rank
-from disting.fibres.ideals.full_parts import same_by_full_parts as same_by_full_parts
-from disting.fibres.ideals.membership import Decision as Decision
+from disting.fibres.ideals.full_rows import same_by_full_rows as same_by_full_rows
 from disting.fibres.ideals.membership import Limits as Limits
 from disting.fibres.ideals.membership import decide as decide
 from disting.fibres.ideals.membership import decide_matched as decide_matched

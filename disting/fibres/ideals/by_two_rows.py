@@ -1,38 +1,39 @@
-"""Whether generic models of one chain are models of another one that has a gap, part by part.
+"""Whether generic models of one chain are models of another one that has a gap, row by row.
 
-The theorem of `parts` leaves three splits at most. In each of them both parts of the second chain
+The theorem of `splits` leaves three splits at most. In each of them both rows of the second chain
 have to be given receptances:
 
 * generic models of the first have an equivalent with finite elements other than zero only if in
-  some split both parts do;
-* if in some split both receptances lie in the closures of what the parts can be, the models of the
+  some split both rows do;
+* if in some split both receptances lie in the closures of what the rows can be, the models of the
   first lie in the closure of those of the second, because a sum of fractions is a continuous
   function of its terms.
 
-A part is refuted by a Markov parameter, h_i in sum h_i s^-i, that is a product of unknowns there
+A row is refuted by a Markov parameter, h_i in sum h_i s^-i, that is a product of unknowns there
 (so not zero) and zero in the receptance to be met, or the reverse: an identity of polynomials,
 without any chance. What is left goes to `decide`, which has to do with much smaller maps than
 those of whole chains.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import comb
 
 from flint import fmpz_mpoly
 
-from disting.evidence.ideals import ByParts, PartStep, Shown, Solved, Vanishing
+from disting.evidence.ideals import ByRows, RowStep, Shown, Solved, Vanishing
+from disting.fibres.decision import Decision
 from disting.fibres.ideals.confirm import confirms
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.membership import Limits, decide
 from disting.fibres.ideals.monodromy import poles_are_inseparable
-from disting.fibres.ideals.parts import (
-    Parts,
+from disting.fibres.ideals.splits import (
+    Receptances,
     Split,
     gap,
     has_relation,
     is_plain,
-    parts,
     power,
+    receptances,
     relative_degree,
     splits,
 )
@@ -41,57 +42,41 @@ from disting.model.question import Membership
 from disting.model.structure import Structure
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
-# for up to eight statements: at most two parts in three splits, and the ranks that they rest on
+# for up to eight statements: at most two rows in three splits, and the ranks that they rest on
 SPARE_BITS = 3
+Pair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there
 RANK_POINTS = 3  # one misses a rank with less than 2^-50, so that three are surer than the ideals
 
 
-@dataclass(frozen=True, slots=True)
-class PartsDecision:
-    """As `Decision`; a refutation with `safety` 0 is proven. EXCLUDED speaks of finite elements
-    other than zero.
-    """
-
-    membership: Membership
-    safety: int = 0
-    evidence: ByParts | None = None
-    reason: str = ""
-
-    def __bool__(self) -> bool:
-        raise TypeError("a decision is not true or false; look at its membership")
-
-
-def refuted_by_parts(given: Structure, other: Structure, seed: str) -> ByParts | None:
+def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByRows | None:
     """A proof, without any chance, that generic models of `given` have no equivalent in
     `other`; None if there is none.
     """
     if not_covered(given, other, f"{seed}:poles"):
         return None
-    steps = [vanishing_step(split, parts(other)) for split in splits(given, gap(other))]
+    steps = [vanishing_step(split, receptances(other)) for split in splits(given, gap(other))]
     found = tuple(step for step in steps if step is not None)
-    return ByParts(True, found) if len(found) == len(steps) else None
+    return ByRows(True, found) if len(found) == len(steps) else None
 
 
-def included_by_parts(
+def included_by_rows(
     given: Structure, other: Structure, seed: str, limits: Limits
-) -> PartsDecision:
-    """Whether, in some split, both parts have the receptances wanted in their closures;
+) -> Decision[ByRows]:
+    """Whether, in some split, both rows have the receptances wanted in their closures;
     elements may be zero. Else UNKNOWN.
     """
     wanted = replace(limits, safety=limits.safety + SPARE_BITS)
     for split in splits(given, gap(other)) if _are_alike(given, other) else ():
-        steps = _members(split, parts(other), seed, wanted)
+        steps = _members(split, receptances(other), seed, wanted)
         if steps is not None:
-            return PartsDecision(Membership.MEMBER, limits.safety, ByParts(True, steps))
-    return PartsDecision(
-        Membership.UNKNOWN, reason="no split was found in which both parts can be met"
-    )
+            return Decision(Membership.MEMBER, limits.safety, ByRows(True, steps))
+    return Decision(Membership.UNKNOWN, reason="no split was found in which both rows can be met")
 
 
 def _members(
-    split: Split, searched: Parts, seed: str, limits: Limits
-) -> tuple[PartStep, ...] | None:
-    steps = list[PartStep]()
+    split: Split, searched: Receptances, seed: str, limits: Limits
+) -> tuple[RowStep, ...] | None:
+    steps = list[RowStep]()
     for name, wanted, there in _by_size(split, searched):
         here, most = _ranks(wanted, there, f"rank:{seed}")
         short = there.degrees[0] - wanted.degrees[0]
@@ -104,32 +89,32 @@ def _members(
             or found.safety < limits.safety
         ):
             return None
-        steps.append(PartStep(split.name, name, replace(found.evidence, is_normalised=True)))
+        steps.append(RowStep(split.name, name, replace(found.evidence, is_normalised=True)))
     return tuple(steps)
 
 
-def decide_by_parts(given: Structure, other: Structure, seed: str, limits: Limits) -> PartsDecision:
+def decide_by_rows(
+    given: Structure, other: Structure, seed: str, limits: Limits
+) -> Decision[ByRows]:
     """Whether generic models of `given` are models of `other`, a chain with a gap; both without
     dead time.
     """
     why = not_covered(given, other, f"{seed}:poles")
     if why:
-        return PartsDecision(Membership.UNKNOWN, reason=why)
-    searched, wanted = parts(other), replace(limits, safety=limits.safety + SPARE_BITS)
-    refuted, least = list[PartStep](), limits.safety + SPARE_BITS
+        return Decision(Membership.UNKNOWN, reason=why)
+    searched, wanted = receptances(other), replace(limits, safety=limits.safety + SPARE_BITS)
+    refuted, least = list[RowStep](), limits.safety + SPARE_BITS
     for split in splits(given, gap(other)):
         found = _split(split, searched, seed, wanted)
         if found.membership is not Membership.EXCLUDED or found.evidence is None:
             return found
         refuted += found.evidence.steps
         least = min(least, found.safety or least)
-    evidence = ByParts(True, tuple(refuted))
-    return PartsDecision(
-        Membership.EXCLUDED, 0 if evidence.is_proven else least - SPARE_BITS, evidence
-    )
+    evidence = ByRows(True, tuple(refuted))
+    return Decision(Membership.EXCLUDED, 0 if evidence.is_proven else least - SPARE_BITS, evidence)
 
 
-def confirms_by_parts(evidence: ByParts, left: Structure, right: Structure) -> bool:
+def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> bool:
     """Whether the evidence holds: poles and splits are found again, each step is checked
     without the search that found it.
     """
@@ -139,8 +124,8 @@ def confirms_by_parts(evidence: ByParts, left: Structure, right: Structure) -> b
     ):
         return False
     searched, possible = (
-        dict(parts(other).named),
-        {s.name: dict(s.parts.named) for s in splits(given, gap(other))},
+        dict(receptances(other).named),
+        {s.name: dict(s.receptances.named) for s in splits(given, gap(other))},
     )
     if any(s.split not in possible or s.part not in possible[s.split] for s in evidence.steps):
         return False
@@ -163,12 +148,12 @@ def not_covered(given: Structure, other: Structure, label: str) -> str:
             "chains of one size and sensor are taken apart, without ground dampers and lag, and the"
             " searched one has a gap"
         )
-    if not has_relation(parts(other), power(other)):
-        return "force and sensor at one place in both parts leave all sets of poles possible"
+    if not has_relation(receptances(other), power(other)):
+        return "force and sensor at one place in both rows leave all sets of poles possible"
     return (
         ""
         if poles_are_inseparable(given, label)
-        else "the poles of a part were not proven to be inseparable"
+        else "the poles of a row were not proven to be inseparable"
     )
 
 
@@ -187,75 +172,73 @@ def _ranks(wanted: CoefficientMap, there: CoefficientMap, label: str) -> tuple[i
     return here, most
 
 
-def _split(split: Split, searched: Parts, seed: str, limits: Limits) -> PartsDecision:
-    """Both parts in one split: an exact refutation of either, then ideals, the fewest unknowns
+def _split(split: Split, searched: Receptances, seed: str, limits: Limits) -> Decision[ByRows]:
+    """Both rows in one split: an exact refutation of either, then ideals, the fewest unknowns
     first.
     """
     exact = vanishing_step(split, searched)
     if exact is not None:
-        return PartsDecision(Membership.EXCLUDED, 0, ByParts(True, (exact,)))
-    steps, least = list[PartStep](), limits.safety
+        return Decision(Membership.EXCLUDED, 0, ByRows(True, (exact,)))
+    steps, least = list[RowStep](), limits.safety
     for name, wanted, there in _by_size(split, searched):
         here, most = _ranks(wanted, there, f"rank:{seed}")
         if here > most:
-            return PartsDecision(
-                Membership.UNKNOWN, reason=f"the ranks of the {name} part are {here} and {most}"
+            return Decision(
+                Membership.UNKNOWN, reason=f"the ranks of the {name} row are {here} and {most}"
             )
         found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
         if found.evidence is None or found.safety < limits.safety:
-            return PartsDecision(Membership.UNKNOWN, reason=f"the {name} part: {found.reason}")
-        step = PartStep(split.name, name, replace(found.evidence, is_normalised=True))
+            return Decision(Membership.UNKNOWN, reason=f"the {name} row: {found.reason}")
+        step = RowStep(split.name, name, replace(found.evidence, is_normalised=True))
         least = min(least, found.safety)
         if found.membership is Membership.EXCLUDED:
-            return PartsDecision(Membership.EXCLUDED, found.safety, ByParts(True, (step,)))
+            return Decision(Membership.EXCLUDED, found.safety, ByRows(True, (step,)))
         steps.append(step)
-    return PartsDecision(Membership.MEMBER, least - SPARE_BITS, ByParts(True, tuple(steps)))
+    return Decision(Membership.MEMBER, least - SPARE_BITS, ByRows(True, tuple(steps)))
 
 
-def _pairs(split: Split, searched: Parts) -> list[tuple[str, CoefficientMap, CoefficientMap]]:
-    """Name of a part, the receptance wanted and the part that is there."""
+def _pairs(split: Split, searched: Receptances) -> list[Pair]:
+    """Name of a row, the receptance wanted and the map that is there."""
     return [
         (name, wanted, there)
-        for (name, wanted), (_, there) in zip(split.parts.named, searched.named, strict=True)
+        for (name, wanted), (_, there) in zip(split.receptances.named, searched.named, strict=True)
     ]
 
 
-def _by_size(split: Split, searched: Parts) -> list[tuple[str, CoefficientMap, CoefficientMap]]:
-    """The part with the fewest unknowns first."""
+def _by_size(
+    split: Split, searched: Receptances
+) -> list[tuple[str, CoefficientMap, CoefficientMap]]:
+    """The row with the fewest unknowns first."""
     return sorted(_pairs(split, searched), key=lambda pair: len(pair[2].parameters))
 
 
-def vanishing_step(split: Split, searched: Parts) -> PartStep | None:
-    """A part that a Markov parameter refutes in this split, without any chance; None if there
+def vanishing_step(split: Split, searched: Receptances) -> RowStep | None:
+    """A row that a Markov parameter refutes in this split, without any chance; None if there
     is none.
     """
     found = ((name, vanishing(wanted, there)) for name, wanted, there in _pairs(split, searched))
     return next(
-        (
-            PartStep(split.name, name, Vanishing(index))
-            for name, index in found
-            if index is not None
-        ),
+        (RowStep(split.name, name, Vanishing(index)) for name, index in found if index is not None),
         None,
     )
 
 
-def vanishing(wanted: CoefficientMap, part: CoefficientMap) -> int | None:
-    """Index of a Markov parameter that refutes the part, among its first two; None if there is
+def vanishing(wanted: CoefficientMap, there: CoefficientMap) -> int | None:
+    """Index of a Markov parameter that refutes the row, among its first two; None if there is
     none.
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(2, 0, 0, 1, 0, port, damped=True) for port in (2, 1))
-    >>> vanishing(*(parts(c.structure).free for c in chains))
+    >>> vanishing(*(receptances(c.structure).free for c in chains))
     2
     """
-    first = relative_degree(part)
-    return next((i for i in range(1, first + 2) if _refutes(i, wanted, part)), None)
+    first = relative_degree(there)
+    return next((i for i in range(1, first + 2) if _refutes(i, wanted, there)), None)
 
 
-def _refutes(index: int, wanted: CoefficientMap, part: CoefficientMap) -> bool:
-    here, there = (_markov(m, index) for m in (wanted, part))
-    return bool((len(there) == 1 and here.is_zero()) or (there.is_zero() and not here.is_zero()))
+def _refutes(index: int, wanted: CoefficientMap, there: CoefficientMap) -> bool:
+    met, own = (_markov(m, index) for m in (wanted, there))
+    return bool((len(own) == 1 and met.is_zero()) or (own.is_zero() and not met.is_zero()))
 
 
 def _markov(model: CoefficientMap, index: int) -> fmpz_mpoly:
@@ -273,22 +256,22 @@ def _markov(model: CoefficientMap, index: int) -> fmpz_mpoly:
     return scaled[index]
 
 
-def _confirms(shown: Shown, wanted: CoefficientMap, part: CoefficientMap) -> bool:
+def _confirms(shown: Shown, wanted: CoefficientMap, there: CoefficientMap) -> bool:
     if isinstance(shown, Vanishing):
-        return shown.index > 0 and _refutes(shown.index, wanted, part)
-    ranks = _ranks(wanted, part, "rank:verify")
+        return shown.index > 0 and _refutes(shown.index, wanted, there)
+    ranks = _ranks(wanted, there, "rank:verify")
     equal = ranks[0] == ranks[1]
     if ranks[0] > ranks[1] or not (equal or shown.left_given):
         return False
     if isinstance(shown, Solved):
-        return confirms(shown, wanted, part)
+        return confirms(shown, wanted, there)
     if shown.tangent != equal:
         return False
-    if comb(len(part.parameters) + 1 + shown.degree, shown.degree) <= PLAIN_MONOMIALS:
-        return confirms(shown, wanted, part)
+    if comb(len(there.parameters) + 1 + shown.degree, shown.degree) <= PLAIN_MONOMIALS:
+        return confirms(shown, wanted, there)
     again = decide(
         wanted,
-        part,
+        there,
         equal_rank=equal,
         seed="verify",
         limits=Limits(seconds=600, entries=10**9, safety=1),

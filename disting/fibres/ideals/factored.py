@@ -40,8 +40,8 @@ from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
 from disting.algebra.groebner.modular import long_polynomial, null_space
 from disting.algebra.symbols import coefficients, symbols
 from disting.fibres.ideals.fibre_ideal import Polynomial, derivative, evaluated
-from disting.fibres.ideals.system import CoefficientMap, Span, Terms, minors, ports_of, separated
-from disting.model.structure import Structure
+from disting.fibres.ideals.system import CoefficientMap, Terms, minors, separated
+from disting.model.row import Row
 
 Point = tuple[int, ...]
 
@@ -91,29 +91,29 @@ class Values:
     slopes: tuple[tuple[fmpz_mod_poly, tuple[int, ...]], ...]
 
 
-def factored(structure: Structure, span: Span) -> FactoredMap:
-    """The receptance of a row of masses that has ports, with dampers in its joints.
+def factored(row: Row) -> FactoredMap:
+    """The receptance of a row with dampers in its joints.
 
-    >>> from disting.model.chain import Chain
-    >>> m = factored(Chain(3, 0, 0, 1, 0, 2, damped=True).structure, (1, 3))
+    >>> m = factored(Row(3, False, 1, 2, damped=True))
     >>> m.parameters, [len(x) for x in (m.joints, m.left, m.right, m.poles)]
     (('h1', 'e1', 'x1', 'u2', 'e2', 'r2'), [1, 0, 2, 4])
     """
-    (first, last), (a, b) = span, ports_of(structure, span)
-    names = _names(structure, span, (a, b))
+    first, last = row.before + 1, row.before + row.n_masses
+    a, b = _ports(row)
+    names = _names(row)
     ring = symbols(["s", *names, "g"])
-    theta, phi, den = _minors(structure, span, (a, b), ring)
+    theta, phi, den = _minors(row, ring)
     num = reduce(mul, (ring["s"] + ring[f"h{i}"] for i in range(a, b)), ring["g"] * theta * phi)
     power = min(e[0] for e in den.monoms())  # of the poles at zero, which no zero cancels
     at = {name: k for k, name in enumerate(names)}
     return FactoredMap(
-        f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
-        names,
-        tuple(at[f"h{i}"] for i in range(a, b)),
-        _by_power(theta),
-        _by_power(phi),
-        _by_power(den // ring["s"] ** power),
-        separated((*names, "g"), num, den),
+        name=f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
+        parameters=names,
+        joints=tuple(at[f"h{i}"] for i in range(a, b)),
+        left=_by_power(theta),
+        right=_by_power(phi),
+        poles=_by_power(den // ring["s"] ** power),
+        whole=separated((*names, "g"), num, den),
     )
 
 
@@ -144,7 +144,9 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
             (change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles))
         )
     poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
-    return Values(roots, left, right, numerator, poles, tuple(slopes))
+    return Values(
+        joints=roots, left=left, right=right, numerator=numerator, poles=poles, slopes=tuple(slopes)
+    )
 
 
 def shared_fibre(
@@ -173,31 +175,27 @@ def shared_fibre(
     return _solved([p.compose(*placed) for p in equations], field, set(other.joints))
 
 
-def _names(structure: Structure, span: Span, ports: tuple[int, int]) -> tuple[str, ...]:
-    """Unknowns of a row but its gain."""
-    kinds, (first, last) = {(e.kind, e.at) for e in structure.elements}, span
-    wall = [f"{x}{first - 1}" for x in "ue" if ("k", first - 1) in kinds]
+def _ports(row: Row) -> tuple[int, int]:
+    """Its ports, numbered as in the chain."""
+    return row.a + row.before, row.b + row.before
+
+
+def _names(row: Row) -> tuple[str, ...]:
+    """Unknowns of a row but its gain, numbered as in the chain."""
+    at = row.before
     joints = (
-        f"{x}{i}"
-        for i in range(first, last)
-        for x in ("hex" if ports[0] <= i < ports[1] else "uer")
+        f"{x}{i + at}"
+        for i in range(1, row.n_masses)
+        for x in ("hex" if row.a <= i < row.b else "uer")
     )
-    return (
-        *wall,
-        *joints,
-        *(
-            f"f{i}"
-            for i in range(first, last + 1)
-            if ("b", i) in kinds and not (wall and i == first)
-        ),
-    )
+    dampers = (f"f{i + at}" for i in row.ground_dampers if not (row.grounded and i == 1))
+    return (*("u0", "e0")[: 2 * row.grounded], *joints, *dampers)
 
 
-def _minors(
-    structure: Structure, span: Span, ports: tuple[int, int], ring: dict[str, fmpz_mpoly]
-) -> tuple[fmpz_mpoly, fmpz_mpoly, fmpz_mpoly]:
+def _minors(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly, fmpz_mpoly]:
     """theta, phi and D by the three-term recurrences."""
-    s, zero, one, (first, last) = ring["s"], 0 * ring["s"], ring["s"] ** 0, span
+    s, zero, one = ring["s"], 0 * ring["s"], ring["s"] ** 0
+    first, last, ports = row.before + 1, row.before + row.n_masses, _ports(row)
     near = {
         last: (zero, zero),
         first - 1: (zero, ring.get(f"u{first - 1}", zero) + ring.get(f"e{first - 1}", zero) * s),

@@ -24,7 +24,7 @@ from disting.algebra.sampling import about, prime, residues
 from disting.fibres.ideals.system import PolynomialMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
-REMEMBERED = 512  # ranks: a part of a chain is asked for in many pairs
+REMEMBERED = 512  # ranks: a row is asked for in many pairs
 # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
 BITS = 64
 
@@ -65,11 +65,11 @@ def fibre_ideal(
     values = [fixed.get(name, 0) for name in other.parameters]
     reduced = (restricted(e, kept, values, modulus) for e in equations)
     return FibreIdeal(
-        modulus,
-        point,
-        tuple(other.parameters[i] for i in kept),
-        fixed,
-        tuple(e for e in reduced if e),
+        modulus=modulus,
+        point=point,
+        unknowns=tuple(other.parameters[i] for i in kept),
+        fixed=fixed,
+        generators=tuple(e for e in reduced if e),
     )
 
 

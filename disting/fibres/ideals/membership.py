@@ -25,6 +25,7 @@ from disting.algebra.groebner.points import free_variable, solution
 from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
 from disting.evidence.ideals import Refuted, Solved
+from disting.fibres.decision import Decision
 from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
@@ -49,19 +50,7 @@ class Limits:
     safety: int = 100
 
 
-@dataclass(frozen=True, slots=True)
-class Decision:
-    """`membership` with its evidence; the probability of error is at most 2**-safety. `reason`
-    says why not, or not more.
-    """
-
-    membership: Membership
-    safety: int = 0
-    evidence: Solved | Refuted | None = None
-    reason: str = ""
-
-    def __bool__(self) -> bool:
-        raise TypeError("a decision is not true or false; look at its membership")
+Told = Decision[Solved | Refuted]
 
 
 class _GivenUp(Exception):
@@ -118,7 +107,7 @@ def decide(
     equal_rank: bool,
     seed: str = "disting",
     limits: Limits = Limits(),
-) -> Decision:
+) -> Told:
     """Whether generic models of `given` are models of `other`; `equal_rank` lets the other
     direction decide as well.
 
@@ -138,7 +127,7 @@ def decide_matched(
     equal_rank: bool,
     seed: str = "disting",
     limits: Limits = Limits(),
-) -> Decision:
+) -> Told:
     """The same for two maps whose coordinates can be compared, whatever they are of: several
     transfer functions of one model, for instance. The bounds rest on nothing else.
     """
@@ -149,7 +138,13 @@ def decide_matched(
             Membership.UNKNOWN,
             reason="primes of 64 bits give no useful bound for models of this size",
         )
-    question = _Question(left, right, equal_rank, limits, process_time() + limits.seconds)
+    question = _Question(
+        left=left,
+        right=right,
+        equal_rank=equal_rank,
+        limits=limits,
+        deadline=process_time() + limits.seconds,
+    )
     try:
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
@@ -194,7 +189,7 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
     raise _GivenUp(f"too large: {why}")
 
 
-def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Decision:
+def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     each = safety_of_empty(*question.sides(run.left_given), question.equal_rank)
     labels, degree, reason = [run.label], basis.degree, ""
     try:
@@ -214,7 +209,7 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Decisi
     return Decision(Membership.EXCLUDED, each * len(labels) - question.price, evidence, reason)
 
 
-def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Decision:
+def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     each = safety_of_member(*question.sides(run.left_given))
     found, reason, wanted = dict[str, tuple[int, ...]](), "", _needed(question, each)
     try:

@@ -1,5 +1,5 @@
-"""Whether the poles of each part of a generic chain are inseparable: conditions 1 and 2 of the
-theorem in `parts`, proven.
+"""Whether the poles of each row of a generic chain are inseparable: conditions 1 and 2 of the
+theorem in `splits`, proven.
 
 Galois groups are seen modulo primes: where a monic polynomial with coefficients in Z[p] is
 squarefree at a point p0 modulo a prime, its group over Q(p) holds an element whose cycles are as
@@ -17,7 +17,7 @@ from flint import fmpz_mpoly, nmod_mat, nmod_poly
 
 from disting.algebra.sampling import about, prime, residues
 from disting.fibres.ideals.fibre_ideal import evaluated
-from disting.fibres.ideals.parts import parts, power
+from disting.fibres.ideals.splits import power, receptances
 from disting.fibres.ideals.system import CoefficientMap, terms
 from disting.model.structure import Structure
 
@@ -26,7 +26,7 @@ DRAWS = 400  # a degree m needs about 2 m of them
 
 @cache
 def poles_are_inseparable(structure: Structure, label: str) -> bool:
-    """Whether both conditions are proven for both parts of a plain chain, at points that the label
+    """Whether both conditions are proven for both rows of a plain chain, at points that the label
     stands for.
 
     >>> from disting.model.chain import Chain
@@ -34,19 +34,21 @@ def poles_are_inseparable(structure: Structure, label: str) -> bool:
     True
     """
     step = 2 // power(structure)
-    return all(_is_inseparable(m, step, f"{label}:{name}") for name, m in parts(structure).named)
+    return all(
+        _is_inseparable(m, step, f"{label}:{name}") for name, m in receptances(structure).named
+    )
 
 
-def _is_inseparable(part: CoefficientMap, step: int, label: str) -> bool:
-    """One part, in x = s^step: its poles that are not zero, with a doubly transitive group and
+def _is_inseparable(row: CoefficientMap, step: int, label: str) -> bool:
+    """One row, in x = s^step: its poles that are not zero, with a doubly transitive group and
     unequal residues.
     """
-    label = about(label, part.content)
+    label = about(label, row.content)
     modulus = prime(label)
     wanted, unequal = set[tuple[int, ...]](), False
     for draw in range(DRAWS):
-        point = residues(f"{label}:{draw}", len(part.parameters), modulus)
-        num, den = (_at(c[::step], point, modulus) for c in (part.numerator, part.denominator))
+        point = residues(f"{label}:{draw}", len(row.parameters), modulus)
+        num, den = (_at(c[::step], point, modulus) for c in (row.numerator, row.denominator))
         zeros = next(i for i in range(den.degree() + 1) if den[i])
         rest = nmod_poly([den[i] for i in range(zeros, den.degree() + 1)], modulus)
         m = rest.degree()

@@ -11,17 +11,16 @@ The error bound is not stored; it follows from the rows (`zeros.safety_of_branch
 """
 
 import json
-from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 
 from disting.errors import CatalogError
-from disting.fibres.ideals.rows import DampedRow
 from disting.fibres.ideals.zeros import Branched, confirms_branches
 from disting.files import intact_text, shipped_folder
+from disting.model.row import Row
 
 ROWS = "rows.jsonl"
-Answers = dict[frozenset[DampedRow], Branched]
+Answers = dict[frozenset[Row], Branched]
 
 
 def rows_text(folder: Path | None = None) -> str:
@@ -50,22 +49,24 @@ def known_answers() -> Answers:
 
 def line_of(answer: Branched) -> str:
     """A line of the file."""
-    plain = asdict(answer)
-    given, searched = plain.pop("given"), plain.pop("searched")
-    rows = {
-        "wall": given["wall"],
-        "masses": given["masses"],
-        "given": given["ports"],
-        "searched": searched["ports"],
+    row = answer.given
+    plain = {
+        "wall": row.grounded,
+        "masses": row.n_masses,
+        "given": row.ports,
+        "searched": answer.searched.ports,
+        "label": answer.label,
+        "branches": answer.branches,
+        "degree": answer.degree,
     }
-    return json.dumps(rows | plain, separators=(",", ":")) + "\n"
+    return json.dumps(plain, separators=(",", ":")) + "\n"
 
 
 def false_answers(folder: Path, masses: int) -> list[str]:
     """A sentence for each answer about rows of so many masses that does not hold; all of it is
     computed again.
     """
-    wanted = (a for a in read_answers(folder).values() if a.given.masses == masses)
+    wanted = (a for a in read_answers(folder).values() if a.given.n_masses == masses)
     return [
         f"{ROWS}: {a.given} and {a.searched}: not what is computed now"
         for a in wanted
@@ -79,7 +80,7 @@ def _answer(plain: dict[str, object]) -> Branched:
     if not (isinstance(wall, bool) and isinstance(masses, int) and isinstance(label, str)):
         raise TypeError("no row")
     given, searched = (
-        DampedRow(wall, masses, _ports(plain[name])) for name in ("given", "searched")
+        Row(masses, wall, *_ports(plain[name]), damped=True) for name in ("given", "searched")
     )
     return Branched(given, searched, label, *(_number(n) for n in numbers))
 

@@ -68,7 +68,9 @@ def told_apart(
                     - ceil(log2(DRAWS))
                     - 1
                 )
-                return Shared(left_given, "", label, shares, degree), safety
+                return Shared(
+                    left_given=left_given, part="", label=label, shares=shares, degree=degree
+                ), safety
     return None
 
 

@@ -8,7 +8,7 @@ K is divided by m_i; with c_i, d_i for spring and damper between masses i and i+
     u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,  f_i =
     b_i/m_i,  g = 1/m_b
 
-with one gain g for each row of connected masses, b its right port. A joint enters row i as u_i +
+with one gain g for each row, b its right port. A joint enters row i as u_i +
 e_i s and row i+1 as r_i (u_i + e_i s), so every determinant is monic in s and linear in each
 single unknown, and the receptance of a row is
 
@@ -21,7 +21,7 @@ same closure of their image, which alone matters for generic models; parameters 
 port, which the transfer function does not contain, are left out.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from operator import mul
@@ -33,12 +33,12 @@ from disting.algebra.sampling import digest
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.behaviour.expanded import expanded
 from disting.errors import InputError
+from disting.model.row import Row, rows_of
 from disting.model.structure import Structure
 
 SCALE = "scale"  # the unknown common factor of numerator and denominator
 Term = tuple[tuple[int, ...], int]  # exponents and coefficient
 Terms = tuple[Term, ...]
-Span = tuple[int, int]  # first and last mass of a row
 
 
 class PolynomialMap(Protocol):
@@ -151,9 +151,10 @@ def normalised(structure: Structure) -> CoefficientMap:
     >>> m.parameters, [str(a) for a in m.denominator]
     (('u1', 'e1', 'r1', 'g1'), ['u1*r1 + u1', 'e1*r1 + e1', '1'])
     """
-    names = tuple(_names(structure))
+    rows = rows_of(structure)
+    names = (*(name for row in rows for name in unknowns(row)), *["lag"] * structure.lag)
     ring = symbols(["s", *names])
-    fractions = [receptance_of_row(structure, span, ring) for span, _ in rows(structure)]
+    fractions = [receptance_of_row(row, ring) for row in rows]
     num, den = reduce(lambda x, y: (x[0] * y[1] + y[0] * x[1], x[1] * y[1]), fractions)
     if structure.lag:
         den = den * (ring["s"] + ring["lag"])
@@ -205,55 +206,25 @@ def terms(polynomial: fmpz_mpoly) -> Terms:
     return tuple((tuple(map(int, e)), int(c)) for e, c in polynomial.to_dict().items())
 
 
-def ports_of(structure: Structure, span: Span) -> tuple[int, int]:
-    """The two ports (a, b), a <= b, of a row that has some."""
-    return _ports(structure, span) or (span[0], span[0])
+def unknowns(row: Row) -> tuple[str, ...]:
+    """Names of the unknowns of a row, numbered as in the chain.
 
-
-def _ports(structure: Structure, span: Span) -> tuple[int, int] | None:
-    """The two ports (a, b), a <= b, of a row of masses: of the plus side, of the minus side, or
-    none.
+    >>> unknowns(Row(2, True, 1, 2, damped=True))
+    ('u0', 'e0', 'u1', 'e1', 'r1', 'g1')
     """
-    p = structure.ports
-    for pair in ((p.act_plus, p.meas_plus), (p.act_minus, p.meas_minus)):
-        if all(span[0] <= port <= span[1] for port in pair):
-            return min(pair), max(pair)
-    return None
+    first = row.before + 1
+    kinds = "ue" if row.damped else "u"
+    names = [
+        f"{kind}{i + row.before}"
+        for i in range(row.n_masses)
+        for kind in kinds * (i in row.joints) + "r" * (i > 0)
+    ]
+    return (*names, *(f"f{i + row.before}" for i in row.ground_dampers), f"g{first}")
 
 
-def rows(structure: Structure) -> Iterator[tuple[Span, tuple[str, ...]]]:
-    """The rows of connected masses that have ports, (first, last), each with the names of its
-    unknowns.
-    """
-    for span in structure.blocks:
-        if _ports(structure, span):
-            yield span, tuple(_names_of_row(structure, span))
-
-
-def _names(structure: Structure) -> Iterator[str]:
-    for _, names in rows(structure):
-        yield from names
-    if structure.lag:
-        yield "lag"
-
-
-def _names_of_row(structure: Structure, span: Span) -> Iterator[str]:
-    """Unknowns of one row of connected masses."""
-    kinds, (first, last) = {(e.kind, e.at) for e in structure.elements}, span
-    for i in range(first - 1, last):
-        yield from (name for kind, name in (("k", f"u{i}"), ("d", f"e{i}")) if (kind, i) in kinds)
-        yield from ([f"r{i}"] if i >= first else [])
-    yield from (f"f{i}" for i in range(first, last + 1) if ("b", i) in kinds)
-    yield f"g{first}"
-
-
-def receptance_of_row(
-    structure: Structure, span: Span, ring: dict[str, fmpz_mpoly]
-) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-    """Receptance (numerator, denominator) of one row of connected masses; `ring` has s and the
-    row's unknowns.
-    """
-    first, last = span
+def receptance_of_row(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """Receptance (numerator, denominator) of a row; `ring` has s and the row's unknowns."""
+    first, last = row.before + 1, row.before + row.n_masses
     s, zero, one = ring["s"], ring["s"] - ring["s"], ring["s"] ** 0
     joint = {
         i: ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)
@@ -264,11 +235,17 @@ def receptance_of_row(
         for i in range(first, last + 1)
     ]
     squares = [joint[i] * joint[i] * ratio[i] for i in range(first, last)]
-    a, b = ports_of(structure, span)
     leading = minors(diagonal, squares, one)
     trailing = minors(diagonal[::-1], squares[::-1], one)
-    between = reduce(mul, (joint[i] for i in range(a, b)), ring[f"g{first}"])
-    return between * leading[a - first] * trailing[last - b], leading[-1]
+    a, b = row.ports
+    between = reduce(mul, (joint[i + row.before] for i in range(a, b)), ring[f"g{first}"])
+    return between * leading[a - 1] * trailing[row.n_masses - b], leading[-1]
+
+
+def receptance_map(row: Row) -> CoefficientMap:
+    """The receptance of a row as a map of its unknowns."""
+    names = unknowns(row)
+    return separated(names, *receptance_of_row(row, symbols(["s", *names])))
 
 
 def minors(

@@ -1,7 +1,7 @@
 """Whether a damped row has the receptances of another one: the ideal of one fibre, taken apart by
 the zeros.
 
-Psi = (N, D) as in `rows`. A point p0 of the given row modulo a prime is taken at which N has
+Psi = (N, D) as in `monic_map`. A point p0 of the given row modulo a prime is taken at which N has
 simple zeros z_1, z_2, .. that all lie in the prime field. For every q, in whatever extension, with
 Psi_2(q) = Psi_1(p0) the product
 
@@ -61,8 +61,9 @@ from disting.fibres.ideals.fibre_ideal import (
     generic_rank,
     restricted,
 )
-from disting.fibres.ideals.rows import DampedRow, RowMap, row_map
+from disting.fibres.ideals.monic_map import MonicMap, monic_map
 from disting.fibres.ideals.system import Terms, terms
+from disting.model.row import Row
 
 BITS = 192  # of the prime: one point is enough for 100 bits of any row of up to six masses
 DRAWS = 1 << 12
@@ -75,8 +76,8 @@ class Branched:
     in degree `degree` at most.
     """
 
-    given: DampedRow
-    searched: DampedRow
+    given: Row
+    searched: Row
     label: str
     branches: int
     degree: int
@@ -103,17 +104,17 @@ class GivenPoint:
     relations: tuple[tuple[int, ...], ...]
 
 
-def safety_of_branches(given: DampedRow, searched: DampedRow) -> int:
+def safety_of_branches(given: Row, searched: Row) -> int:
     """Bits of the error bound of an empty fibre."""
-    return safety_of_empty(row_map(given).whole, row_map(searched).whole, True, BITS) - int(
+    return safety_of_empty(monic_map(given).whole, monic_map(searched).whole, True, BITS) - int(
         log2(DRAWS)
     )
 
 
-def assignments(zeros: int, row: DampedRow) -> Iterator[Assignment]:
+def assignments(zeros: int, row: Row) -> Iterator[Assignment]:
     """All assignments of so many zeros to the factors of a row.
 
-    >>> sum(1 for _ in assignments(4, DampedRow(True, 4, (1, 3))))
+    >>> sum(1 for _ in assignments(4, Row(4, True, 1, 3, True)))
     12
     """
     a, b = row.ports
@@ -123,13 +124,13 @@ def assignments(zeros: int, row: DampedRow) -> Iterator[Assignment]:
             yield Assignment(heads, left, tuple(k for k in rest if k not in left))
 
 
-def branches(given: DampedRow, searched: DampedRow) -> list[Assignment]:
+def branches(given: Row, searched: Row) -> list[Assignment]:
     """One assignment of each orbit; the zeros of the given row in the order of h, theta, phi.
 
-    >>> len(branches(DampedRow(True, 4, (2, 4)), DampedRow(True, 4, (1, 3))))
+    >>> len(branches(Row(4, True, 2, 4, True), Row(4, True, 1, 3, True)))
     7
     """
-    row, found = row_map(given), dict[tuple[tuple[int, ...], tuple[int, ...]], Assignment]()
+    row, found = monic_map(given), dict[tuple[tuple[int, ...], tuple[int, ...]], Assignment]()
     orbit = [*range(len(row.heads)), *[-1] * len(row.left), *[-2] * len(row.right)]
     for branch in assignments(len(orbit), searched):
         key = (tuple(orbit[k] for k in branch.heads), tuple(sorted(orbit[k] for k in branch.left)))
@@ -138,7 +139,7 @@ def branches(given: DampedRow, searched: DampedRow) -> list[Assignment]:
 
 
 @cache
-def zeros_are_free(row: DampedRow, label: str = "zeros") -> bool:
+def zeros_are_free(row: Row, label: str = "zeros") -> bool:
     """Whether the Galois group of theta phi is proven to be the product of both symmetric groups;
     nothing is left to chance.
 
@@ -148,10 +149,10 @@ def zeros_are_free(row: DampedRow, label: str = "zeros") -> bool:
     splits is a transposition that leaves phi alone; so are its conjugates, all transpositions of
     zeros of theta, which generate the symmetric group. The same for phi.
 
-    >>> zeros_are_free(DampedRow(True, 3, (1, 2)))
+    >>> zeros_are_free(Row(3, True, 1, 2, True))
     True
     """
-    found, modulus = row_map(row), prime(label)
+    found, modulus = monic_map(row), prime(label)
     wanted = {
         (side, cycles)
         for side in (0, 1)
@@ -183,17 +184,15 @@ def _needed(degree: int) -> set[tuple[int, ...]]:
 
 
 @cache
-def refute(
-    given: DampedRow, searched: DampedRow, label: str, entries: int = ENTRIES
-) -> Branched | None:
+def refute(given: Row, searched: Row, label: str, entries: int = ENTRIES) -> Branched | None:
     """The proof, but for the bound, that generic `given` rows are no `searched` ones; None if
     there is none or it is too large.
 
     Nothing is claimed of rows whose rank is smaller than their number of parameters.
     """
-    target, degree, tried = row_map(searched), 0, branches(given, searched)
+    target, degree, tried = monic_map(searched), 0, branches(given, searched)
     point = (
-        given_point(row_map(given), f"{label}:{given}:{searched}")
+        given_point(monic_map(given), f"{label}:{given}:{searched}")
         if are_comparable(given, searched)
         else None
     )
@@ -207,16 +206,16 @@ def refute(
         if basis is None or not basis.is_one:
             return None
         degree = max(degree, basis.degree)
-    return Branched(given, searched, label, len(tried), degree)
+    return Branched(given=given, searched=searched, label=label, branches=len(tried), degree=degree)
 
 
-def are_comparable(given: DampedRow, searched: DampedRow) -> bool:
+def are_comparable(given: Row, searched: Row) -> bool:
     """Whether both are of one kind, as many zeros, and full rank, and the orbits of the given
     one's zeros are proven.
     """
-    maps = [row_map(row) for row in (given, searched)]
+    maps = [monic_map(row) for row in (given, searched)]
     kinds = {
-        (row.wall, row.masses, *m.whole.degrees)
+        (row.grounded, row.n_masses, *m.whole.degrees)
         for row, m in zip((given, searched), maps, strict=True)
     }
     full = all(generic_rank(m.whole, "rows") == len(m.parameters) for m in maps)
@@ -228,7 +227,7 @@ def confirms_branches(found: Branched) -> bool:
     return refute(found.given, found.searched, found.label) == found
 
 
-def given_point(row: RowMap, label: str) -> GivenPoint | None:
+def given_point(row: MonicMap, label: str) -> GivenPoint | None:
     """The first random point at which all zeros are simple and in the prime field; None if
     DRAWS have none.
     """
@@ -272,7 +271,7 @@ def _roots(
 
 
 def _relations(
-    row: RowMap, point: Sequence[int], factors: Sequence[tuple[int, ...]], modulus: int
+    row: MonicMap, point: Sequence[int], factors: Sequence[tuple[int, ...]], modulus: int
 ) -> Iterator[tuple[int, ...]]:
     """Relations between the derivatives of the zeros' coordinates and of D at the point."""
     size = len(row.parameters)
@@ -317,7 +316,7 @@ def _functionals(zeros: Sequence[int], modulus: int) -> list[list[int]]:
     ]
 
 
-def equations(point: GivenPoint, row: RowMap, branch: Assignment) -> list[Sparse]:
+def equations(point: GivenPoint, row: MonicMap, branch: Assignment) -> list[Sparse]:
     """Equations of a branch in the parameters of the searched row without its h_i, which are
     numbers there.
     """

@@ -6,6 +6,8 @@ accepted by one: a survivor is consistent, no more. Balls that hold zero but are
 either way and call for more bits.
 """
 
+from collections.abc import Iterator
+from itertools import combinations
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx
@@ -129,3 +131,9 @@ def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
     step = mid - p(mid) / steep
     proven = not steep.contains(0) and z.contains(box) and box.contains(step)
     return step if proven else None
+
+
+def splits(items: list[Ball], size: int) -> Iterator[tuple[list[Ball], list[Ball]]]:
+    """Every choice of `size` items, with the rest."""
+    for chosen in combinations(range(len(items)), size):
+        yield [items[i] for i in chosen], [z for i, z in enumerate(items) if i not in chosen]

@@ -1,7 +1,7 @@
-"""What the end of a branch can be: a part of a chain that fits, or the reason why there is none."""
+"""What the end of a branch can be: numbers for a row that fits, or the reason why there is none."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import product
 
@@ -26,9 +26,9 @@ class Dead:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
-    """Masses and springs in a row, k(s) = c + d s (undamped: c). `gauges`: how many free choices
-    were made to get here.
+class RowValues:
+    """Numbers for the masses and springs of a row, from the left, or of masses beside a port, from
+    the port outwards; k(s) = c + d s (undamped: c). `gauges`: how many free choices were made.
 
     `dampers`: from each mass to the ground, 0 where there is none; empty where no mass has one.
     """
@@ -44,15 +44,25 @@ class Part:
         return self.dampers or (acb(0),) * len(self.masses)
 
 
-Leaf = Part | Dead
+Leaf = RowValues | Dead
 NONZERO, BOUNDARY, OPEN = (Dead(reason) for reason in Reason)
 
 
+def mirrored(leaf: Leaf) -> Leaf:
+    """The same numbers read from right to left."""
+    if not isinstance(leaf, RowValues):
+        return leaf
+    return replace(
+        leaf, masses=leaf.masses[::-1], springs=leaf.springs[::-1], dampers=leaf.dampers[::-1]
+    )
+
+
 def combined(
-    left: Iterable[Leaf], right: Callable[[], Iterable[Leaf]], join: Callable[[Part, Part], Leaf]
+    left: Iterable[Leaf],
+    right: Callable[[], Iterable[Leaf]],
+    join: Callable[[RowValues, RowValues], Leaf],
 ) -> Iterator[Leaf]:
-    """All pairs of parts, then what is left open; nothing but proofs if one side is proven
-    impossible.
+    """All pairs, then what is left open; nothing but proofs if one side is proven impossible.
 
     `right` is asked only if the left side is not refuted.
     """
@@ -63,7 +73,7 @@ def combined(
             yield from side
             return
     for a, b in product(first, second):
-        if isinstance(a, Part) and isinstance(b, Part):
+        if isinstance(a, RowValues) and isinstance(b, RowValues):
             yield join(a, b)
     yield from (leaf for leaf in (*first, *second) if isinstance(leaf, Dead))
 

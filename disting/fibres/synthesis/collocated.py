@@ -8,10 +8,11 @@ W_R(0) = 0), which settles the polynomial part.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from disting.fibres.synthesis.ball import Ball, Poly, poly, product, roots
-from disting.fibres.synthesis.branch_ends import Leaf, Part, combined
+from disting.fibres.synthesis.ball import Ball, Poly, poly, product, roots, splits
+from disting.fibres.synthesis.branch_ends import Leaf, RowValues, combined
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.segment import Data, Segment, splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,18 +23,18 @@ class Residue:
     value: Ball
 
 
-def collocated(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every segment with this driving-point receptance."""
-    zeros = roots(data.numerator, segment.numerator_degree)
-    for left, right in splits(zeros, segment.q * (segment.a - 1)):
-        yield from between(segment, data, left, right)
+def collocated(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every row with this driving-point receptance."""
+    zeros = roots(data.numerator, row.numerator_degree)
+    for left, right in splits(zeros, row.q * (row.a - 1)):
+        yield from between(row, data, left, right)
 
 
-def between(segment: Segment, data: Data, left: list[Ball], right: list[Ball]) -> Iterator[Leaf]:
-    """Yield every segment whose left side has the zeros `left`, its right side the zeros
+def between(row: Row, data: Receptance, left: list[Ball], right: list[Ball]) -> Iterator[Leaf]:
+    """Yield every row whose left side has the zeros `left`, its right side the zeros
     `right`.
     """
-    q, slope = segment.q, data.numerator.derivative()
+    q, slope = row.q, data.numerator.derivative()
     whole = data.denominator // data.numerator  # degree 2 (undamped 1), leading coefficient m_a
     lefts, rights = (
         [Residue(z, data.denominator(z) / slope(z)) for z in side] for side in (left, right)
@@ -42,17 +43,23 @@ def between(segment: Segment, data: Data, left: list[Ball], right: list[Ball]) -
         sum((r.value / r.at ** (i + 1) for r in rights), 0 * whole[0]) for i in range(q)
     ]
     w_right = Stiffness(
-        grounded_at_zero(over(rights, low), q), product(right), segment.nodes - segment.a, False, q
+        numerator=grounded_at_zero(over(rights, low), q),
+        denominator=product(right),
+        masses=row.n_masses - row.a,
+        wall=False,
+        q=q,
     )
     p_left = over(lefts, [whole[i] - low[i] for i in range(q)])
-    if not segment.wall:
+    if not row.grounded:
         p_left = grounded_at_zero(p_left, q)
-    w_left = Stiffness(p_left, product(left), segment.a - 1, segment.wall, q)
+    w_left = Stiffness(
+        numerator=p_left, denominator=product(left), masses=row.a - 1, wall=row.grounded, q=q
+    )
     mass = whole[q]
 
-    def join(a: Part, b: Part) -> Part:
+    def join(a: RowValues, b: RowValues) -> RowValues:
         """Left side, the mass between, right side."""
-        return Part(
+        return RowValues(
             (*a.masses[::-1], mass, *b.masses), (*a.springs[::-1], *b.springs), a.gauges + b.gauges
         )
 

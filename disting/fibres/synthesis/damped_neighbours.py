@@ -44,13 +44,14 @@ from disting.fibres.synthesis.ball import (
     shifted,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, Part, combined
+from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
 from disting.fibres.synthesis.conjugate import conjugate_factors
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.segment import Data, Segment
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 DEGREE_LIMIT = 40  # of E(d): the time grows with its square
-ALONE_LIMIT = 60  # where it is done once: the poles need not be shared out between two parts
+ALONE_LIMIT = 60  # where it is done once: the poles need not be shared out between two rows
 QUICK_BITS = 128  # tried first where a candidate for d is to be refuted
 # which zero is -rho, which are those of A and of B
 Way = tuple[int, tuple[int, ...], tuple[int, ...]]
@@ -60,8 +61,8 @@ Way = tuple[int, tuple[int, ...], tuple[int, ...]]
 class Branch:
     """One choice of -rho and of the zeros of A and B; gain = nu."""
 
-    segment: Segment
-    data: Data
+    row: Row
+    data: Receptance
     rho: Ball
     left: list[Ball]
     right: list[Ball]
@@ -80,45 +81,45 @@ class Branch:
     def grounded(self, d: Ball) -> Poly:
         """G_d, monic of degree 2n."""
         return cut(
-            self.data.denominator + d * self.spring * self.data.numerator, 2 * self.segment.nodes
+            self.data.denominator + d * self.spring * self.data.numerator, 2 * self.row.n_masses
         )
 
 
-def serves(segment: Segment) -> bool:
+def serves(row: Row) -> bool:
     """Whether b and what is right of it has no damper to the ground, and E(d) is not too long."""
-    limit = ALONE_LIMIT if segment.alone else DEGREE_LIMIT
-    return degree_of(segment) <= limit and not any(i >= segment.b for i in segment.dampers)
+    limit = ALONE_LIMIT if row.is_whole else DEGREE_LIMIT
+    return degree_of(row) <= limit and not any(i >= row.b for i in row.ground_dampers)
 
 
-def degree_of(segment: Segment) -> int:
+def degree_of(row: Row) -> int:
     """Degree of E(d), known factors d taken out."""
     return (
         comb(
-            2 * segment.nodes - (1 if segment.wall or segment.dampers else 2),
-            2 * (segment.nodes - segment.a) - 1,
+            2 * row.n_masses - (1 if row.grounded or row.ground_dampers else 2),
+            2 * (row.n_masses - row.a) - 1,
         )
         - 2
     )
 
 
-def inner_neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every damped segment with b = a + 1 and this receptance; a way that is refuted
+def inner_neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every damped row with b = a + 1 and this receptance; a way that is refuted
     speaks for all its conjugates.
     """
-    zeros, gain = _zeros(data, segment.numerator_degree), data.gain(segment)
+    zeros, gain = _zeros(data, row.numerator_degree), data.gain(row)
     seen: dict[int, list[Seen]] = {}
-    for same in _conjugate_ways([kind for kind, _ in zeros], 2 * (segment.a - 1)):
+    for same in _conjugate_ways([kind for kind, _ in zeros], 2 * (row.a - 1)):
         for way in same:
             (rho,), left, right = ([zeros[i][1] for i in some] for some in ((way[0],), *way[1:]))
             leaves = list(
-                _branch(Branch(segment, data, -rho, left, right, gain), seen.setdefault(way[0], []))
+                _branch(Branch(row, data, -rho, left, right, gain), seen.setdefault(way[0], []))
             )
             yield from leaves
             if way is same[0] and leaves and all(leaf == NONZERO for leaf in leaves):
                 break
 
 
-def _zeros(data: Data, degree: int) -> list[tuple[int, Ball]]:
+def _zeros(data: Receptance, degree: int) -> list[tuple[int, Ball]]:
     """The zeros of N, each with the number of its kind; those of one kind are proven conjugate."""
     factors = () if data.exact is None else conjugate_factors(data.exact)
     if not factors:
@@ -144,7 +145,7 @@ def _branch(branch: Branch, seen: list["Seen"]) -> Iterator[Leaf]:
     if is_boundary(branch.rho):
         yield BOUNDARY
         return
-    degree, radius = degree_of(branch.segment), _radius(branch)
+    degree, radius = degree_of(branch.row), _radius(branch)
     if not seen:
         seen += [_seen(branch, d) for d in circle(degree, radius)]
     for d in roots(through([at.product(branch.sigma) for at in seen], radius), degree):
@@ -182,9 +183,9 @@ class Seen:
 
 
 def _seen(branch: Branch, d: Ball) -> Seen:
-    nodes, size = branch.segment.nodes, 2 * (branch.segment.nodes - branch.segment.a)
+    nodes, size = branch.row.n_masses, 2 * (branch.row.n_masses - branch.row.a)
     whole = branch.grounded(d)
-    loose = not branch.segment.wall and not branch.segment.dampers
+    loose = not branch.row.grounded and not branch.row.ground_dampers
     known = comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1) if loose else 0
     sums = subset_sums([1 / z for z in roots(whole, 2 * nodes)], size)
     return Seen(whole[0] ** comb(2 * nodes - 1, size - 1) / d**known, sums)
@@ -219,7 +220,7 @@ def _radius(branch: Branch) -> float:
     """A power of two near the d at which the lowest coefficient of G_d may vanish: where the
     roots of E are to be expected.
     """
-    low = 0 if branch.segment.wall else 2 if is_boundary(branch.data.denominator[1]) else 1
+    low = 0 if branch.row.grounded else 2 if is_boundary(branch.data.denominator[1]) else 1
     ratio = branch.data.denominator[low] / (branch.spring * branch.data.numerator)[low]
     size = float(ratio.abs_upper())
     if not 0 < size < inf:
@@ -257,8 +258,8 @@ def _with_damper(
 ) -> Iterator[Leaf]:
     """Every subset of the roots of G_d that may be Phi's; all that are refuted are one leaf."""
     nodes, size, sigma = (
-        branch.segment.nodes,
-        2 * (branch.segment.nodes - branch.segment.a),
+        branch.row.n_masses,
+        2 * (branch.row.n_masses - branch.row.a),
         branch.sigma,
     )
     found = found_by(branch.grounded(d), 2 * nodes)
@@ -284,19 +285,19 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
         return
     m_b = d * branch.rho * b_poly[0] / phi[0]
     m_a = d / (branch.gain * m_b)
-    nodes, a, spring = branch.segment.nodes, branch.segment.a, d * branch.spring
-    w_left = _side(m_a * theta - spring * a_poly, a_poly, m_a, a - 1, branch.segment)
+    nodes, a, spring = branch.row.n_masses, branch.row.a, d * branch.spring
+    w_left = _side(m_a * theta - spring * a_poly, a_poly, m_a, a - 1, branch.row)
     w_right = _side(m_b * phi - spring * b_poly, b_poly, m_b, nodes - a - 1, None)
 
-    def join(x: Part, y: Part) -> Part:
+    def join(x: RowValues, y: RowValues) -> RowValues:
         """Left side, the two inner masses with their spring, right side."""
-        return Part(
+        return RowValues(
             (*x.masses[::-1], m_a, m_b, *y.masses),
             (*x.springs[::-1], spring, *y.springs),
             x.gauges + y.gauges,
         )
 
-    def join_damped(b: Ball, x: Part, y: Part) -> Leaf:
+    def join_damped(b: Ball, x: RowValues, y: RowValues) -> Leaf:
         """The same with the dampers to the ground; none at the inner mass is a boundary case
         where one is meant.
         """
@@ -304,14 +305,14 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
         dampers = (*x.all_dampers[::-1], b, friction.NOTHING, *y.all_dampers)
         return (
             replace(plain, dampers=dampers)
-            if a not in branch.segment.dampers or not is_boundary(b)
+            if a not in branch.row.ground_dampers or not is_boundary(b)
             else BOUNDARY
         )
 
-    if not branch.segment.dampers:
+    if not branch.row.ground_dampers:
         yield from combined(peel(w_left), lambda: peel(w_right), join)
         return
-    dampers = tuple(i in branch.segment.dampers for i in range(a, 0, -1))
+    dampers = tuple(i in branch.row.ground_dampers for i in range(a, 0, -1))
     node = friction.Node(
         w_left.numerator, w_left.denominator, dampers[0], dampers[1:], w_left.wall, False
     )
@@ -319,10 +320,16 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
         yield from combined([leaf], lambda: peel(w_right), partial(join_damped, b))
 
 
-def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, segment: Segment | None) -> Stiffness:
-    """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu; `segment` for its left
+def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, row: Row | None) -> Stiffness:
+    """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu; `row` for its left
     side, with its dampers in W.
     """
-    wall, known = (segment.wall, segment.poles_at_zero) if segment else (False, 2)
+    wall, known = (row.grounded, row.poles_at_zero(2)) if row else (False, 2)
     numerator = cut(whole - mass * shifted(zeros, 2), 2 * nu + 1)
-    return Stiffness(numerator if wall else grounded_at_zero(numerator, known), zeros, nu, wall, 2)
+    return Stiffness(
+        numerator=numerator if wall else grounded_at_zero(numerator, known),
+        denominator=zeros,
+        masses=nu,
+        wall=wall,
+        q=2,
+    )

@@ -29,11 +29,13 @@ from disting.fibres.synthesis.ball import (
     product,
     roots,
     shifted,
+    splits,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, Part
+from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.segment import Data, Segment, splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +50,8 @@ class Linear:
 class Branch:
     """One choice of the zero -rho; `others` are the zeros of A; gain = nu."""
 
-    segment: Segment
-    data: Data
+    row: Row
+    data: Receptance
     rho: Ball
     others: list[Ball]
     gain: Ball
@@ -60,18 +62,18 @@ class Branch:
         """D/s^2 (free, with dampers to the ground D/s) or D (wall)."""
         return (
             self.data.denominator
-            if self.segment.wall
-            else shifted(self.data.denominator, -self.segment.poles_at_zero)
+            if self.row.grounded
+            else shifted(self.data.denominator, -self.row.poles_at_zero(2))
         )
 
     @property
     def lower(self) -> Poly:
         """N (free; with dampers to the ground (s + beta) N) or (s + rho) N (wall)."""
-        if self.segment.wall:
+        if self.row.grounded:
             return self.data.numerator * poly([self.rho, 1])
         return (
             self.data.numerator * poly([self.beta, 1])
-            if self.segment.dampers
+            if self.row.ground_dampers
             else self.data.numerator
         )
 
@@ -80,30 +82,30 @@ class Branch:
         return poly([t * self.rho, t + self.beta, 1])
 
 
-def next_to_end(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every damped segment with a = n - 1, b = n and this receptance; one-parameter
+def next_to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every damped row with a = n - 1, b = n and this receptance; one-parameter
     families by a sample.
     """
-    zeros = roots(data.numerator, segment.numerator_degree)
+    zeros = roots(data.numerator, row.numerator_degree)
     for (z,), others in splits(zeros, 1):
         gain, beta = (
-            data.gain(segment),
-            (friction.random(1)[0] if segment.nodes in segment.dampers else friction.NOTHING),
+            data.gain(row),
+            (friction.random(1)[0] if row.n_masses in row.ground_dampers else friction.NOTHING),
         )
         yield from (
-            [BOUNDARY] if is_boundary(z) else _branch(Branch(segment, data, -z, others, gain, beta))
+            [BOUNDARY] if is_boundary(z) else _branch(Branch(row, data, -z, others, gain, beta))
         )
 
 
-def is_untested(segment: Segment) -> bool:
+def is_untested(row: Row) -> bool:
     """Whether the rest of the row adapts to any choice of beta."""
-    return set(range(1 + segment.wall, segment.nodes)) <= set(segment.dampers)
+    return set(range(1 + row.grounded, row.n_masses)) <= set(row.ground_dampers)
 
 
 def _branch(branch: Branch) -> Iterator[Leaf]:
     u, v = (reduced(p, branch.rho, branch.beta) for p in (branch.upper, branch.lower))
-    tested = not branch.segment.wall and not branch.segment.dampers
-    degree = 2 * branch.segment.nodes - (4 if tested else 3)
+    tested = not branch.row.grounded and not branch.row.ground_dampers
+    degree = 2 * branch.row.n_masses - (4 if tested else 3)
     determinant = cut(u.slope * v.offset - u.offset * v.slope, degree)
     if tested:
         if not vanishes(determinant[0], branch.upper[0] * branch.lower[0]):
@@ -126,7 +128,7 @@ def _any_ratio(branch: Branch, u: Linear, v: Linear) -> Iterator[Leaf]:
     """Two free masses: C is zero for all t, a random one is the gauge."""
     t = branch.rho * 0 + residues("synthesis:ratio", 1, 1 << 12)[0] / 512
     for leaf in _with_ratio(branch, u, v, t):
-        yield replace(leaf, gauges=1) if isinstance(leaf, Part) else leaf
+        yield replace(leaf, gauges=1) if isinstance(leaf, RowValues) else leaf
 
 
 def reduced(p: Poly, rho: Ball, beta: Ball = friction.NOTHING) -> Linear:
@@ -157,17 +159,17 @@ def _with_ratio(branch: Branch, u: Linear, v: Linear, t: Ball) -> Iterator[Leaf]
         yield BOUNDARY
         return
     ratio = top / bottom
-    m_b = ratio if not branch.segment.wall else -ratio / t
+    m_b = ratio if not branch.row.grounded else -ratio / t
     m_a = t / branch.gain
     spring = t * m_b * poly([branch.rho, 1])
-    last = Part(
-        (m_b,), (), int(branch.segment.nodes in branch.segment.dampers), (branch.beta * m_b,)
+    last = RowValues(
+        (m_b,), (), int(branch.row.n_masses in branch.row.ground_dampers), (branch.beta * m_b,)
     )
     w = _left(branch, t, m_b, m_a)
-    if not branch.segment.dampers:
+    if not branch.row.ground_dampers:
         yield from (_attached(leaf, m_a, friction.NOTHING, spring, last) for leaf in peel(w))
         return
-    dampers = tuple(i in branch.segment.dampers for i in range(w.masses + 1, 0, -1))
+    dampers = tuple(i in branch.row.ground_dampers for i in range(w.masses + 1, 0, -1))
     for b, leaf in friction.behind(
         friction.Node(w.numerator, w.denominator, dampers[0], dampers[1:], w.wall, False)
     ):
@@ -178,24 +180,28 @@ def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
     """W_L + b_a s = (m_a (D - m_b s (s + beta) N)/q_t - m_a s^2 A)/A; without remainder by the
     choice of t and m_b.
     """
-    nu, wall, known = branch.segment.nodes - 2, branch.segment.wall, branch.segment.poles_at_zero
+    nu, wall, known = branch.row.n_masses - 2, branch.row.grounded, branch.row.poles_at_zero(2)
     denominator = product(branch.others)
     driven = shifted(poly([branch.beta, 1]) * branch.data.numerator, 1)
     quotient = (branch.data.denominator - m_b * driven) // branch.swing(t)
     numerator = cut(m_a * (quotient - shifted(denominator, 2)), 2 * nu + 1)
     return Stiffness(
-        numerator if wall else grounded_at_zero(numerator, known), denominator, nu, wall, 2
+        numerator=numerator if wall else grounded_at_zero(numerator, known),
+        denominator=denominator,
+        masses=nu,
+        wall=wall,
+        q=2,
     )
 
 
-def _attached(left: Leaf, m_a: Ball, b_a: Ball, spring: Poly, last: Part) -> Leaf:
+def _attached(left: Leaf, m_a: Ball, b_a: Ball, spring: Poly, last: RowValues) -> Leaf:
     """The row from its left side, mass a with its damper, the spring between the ports, and the
     last mass.
     """
-    if not isinstance(left, Part):
+    if not isinstance(left, RowValues):
         return left
     dampers = (*left.all_dampers[::-1], b_a, *last.dampers)
-    return Part(
+    return RowValues(
         (*left.masses[::-1], m_a, *last.masses),
         (*left.springs[::-1], spring),
         left.gauges + last.gauges,

@@ -19,14 +19,17 @@ from flint import fmpq
 
 from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError
+from disting.evidence.decision import FibreAt
+from disting.fibres.decision import Decision
 from disting.fibres.synthesis.construction import is_constructed, is_untested
 from disting.fibres.synthesis.duality import are_dual
-from disting.fibres.synthesis.fibre import fibre, segments
+from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import cost
 from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.row import rows_of
 from disting.model.symmetry import canonical
 
 # bits of an error bound that points are made long enough for; LEAST_SAFETY is what must be reached
@@ -85,6 +88,26 @@ class Exact:
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its membership")
+
+    @property
+    def evidence(self) -> FibreAt:
+        """What can be checked again."""
+        return FibreAt(
+            left_given=self.direction is Direction.LEFT_IN_RIGHT,
+            point=tuple((name, str(value)) for name, value in self.point.items()),
+            grounds=self.grounds.value,
+            solutions=self.solutions,
+            real=self.real,
+            positive=self.positive,
+        )
+
+    def decision(self, safety: int) -> Decision[FibreAt]:
+        """What is proven of generic models but for an error bound of so many bits; UNKNOWN where
+        solutions are known within balls only.
+        """
+        if self.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION):
+            return Decision(self.membership, safety, self.evidence)
+        return Decision(Membership.UNKNOWN, reason=self.reason)
 
 
 def decide(left: Chain, right: Chain, seed: str = "disting") -> Exact:
@@ -174,7 +197,7 @@ def _refuse(given: Chain, other: Chain) -> None:
 
 def dearest(chain: Chain) -> int:
     """Rank of the dearest method that the chain needs; those without any last."""
-    return max(cost(s) for s in segments(canonical(chain).chain) if s is not None)
+    return max(map(cost, rows_of(canonical(chain).chain.structure)))
 
 
 def _better(first: Exact, second: Exact) -> Exact:
@@ -189,17 +212,17 @@ def _finding(found: Fibre, way: Direction, point: dict[str, fmpq], grounds: Grou
     width = max((s.width for s in found.solutions), default=0.0)
     count, bits = len(found.solutions), found.precision_bits
     return Exact(
-        _MEANING[grounds],
-        way,
-        point,
-        found.status,
-        count,
-        real,
-        positive,
-        bits,
-        width,
-        grounds,
-        found.reason,
+        membership=_MEANING[grounds],
+        direction=way,
+        point=point,
+        status=found.status,
+        solutions=count,
+        real=real,
+        positive=positive,
+        precision_bits=bits,
+        width=width,
+        grounds=grounds,
+        reason=found.reason,
     )
 
 

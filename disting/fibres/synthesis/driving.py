@@ -20,12 +20,14 @@ from disting.fibres.synthesis.ball import (
     product,
     roots,
     shifted,
+    splits,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, Part, combined
+from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
 from disting.fibres.synthesis.collocated import Residue, over
 from disting.fibres.synthesis.friction import NOTHING, Side, peel, slope
-from disting.fibres.synthesis.segment import Data, Segment, splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,25 +40,25 @@ class _Port:
     scale: Ball
 
 
-def driving_point(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every segment with this driving-point receptance."""
-    zeros = roots(data.numerator, segment.numerator_degree)
+def driving_point(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every row with this driving-point receptance."""
+    zeros = roots(data.numerator, row.numerator_degree)
     steepness = data.numerator.derivative()
     whole = data.denominator // data.numerator
     scale = sum((abs(c) for c in whole.coeffs()), NOTHING)
-    port = _Port(whole[2], whole[1], segment.a in segment.dampers, scale)
-    for chosen in splits(zeros, 2 * (segment.a - 1)):
+    port = _Port(whole[2], whole[1], row.a in row.ground_dampers, scale)
+    for chosen in splits(zeros, 2 * (row.a - 1)):
         left, right = (
             [Residue(z, data.denominator(z) / steepness(z)) for z in side] for side in chosen
         )
-        if segment.elastic and not _is_even_far_away(right):
+        if not row.damped and not _is_even_far_away(right):
             yield NONZERO
             continue
         constant = sum((r.value / r.at for r in right), NOTHING)
         yield from _sides(
             port,
-            _side(segment, left, whole[0] - constant, True),
-            _side(segment, right, constant, False),
+            _side(row, left, whole[0] - constant, True),
+            _side(row, right, constant, False),
         )
 
 
@@ -68,19 +70,21 @@ def _is_even_far_away(residues: list[Residue]) -> bool:
     )
 
 
-def _side(segment: Segment, residues: list[Residue], constant: Ball, left: bool) -> Side:
+def _side(row: Row, residues: list[Residue], constant: Ball, left: bool) -> Side:
     """W without its growth, or with it where it is known."""
-    places = range(segment.a - 1, 0, -1) if left else range(segment.a + 1, segment.nodes + 1)
-    dampers = tuple(i in segment.dampers for i in places)
+    places = range(row.a - 1, 0, -1) if left else range(row.a + 1, row.n_masses + 1)
+    dampers = tuple(i in row.ground_dampers for i in places)
     side = Side(
-        poly([]), product([r.at for r in residues]), dampers, segment.wall and left, segment.elastic
+        numerator=poly([]),
+        denominator=product([r.at for r in residues]),
+        dampers=dampers,
+        wall=row.grounded and left,
+        elastic=not row.damped,
     )
-    known = side.is_loose and not segment.elastic
+    known = side.is_loose and row.damped
     growth = sum((r.value / r.at**2 for r in residues), NOTHING) if known else NOTHING
     numerator = cut(over(residues, [constant, growth]), 2 * len(dampers) + known)
-    return replace(
-        side, numerator=_low(numerator, side), slope_open=not segment.elastic and not known
-    )
+    return replace(side, numerator=_low(numerator, side), slope_open=row.damped and not known)
 
 
 def _low(p: Poly, side: Side) -> Poly:
@@ -106,7 +110,7 @@ def _sides(port: _Port, left: Side, right: Side) -> Iterator[Leaf]:
         yield from combined(peel(left), lambda: peel(right), lambda a, b: _joined(port, a, b))
     elif left.slope_open and right.slope_open:
         for leaf in peel(right):
-            yield from _left_of(port, left, leaf) if isinstance(leaf, Part) else [leaf]
+            yield from _left_of(port, left, leaf) if isinstance(leaf, RowValues) else [leaf]
     else:
         left, right = (
             (_grown(left, port.beta - _growth(right)), right)
@@ -116,12 +120,12 @@ def _sides(port: _Port, left: Side, right: Side) -> Iterator[Leaf]:
         yield from combined(peel(left), lambda: peel(right), lambda a, b: _joined(port, a, b))
 
 
-def _left_of(port: _Port, left: Side, right: Part) -> Iterator[Leaf]:
+def _left_of(port: _Port, left: Side, right: RowValues) -> Iterator[Leaf]:
     for leaf in peel(_grown(left, port.beta - slope(right))):
-        yield _joined(port, leaf, right) if isinstance(leaf, Part) else leaf
+        yield _joined(port, leaf, right) if isinstance(leaf, RowValues) else leaf
 
 
-def _joined(port: _Port, left: Part, right: Part) -> Leaf:
+def _joined(port: _Port, left: RowValues, right: RowValues) -> Leaf:
     """The whole row; a damper that is not there must come out as zero."""
     b = port.beta - slope(left) - slope(right)
     if port.damper and is_boundary(b):
@@ -130,4 +134,6 @@ def _joined(port: _Port, left: Part, right: Part) -> Leaf:
         return NONZERO
     dampers = (*left.all_dampers[::-1], b if port.damper else NOTHING, *right.all_dampers)
     masses = (*left.masses[::-1], port.mass, *right.masses)
-    return Part(masses, (*left.springs[::-1], *right.springs), left.gauges + right.gauges, dampers)
+    return RowValues(
+        masses, (*left.springs[::-1], *right.springs), left.gauges + right.gauges, dampers
+    )

@@ -22,7 +22,7 @@ from disting.model.chain import Chain
 
 Number = Any  # an element of a field
 Law = tuple[Number, ...]  # (c, d) of a spring and its damper, (c,) undamped
-Ladder = tuple[list[Number], list[Law]]  # masses and springs from the port outwards
+Outwards = tuple[list[Number], list[Law]]  # masses and springs from the port outwards
 
 
 def are_dual(left: Chain, right: Chain) -> bool:
@@ -71,8 +71,8 @@ def _mirror_gap(chain: Chain) -> Chain:
     return Chain(chain.n_masses, h, h, h + 1, h, h + 1, sensor=chain.sensor, damped=chain.damped)
 
 
-def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Ladder:
-    """Ladder of F - 1/(M s^2)."""
+def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
+    """The row of F - 1/(M s^2)."""
     if not springs:
         return [], []
     rest = total - masses[0]
@@ -83,8 +83,8 @@ def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Ladder
     ]
 
 
-def _free(masses: list[Number], springs: list[Law], total: Number) -> Ladder:
-    """Ladder of R + 1/(M s^2), the inverse: M1 = M^2/(M + mu)."""
+def _free(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
+    """The row of R + 1/(M s^2), the inverse: M1 = M^2/(M + mu)."""
     if not masses:
         return [total], []
     rest = total**2 / (total + masses[0])

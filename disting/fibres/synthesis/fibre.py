@@ -1,8 +1,8 @@
 """All parameter vectors of a chain that realise a given receptance exactly: inverse network
 synthesis in ball arithmetic.
 
-The receptance H of a chain with a gap is R + F: the grounded part between the minus ports, the
-free part between the plus ports. 1. every subset of the poles for R (`poles`);  2. every chain
+The receptance H of a chain with a gap is R + F: the grounded row between the minus ports, the free
+row between the plus ports. 1. every subset of the poles for R (`poles`);  2. every chain
 with receptance R and every chain with F (`methods`); 3. every pair is multiplied out and compared.
 Where a ball leaves out a zero that every solution has, a branch is refuted; if all are, no
 solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls
@@ -22,14 +22,14 @@ from dataclasses import replace
 from flint import ctx
 
 from disting.fibres.synthesis.ball import Ball, Imprecise
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf, Part, Reason, combined
+from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf, Reason, RowValues, combined
 from disting.fibres.synthesis.check import Checked, checked
 from disting.fibres.synthesis.family import shared
 from disting.fibres.synthesis.lag import lag_poles, lagged, without_lag
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
+from disting.fibres.synthesis.receptance import Receptance
 from disting.fibres.synthesis.result import Exclusions, Fibre, Solution, Status
-from disting.fibres.synthesis.segment import Data, Segment
 from disting.fibres.synthesis.solutions import listed
 from disting.fibres.synthesis.target import (
     Target,
@@ -39,6 +39,7 @@ from disting.fibres.synthesis.target import (
     rests_differently,
 )
 from disting.model.chain import Chain
+from disting.model.row import Row, grounded_and_free
 from disting.model.structure import Damper, GroundDamper, Mass, Spring
 from disting.model.symmetry import canonical
 
@@ -58,21 +59,6 @@ def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
     found = _canonical_fibre(form.chain, target, confirm)
     back = {here: given for given, here in form.renaming.items()}
     return replace(found, solutions=tuple(_renamed(s, back, chain) for s in found.solutions))
-
-
-def segments(chain: Chain) -> tuple[Segment | None, Segment]:
-    """Grounded part (None without a gap) and free part."""
-    q, g = 2 if chain.damped or chain.ground_dampers else 1, chain.gap
-    elastic = q == 2 and not chain.damped
-    low, high = sorted((chain.act_plus, chain.meas_plus))
-    below, above = sorted((chain.act_minus, chain.meas_minus))
-    outer, inner = (
-        tuple(i for i in chain.ground_dampers if (i <= g) == near) for near in (False, True)
-    )
-    free = Segment(
-        chain.n_masses - g, low - g, high - g, False, q, tuple(i - g for i in outer), elastic, not g
-    )
-    return (Segment(g, below, above, True, q, inner, elastic) if g else None), free
 
 
 def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
@@ -99,15 +85,15 @@ def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
 
 def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
     """What the degrees and the multiplicities of the target alone say."""
-    grounded, free = segments(chain)
-    q, n, lag = free.q, chain.n_masses, int(chain.lag)
+    grounded, free = grounded_and_free(chain.structure)
+    q, n, lag = _q(chain), chain.n_masses, int(chain.lag)
     whole = free if grounded is None else None
     if q == 1 and not target.is_even:
         return Fibre(Status.EMPTY, reason="a damped receptance has no undamped chain")
     folded = target.folded(q)
     if degrees_differ(folded, q, n, whole, lag):
         return Fibre(Status.EMPTY, reason="the degrees of numerator and denominator differ")
-    if folded.denominator.degree() == q * n + lag and rests_differently(folded, free):
+    if folded.denominator.degree() == q * n + lag and rests_differently(folded, q, free):
         return Fibre(Status.EMPTY, reason="the multiplicities of the pole at zero differ")
     if not is_regular(folded, q, n, whole, lag) or (q == 2 and target.is_even):
         return Fibre(Status.DEGENERATE, reason="multiple or missing poles or zeros")
@@ -127,38 +113,48 @@ def _searched(chain: Chain, target: Target, confirm: bool) -> Fibre:
 
 
 def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
-    """Every leaf, the parts multiplied out."""
-    grounded, free = segments(chain)
-    folded, low = target.folded(free.q), poles_at_zero(target.folded(free.q))
-    whole = replace(folded.balls, exact=folded.numerator if grounded is None else None)
+    """Every leaf, both rows multiplied out."""
+    folded = target.folded(_q(chain))
+    low = poles_at_zero(folded)
+    whole = replace(folded.balls, exact=None if chain.gap else folded.numerator)
     for data, time in lag_poles(folded.balls, low) if chain.lag else [(whole, {})]:
-        for leaf in _leaves(data, low, grounded, free):
-            yield _multiplied(chain, leaf, time, target) if isinstance(leaf, Part) else leaf
+        for leaf in _leaves(chain, data, low):
+            yield _multiplied(chain, leaf, time, target) if isinstance(leaf, RowValues) else leaf
 
 
-def _multiplied(chain: Chain, part: Part, time: dict[str, Ball], target: Target) -> Checked | Dead:
-    """The part checked; a member of a family that fails refutes nothing but itself."""
-    result = checked(chain, _named(part, chain) | time, part.gauges, target)
-    return BOUNDARY if part.gauges and isinstance(result, Dead) else result
+def _multiplied(
+    chain: Chain, found: RowValues, time: dict[str, Ball], target: Target
+) -> Checked | Dead:
+    """The numbers checked; a member of a family that fails refutes nothing but itself."""
+    result = checked(chain, _named(found, chain) | time, found.gauges, target)
+    return BOUNDARY if found.gauges and isinstance(result, Dead) else result
 
 
-def _leaves(data: Data, low: int, grounded: Segment | None, free: Segment) -> Iterator[Leaf]:
+def _q(chain: Chain) -> int:
+    """2: all is done in s; 1: without any damper, in x = s^2."""
+    return 2 if chain.damped or chain.ground_dampers else 1
+
+
+def _leaves(chain: Chain, data: Receptance, low: int) -> Iterator[Leaf]:
+    grounded, free = grounded_and_free(chain.structure)
     if grounded is None:
-        yield from synthesise(free, data)
+        yield from synthesise(free, data.own(free, _q(chain)))
         return
     for split in pole_splits(data, grounded, free, low):
-        yield from [split] if isinstance(split, Dead) else _both(split, grounded, free)
+        yield from [split] if isinstance(split, Dead) else _both(split, grounded, free, _q(chain))
 
 
-def _both(split: Split, grounded: Segment, free: Segment) -> Iterator[Leaf]:
-    """Every grounded chain with every free one."""
+def _both(split: Split, grounded: Row, free: Row, q: int) -> Iterator[Leaf]:
+    """Every grounded row with every free one."""
     return combined(
-        synthesise(grounded, split.grounded), lambda: synthesise(free, split.free), _joined
+        synthesise(grounded, split.grounded.own(grounded, q)),
+        lambda: synthesise(free, split.free.own(free, q)),
+        _joined,
     )
 
 
-def _joined(a: Part, b: Part) -> Part:
-    return Part(
+def _joined(a: RowValues, b: RowValues) -> RowValues:
+    return RowValues(
         a.masses + b.masses,
         a.springs + b.springs,
         a.gauges + b.gauges,
@@ -166,15 +162,15 @@ def _joined(a: Part, b: Part) -> Part:
     )
 
 
-def _named(part: Part, chain: Chain) -> dict[str, Ball]:
+def _named(found: RowValues, chain: Chain) -> dict[str, Ball]:
     """Values by parameter name, in the structure's order."""
     joints = [i for i in range(chain.n_masses) if i != chain.gap]
-    values = {Mass(i).parameter: m for i, m in enumerate(part.masses, 1)}
-    values |= {Spring(i).parameter: k[0] for i, k in zip(joints, part.springs, strict=True)}
+    values = {Mass(i).parameter: m for i, m in enumerate(found.masses, 1)}
+    values |= {Spring(i).parameter: k[0] for i, k in zip(joints, found.springs, strict=True)}
     if chain.damped:
-        values |= {Damper(i).parameter: k[1] for i, k in zip(joints, part.springs, strict=True)}
+        values |= {Damper(i).parameter: k[1] for i, k in zip(joints, found.springs, strict=True)}
     return values | {
-        GroundDamper(i).parameter: part.all_dampers[i - 1] for i in chain.ground_dampers
+        GroundDamper(i).parameter: found.all_dampers[i - 1] for i in chain.ground_dampers
     }
 
 

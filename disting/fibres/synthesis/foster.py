@@ -13,7 +13,7 @@ z_i)). Both have Cauer's continued fraction with positive springs and masses (W.
 terms are those of a reactance). Hence:
 
 Foster: H = sum of residues that are all positive, so that any g of the non-zero poles can be the
-grounded part: undamped models of N masses with force and sensor at the same place are all the same
+grounded row: undamped models of N masses with force and sensor at the same place are all the same
 over positive parameters, whatever gap and port. There are C(N-1, g) C(g-1, a_minus - 1) C(N-g-1,
 a_plus - g - 1) parameter vectors, all positive.
 
@@ -24,14 +24,13 @@ sums but for the first; s is positive because J is a nonsingular irreducible M-m
 R. Plemmons 1979), so masses s_i^2 and springs are positive. J read backwards is such a matrix too,
 with the same spectrum, and t makes the gains equal: H_ab = ((J + x)^(-1))_ab / (s_a s_b).
 
-Parts: with the same gap, each part can be exchanged alone: two undamped models are the same over
-positive parameters if their grounded parts are equal, reversed or both collocated, and their free
-parts are equal or both collocated.
+Row by row: with the same gap, each row can be exchanged alone: two undamped models are the same
+over positive parameters if their grounded rows are equal, reversed or both collocated, and their
+free rows are equal or both collocated.
 """
 
-from disting.fibres.synthesis.fibre import segments
-from disting.fibres.synthesis.segment import Segment
 from disting.model.chain import Chain
+from disting.model.row import Row, rows_of
 from disting.model.symmetry import canonical
 
 
@@ -44,11 +43,11 @@ def are_foster(left: Chain, right: Chain) -> bool:
     return _alike(left, right) and left.collocated and right.collocated
 
 
-def are_same_by_parts(left: Chain, right: Chain) -> bool:
-    """Whether the theorem on parts makes two models with the same gap the same."""
+def are_same_by_rows(left: Chain, right: Chain) -> bool:
+    """Whether the theorem on single rows makes two models with the same gap the same."""
     if not _alike(left, right) or left.gap != right.gap:
         return False
-    pairs = zip(*(segments(canonical(chain).chain) for chain in (left, right)), strict=True)
+    pairs = zip(*(rows_of(canonical(c).chain.structure) for c in (left, right)), strict=True)
     return all(_same(one, other) for one, other in pairs)
 
 
@@ -57,9 +56,6 @@ def _alike(left: Chain, right: Chain) -> bool:
     return plain and (left.n_masses, left.sensor) == (right.n_masses, right.sensor)
 
 
-def _same(one: Segment | None, other: Segment | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    return (
-        one == other or one.distance == other.distance == 0 or (one.wall and one == other.mirrored)
-    )
+def _same(one: Row, other: Row) -> bool:
+    reverse = one.grounded and one == other.mirrored
+    return one == other or one.distance == other.distance == 0 or reverse

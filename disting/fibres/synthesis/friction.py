@@ -31,7 +31,7 @@ from disting.fibres.synthesis.ball import (
     shifted,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, Part
+from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
 from disting.fibres.synthesis.peel import Stiffness
 from disting.fibres.synthesis.peel import peel as plain_peel
 
@@ -76,13 +76,13 @@ class Node:
     elastic: bool
 
 
-def slope(leaf: Part) -> Ball:
+def slope(leaf: RowValues) -> Ball:
     """Growth of W far away: the damper of its first spring."""
     return leaf.springs[0][1] if leaf.springs else NOTHING
 
 
 def peel(w: Side) -> Iterator[Leaf]:
-    """Yield every ladder with this stiffness, masses, springs and dampers from the port
+    """Yield all masses, springs and dampers with this stiffness, from the port
     outwards.
     """
     if not w.dampers:
@@ -94,13 +94,27 @@ def peel(w: Side) -> Iterator[Leaf]:
     elif any(w.dampers):
         yield from _damped(w)
     else:
-        yield from plain_peel(Stiffness(w.numerator, w.denominator, len(w.dampers), w.wall, 2))
+        yield from plain_peel(
+            Stiffness(
+                numerator=w.numerator,
+                denominator=w.denominator,
+                masses=len(w.dampers),
+                wall=w.wall,
+                q=2,
+            )
+        )
 
 
 def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
-    """Yield b (zero without a damper) with every ladder behind the mass."""
+    """Yield b (zero without a damper) with all that can be behind the mass."""
     nu = len(node.dampers)
-    side = Side(node.numerator, node.denominator, node.dampers, node.wall, node.elastic)
+    side = Side(
+        numerator=node.numerator,
+        denominator=node.denominator,
+        dampers=node.dampers,
+        wall=node.wall,
+        elastic=node.elastic,
+    )
     if not node.damper and not node.elastic:
         yield from (
             (NOTHING, leaf) for leaf in peel(replace(side, numerator=_low(node.numerator, side)))
@@ -122,30 +136,30 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
         yield NOTHING, NONZERO
         return
     for leaf in peel(side):
-        yield (b - slope(leaf) if isinstance(leaf, Part) else NOTHING) if is_open else b, leaf
+        yield (b - slope(leaf) if isinstance(leaf, RowValues) else NOTHING) if is_open else b, leaf
 
 
 def attached(spring: Poly, mass: Ball, b: Ball, damper: bool, leaf: Leaf) -> Leaf:
-    """A ladder with one more mass and spring in front; at the boundary if the damper cannot be
+    """The same with one more mass and spring in front; at the boundary if the damper cannot be
     told from zero.
     """
-    if not isinstance(leaf, Part):
+    if not isinstance(leaf, RowValues):
         return leaf
     if damper and is_boundary(b):
         return BOUNDARY
     dampers = (b if damper else NOTHING, *leaf.all_dampers)
-    return Part((mass, *leaf.masses), (spring, *leaf.springs), leaf.gauges, dampers)
+    return RowValues((mass, *leaf.masses), (spring, *leaf.springs), leaf.gauges, dampers)
 
 
 def _last(w: Side) -> Leaf:
     """The spring to the wall is W itself; at a free end nothing is left."""
     if not w.wall:
-        return Part()
+        return RowValues()
     spring = cut(w.numerator, 0 if w.elastic else 1)
     return (
         BOUNDARY
         if any(is_boundary(spring[i]) for i in range(2 - w.elastic))
-        else Part(springs=(spring,))
+        else RowValues(springs=(spring,))
     )
 
 
@@ -212,7 +226,16 @@ def _behind(w: Side, numerator: Poly, spring: Poly) -> Iterator[Leaf]:
     mass: Ball = 1 / rest[2 * nu - 2]
     raw = cut(mass * (delta - mass * shifted(rest, 2)), 2 * nu - 1)
     raw = raw if w.wall else shifted(shifted(raw, -1), 1)
-    for b, leaf in behind(Node(raw, rest * mass, w.dampers[0], w.dampers[1:], w.wall, w.elastic)):
+    for b, leaf in behind(
+        Node(
+            numerator=raw,
+            denominator=rest * mass,
+            damper=w.dampers[0],
+            dampers=w.dampers[1:],
+            wall=w.wall,
+            elastic=w.elastic,
+        )
+    ):
         yield attached(spring, mass, b, w.dampers[0], leaf)
 
 

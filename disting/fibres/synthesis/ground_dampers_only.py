@@ -23,35 +23,34 @@ from disting.fibres.synthesis.ball import (
     roots,
     shifted,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, Part
-from disting.fibres.synthesis.segment import Data, Segment
+from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 
-def adapts(segment: Segment) -> bool:
+def adapts(row: Row) -> bool:
     """Whether the last mass has no damper, or any beta serves, and C has simple roots."""
-    if segment.nodes == 2:
-        return segment.dampers == (1,) or (not segment.wall and len(segment.dampers) == 2)
+    if row.n_masses == 2:
+        return row.ground_dampers == (1,) or (not row.grounded and len(row.ground_dampers) == 2)
     return (
-        segment.nodes not in segment.dampers
-        and segment.a in segment.dampers
-        and len(segment.dampers) > 1
+        row.n_masses not in row.ground_dampers
+        and row.a in row.ground_dampers
+        and len(row.ground_dampers) > 1
     )
 
 
-def swinging(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every segment with this receptance, of a family by a sample."""
-    beta = friction.random(1)[0] if segment.nodes in segment.dampers else friction.NOTHING
-    upper = data.denominator if segment.wall else shifted(data.denominator, -1)
-    lower = data.numerator if segment.wall else data.numerator * poly([beta, 1])
+def swinging(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every row with this receptance, of a family by a sample."""
+    beta = friction.random(1)[0] if row.n_masses in row.ground_dampers else friction.NOTHING
+    upper = data.denominator if row.grounded else shifted(data.denominator, -1)
+    lower = data.numerator if row.grounded else data.numerator * poly([beta, 1])
     (u1, u0), (v1, v0) = _reduced(upper, beta), _reduced(lower, beta)
-    degree = 2 * segment.nodes - 3
+    degree = 2 * row.n_masses - 3
     for t in roots(cut(u1 * v0 - u0 * v1, degree), degree):
         ratio = _ratio((u1(t), u0(t)), (v1(t), v0(t)))
-        mass = ratio if not segment.wall or ratio is None else -ratio / t
+        mass = ratio if not row.grounded or ratio is None else -ratio / t
         yield from (
-            [BOUNDARY]
-            if mass is None or is_boundary(t)
-            else _with_mass(segment, data, beta, t, mass)
+            [BOUNDARY] if mass is None or is_boundary(t) else _with_mass(row, data, beta, t, mass)
         )
 
 
@@ -74,42 +73,42 @@ def _ratio(u: tuple[Ball, Ball], v: tuple[Ball, Ball]) -> Ball | None:
     )
 
 
-def _with_mass(segment: Segment, data: Data, beta: Ball, t: Ball, m_b: Ball) -> Iterator[Leaf]:
+def _with_mass(row: Row, data: Receptance, beta: Ball, t: Ball, m_b: Ball) -> Iterator[Leaf]:
     """W_L + b_a s = m_a (D - m_b s (s + beta) N)/(q_t A) - m_a s^2, m_a m_b = kappa/nu, then
     mass a and what is left of it.
     """
-    nu, gain = segment.nodes - 2, data.gain(segment)
+    nu, gain = row.n_masses - 2, data.gain(row)
     spring, m_a = poly([t * m_b]), t / gain
-    zeros = product(roots(data.numerator, segment.numerator_degree))
+    zeros = product(roots(data.numerator, row.numerator_degree))
     quotient = (data.denominator - m_b * shifted(poly([beta, 1]) * data.numerator, 1)) // poly(
         [t, beta, 1]
     )
     raw = cut(m_a * (quotient - shifted(zeros, 2)), 2 * nu + 1)
-    raw = raw if segment.wall else shifted(shifted(raw, -1), 1)
-    dampers = tuple(i in segment.dampers for i in range(segment.a, 0, -1))
+    raw = raw if row.grounded else shifted(shifted(raw, -1), 1)
+    dampers = tuple(i in row.ground_dampers for i in range(row.a, 0, -1))
     for b, leaf in friction.behind(
-        friction.Node(raw, zeros, dampers[0], dampers[1:], segment.wall, True)
+        friction.Node(raw, zeros, dampers[0], dampers[1:], row.grounded, True)
     ):
-        yield _joined(segment, leaf, (m_a, m_b), (b, beta * m_b), spring)
+        yield _joined(row, leaf, (m_a, m_b), (b, beta * m_b), spring)
 
 
 def _joined(
-    segment: Segment,
+    row: Row,
     left: Leaf,
     masses: tuple[Ball, Ball],
     dampers: tuple[Ball, Ball],
     spring: Poly,
 ) -> Leaf:
-    if not isinstance(left, Part):
+    if not isinstance(left, RowValues):
         return left
-    if segment.a in segment.dampers and is_boundary(dampers[0]):
+    if row.a in row.ground_dampers and is_boundary(dampers[0]):
         return BOUNDARY
     here = tuple(
-        b if i in segment.dampers else friction.NOTHING
-        for i, b in zip((segment.a, segment.b), dampers, strict=True)
+        b if i in row.ground_dampers else friction.NOTHING
+        for i, b in zip((row.a, row.b), dampers, strict=True)
     )
-    gauges = left.gauges + (segment.nodes in segment.dampers)
-    return Part(
+    gauges = left.gauges + (row.n_masses in row.ground_dampers)
+    return RowValues(
         (*left.masses[::-1], *masses),
         (*left.springs[::-1], spring),
         gauges,

@@ -10,18 +10,18 @@ from dataclasses import replace
 from flint import acb, ctx, fmpq, fmpq_poly
 
 from disting.fibres.synthesis.ball import Ball, poly, product, roots, shifted
+from disting.fibres.synthesis.receptance import Receptance
 from disting.fibres.synthesis.result import Answer, Fibre, Solution
-from disting.fibres.synthesis.segment import Data
 from disting.fibres.synthesis.target import Target
 from disting.model.chain import Chain
 
 
-def lag_poles(data: Data, low: int) -> Iterator[tuple[Data, dict[str, Ball]]]:
+def lag_poles(data: Receptance, low: int) -> Iterator[tuple[Receptance, dict[str, Ball]]]:
     """Yield H0 and T1 for every pole but that at 0, of multiplicity `low`."""
     poles = roots(shifted(data.denominator, -low), data.denominator.degree() - low)
     for i, p in enumerate(poles):
         rest = shifted(product(poles[:i] + poles[i + 1 :]), low)
-        yield Data(data.numerator * poly([-1 / p]), rest), {"T1": -1 / p}
+        yield Receptance(data.numerator * poly([-1 / p]), rest), {"T1": -1 / p}
 
 
 def without_lag(t: Target) -> tuple[Target, fmpq] | None:

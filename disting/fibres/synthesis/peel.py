@@ -20,7 +20,7 @@ from disting.fibres.synthesis.ball import (
     shifted,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, Part
+from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Stiffness:
 
 
 def peel(w: Stiffness) -> Iterator[Leaf]:
-    """Yield every ladder with this stiffness, masses and springs from the port outwards."""
+    """Yield all masses and springs with this stiffness, from the port outwards."""
     if w.masses == 0:
         yield _last(w)
     elif is_boundary(w.numerator[_degree(w)]):
@@ -56,9 +56,13 @@ def _degree(w: Stiffness) -> int:
 def _last(w: Stiffness) -> Leaf:
     """The spring to the wall is W itself; at a free end nothing is left."""
     if not w.wall:
-        return Part()
+        return RowValues()
     spring = cut(w.numerator, w.q - 1)
-    return BOUNDARY if any(is_boundary(spring[i]) for i in range(w.q)) else Part(springs=(spring,))
+    return (
+        BOUNDARY
+        if any(is_boundary(spring[i]) for i in range(w.q))
+        else RowValues(springs=(spring,))
+    )
 
 
 def _damped(w: Stiffness) -> Iterator[Leaf]:
@@ -84,11 +88,17 @@ def _behind(w: Stiffness, spring: Poly) -> Iterator[Leaf]:
         yield BOUNDARY
         return
     mass: Ball = 1 / rest[q * (nu - 1)]
-    inner = Stiffness(_remaining(delta, rest, mass, w), rest * mass, nu - 1, w.wall, q)
+    inner = Stiffness(
+        numerator=_remaining(delta, rest, mass, w),
+        denominator=rest * mass,
+        masses=nu - 1,
+        wall=w.wall,
+        q=q,
+    )
     for leaf in peel(inner):
         yield (
             replace(leaf, masses=(mass, *leaf.masses), springs=(spring, *leaf.springs))
-            if isinstance(leaf, Part)
+            if isinstance(leaf, RowValues)
             else leaf
         )
 

@@ -1,4 +1,4 @@
-"""Which poles belong to the grounded part: H = R + F, split by every subset of the non-zero poles.
+"""Which poles belong to the grounded row: H = R + F, split by every subset of the non-zero poles.
 
 R has q g of the simple poles z_j of H with H's residues there, F the others and the motion as a
 whole, s^-q (s^-1 where dampers to the ground stop it). Far away R falls off like s^-(2+distance)
@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from disting.fibres.synthesis.ball import Ball, Poly, cut, product, roots, shifted, vanishes
+from disting.fibres.synthesis.ball import Ball, Poly, cut, product, roots, shifted, splits, vanishes
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Dead
-from disting.fibres.synthesis.segment import Data, Segment, splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,34 +31,36 @@ class Pole:
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """Receptance of the grounded part and of the free one."""
+    """Receptance of the grounded row and of the free one."""
 
-    grounded: Data
-    free: Data
+    grounded: Receptance
+    free: Receptance
 
 
 def pole_splits(
-    data: Data, grounded: Segment, free: Segment, at_zero: int | None = None
+    data: Receptance, grounded: Row, free: Row, at_zero: int | None = None
 ) -> Iterator[Split | Dead]:
     """Yield the split of every subset of poles that passes all tests, and what refutes the others.
 
     `at_zero`: multiplicity of the pole at 0, by default q, as it is without dampers to the ground.
     """
-    q = grounded.q
+    q = max(grounded.q, free.q)
     low = q if at_zero is None else at_zero
-    poles = _poles(data, low, q * (grounded.nodes + free.nodes))
-    markov = _markov(data, max(grounded.decay, free.decay, 1))
-    for mine, others in splits(poles, q * grounded.nodes):
-        fits = _decays(mine, [0 * h for h in markov], grounded) and _decays(mine, markov, free)
+    poles = _poles(data, low, q * (grounded.n_masses + free.n_masses))
+    markov = _markov(data, max(_decay(grounded, q), _decay(free, q), 1))
+    for mine, others in splits(poles, q * grounded.n_masses):
+        fits = _agree(mine, [0 * h for h in markov][: _decay(grounded, q)]) and _agree(
+            mine, markov[: _decay(free, q)]
+        )
         d_free = shifted(product([p.at for p in others]), low)
         yield (
-            _exact_order(_split(data, mine, d_free, grounded, free), grounded, free)
+            _exact_order(_split(data, mine, d_free, grounded, free, q), grounded, free, q)
             if fits
             else NONZERO
         )
 
 
-def _poles(data: Data, low: int, degree: int) -> list[Pole]:
+def _poles(data: Receptance, low: int, degree: int) -> list[Pole]:
     slope = data.denominator.derivative()
     return [
         Pole(z, data.numerator(z) / slope(z))
@@ -65,17 +68,20 @@ def _poles(data: Data, low: int, degree: int) -> list[Pole]:
     ]
 
 
-def _markov(data: Data, count: int) -> list[Ball]:
+def _markov(data: Receptance, count: int) -> list[Ball]:
     """h_0 .. of H = sum h_i s^(-i-1), from the long division of s^count N by D."""
     series = shifted(data.numerator, count) // data.denominator
     return [series[count - 1 - i] for i in range(count)]
 
 
-def _decays(mine: list[Pole], targets: list[Ball], segment: Segment) -> bool:
-    """Whether the sums of r z^i agree with the targets for all i that the segment's decay
-    forbids.
-    """
-    return all(_agrees([p.moment(i) for p in mine], targets[i]) for i in range(segment.decay))
+def _decay(row: Row, q: int) -> int:
+    """How many of the leading terms of its H = sum h_i s^(-i-1) (q = 1: in x) vanish."""
+    return row.relative_degree * q // 2 - 1
+
+
+def _agree(mine: list[Pole], targets: list[Ball]) -> bool:
+    """Whether the sums of r z^i agree with the targets."""
+    return all(_agrees([p.moment(i) for p in mine], target) for i, target in enumerate(targets))
 
 
 def _agrees(moments: list[Ball], target: Ball) -> bool:
@@ -85,24 +91,27 @@ def _agrees(moments: list[Ball], target: Ball) -> bool:
     )
 
 
-def _exact_order(split: Split, grounded: Segment, free: Segment) -> Split | Dead:
-    """A part that falls off faster than its chain can would need an infinite mass or a spring
+def _exact_order(split: Split, grounded: Row, free: Row, q: int) -> Split | Dead:
+    """A row whose receptance falls off faster than it can would need an infinite mass or a spring
     without damper.
     """
-    short = any(_vanishing_gain(d, s) for d, s in ((split.grounded, grounded), (split.free, free)))
+    pairs = ((split.grounded, grounded), (split.free, free))
+    short = any(_vanishing_gain(data, row.numerator_degree_in(q)) for data, row in pairs)
     return BOUNDARY if short else split
 
 
-def _vanishing_gain(data: Data, segment: Segment) -> bool:
-    return vanishes(data.gain(segment), sum((abs(c) for c in data.numerator.coeffs()), arb(0)))
+def _vanishing_gain(data: Receptance, degree: int) -> bool:
+    return vanishes(data.numerator[degree], sum((abs(c) for c in data.numerator.coeffs()), arb(0)))
 
 
-def _split(data: Data, mine: list[Pole], d_free: Poly, grounded: Segment, free: Segment) -> Split:
+def _split(
+    data: Receptance, mine: list[Pole], d_free: Poly, grounded: Row, free: Row, q: int
+) -> Split:
     """Numerators from the residues; coefficients that the tests found to vanish are cut."""
     d_grounded = product([p.at for p in mine])
-    n_grounded = cut(_partial(mine, d_grounded), grounded.numerator_degree)
-    n_free = cut((data.numerator - n_grounded * d_free) // d_grounded, free.numerator_degree)
-    return Split(Data(n_grounded, d_grounded), Data(n_free, d_free))
+    n_grounded = cut(_partial(mine, d_grounded), grounded.numerator_degree_in(q))
+    n_free = cut((data.numerator - n_grounded * d_free) // d_grounded, free.numerator_degree_in(q))
+    return Split(Receptance(n_grounded, d_grounded), Receptance(n_free, d_free))
 
 
 def _partial(poles: list[Pole], denominator: Poly) -> Poly:

@@ -38,7 +38,13 @@ def listed(
 def _solution(c: Checked, others: list[Values]) -> Solution:
     """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
     real = _real(c.values, others)
-    return Solution(c.values, real, _positive(c.values, real), c.gauges, c.width)
+    return Solution(
+        values=c.values,
+        real=real,
+        positive=_positive(c.values, real),
+        gauges=c.gauges,
+        width=c.width,
+    )
 
 
 def _real(values: Values, others: list[Values]) -> Answer:

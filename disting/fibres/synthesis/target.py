@@ -7,7 +7,8 @@ from typing import Any
 from flint import acb_poly, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
-from disting.fibres.synthesis.segment import Data, Segment
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 from disting.model.structure import Structure
 
 Exact = Any  # fmpq_poly: flint has no usable types
@@ -34,9 +35,9 @@ class Target:
         )
 
     @property
-    def balls(self) -> Data:
+    def balls(self) -> Receptance:
         """Coefficients as balls of the current precision."""
-        return Data(acb_poly(self.numerator), acb_poly(self.denominator))
+        return Receptance(acb_poly(self.numerator), acb_poly(self.denominator))
 
 
 def target(structure: Structure, point: Mapping[str, fmpq]) -> Target:
@@ -64,7 +65,7 @@ def fraction(text: str) -> fmpq:
     return fmpq(*map(int, text.split("/")))
 
 
-def degrees_differ(t: Target, q: int, n_masses: int, whole: Segment | None, lag: int = 0) -> bool:
+def degrees_differ(t: Target, q: int, n_masses: int, whole: Row | None, lag: int = 0) -> bool:
     """Exact proof that no parameters fit: more poles than the chain has, or a chain without a gap
     of another relative degree.
 
@@ -72,10 +73,9 @@ def degrees_differ(t: Target, q: int, n_masses: int, whole: Segment | None, lag:
     poles.
     """
     poles, most = t.denominator.degree(), q * n_masses + lag
-    return bool(
-        poles > most
-        or (whole is not None and poles == most and t.numerator.degree() != whole.numerator_degree)
-    )
+    if whole is None or poles != most:
+        return bool(poles > most)
+    return bool(t.numerator.degree() != whole.numerator_degree_in(q))
 
 
 def poles_at_zero(t: Target) -> int:
@@ -83,7 +83,7 @@ def poles_at_zero(t: Target) -> int:
     return next(i for i, c in enumerate(t.denominator.coeffs()) if c)
 
 
-def rests_differently(t: Target, free: Segment) -> bool:
+def rests_differently(t: Target, q: int, free: Row) -> bool:
     """Exact proof that no parameters fit a target of full degree: another multiplicity of the pole
     at 0 than the free row has.
 
@@ -91,10 +91,10 @@ def rests_differently(t: Target, free: Segment) -> bool:
     ground makes the pole simple, and several do unless their sum is zero.
     """
     low = poles_at_zero(t)
-    return low < free.poles_at_zero or (len(free.dampers) == 1 and low > 1)
+    return low < free.poles_at_zero(q) or (len(free.ground_dampers) == 1 and low > 1)
 
 
-def is_regular(t: Target, q: int, n_masses: int, whole: Segment | None, lag: int = 0) -> bool:
+def is_regular(t: Target, q: int, n_masses: int, whole: Row | None, lag: int = 0) -> bool:
     """Whether the methods apply: q N + lag poles, 1 to q of them zero, the others simple;
     simple zeros too without a gap.
     """

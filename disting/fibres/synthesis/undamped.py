@@ -12,29 +12,39 @@ from dataclasses import replace
 from typing import Any
 
 from disting.algebra.sampling import residues
-from disting.fibres.synthesis.ball import Ball, cut, is_boundary, poly, product, roots, shifted
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, Part, combined
+from disting.fibres.synthesis.ball import (
+    Ball,
+    cut,
+    is_boundary,
+    poly,
+    product,
+    roots,
+    shifted,
+    splits,
+)
+from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues, combined
 from disting.fibres.synthesis.collocated import between
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.segment import Data, Segment, splits
+from disting.fibres.synthesis.receptance import Receptance
+from disting.model.row import Row
 
 
-def neighbours(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every segment with b = a + 1 and this receptance, for one random spring between the
+def neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every row with b = a + 1 and this receptance, for one random spring between the
     ports.
     """
-    yield from neighbours_at(segment, data, _random(1)[0])
+    yield from neighbours_at(row, data, _random(1)[0])
 
 
-def neighbours_at(segment: Segment, data: Data, spring: Any) -> Iterator[Leaf]:
+def neighbours_at(row: Row, data: Receptance, spring: Any) -> Iterator[Leaf]:
     """The same for a given spring, a number or a fraction."""
-    kappa, gain = spring + 0 * data.denominator[0], data.gain(segment)
-    poles = roots(data.denominator + kappa * data.numerator, segment.nodes)
-    zeros = roots(data.numerator, segment.numerator_degree)
-    for theta, phi in splits(poles, segment.a):
-        for left, right in splits(zeros, segment.a - 1):
+    kappa, gain = spring + 0 * data.denominator[0], data.gain(row)
+    poles = roots(data.denominator + kappa * data.numerator, row.n_masses)
+    zeros = roots(data.numerator, row.numerator_degree)
+    for theta, phi in splits(poles, row.a):
+        for left, right in splits(zeros, row.a - 1):
             yield from _sides(
-                segment,
+                row,
                 (product(theta), product(left)),
                 (product(phi), product(right)),
                 kappa,
@@ -43,7 +53,7 @@ def neighbours_at(segment: Segment, data: Data, spring: Any) -> Iterator[Leaf]:
 
 
 def _sides(
-    segment: Segment, left: tuple[Ball, Ball], right: tuple[Ball, Ball], kappa: Ball, gain: Ball
+    row: Row, left: tuple[Ball, Ball], right: tuple[Ball, Ball], kappa: Ball, gain: Ball
 ) -> Iterator[Leaf]:
     """Both sides from (Theta, A) and (Phi, B): m_b Phi(0)/B(0) = kappa (free end), m_a m_b =
     kappa/nu.
@@ -53,12 +63,12 @@ def _sides(
         return
     m_b = kappa * right[1][0] / right[0][0]
     m_a = kappa / (gain * m_b)
-    w_left = _side(left, m_a, kappa, segment.a - 1, segment.wall)
-    w_right = _side(right, m_b, kappa, segment.nodes - segment.b, False)
+    w_left = _side(left, m_a, kappa, row.a - 1, row.grounded)
+    w_right = _side(right, m_b, kappa, row.n_masses - row.b, False)
 
-    def join(a: Part, b: Part) -> Part:
+    def join(a: RowValues, b: RowValues) -> RowValues:
         """Left side, the two inner masses with their spring, right side."""
-        return Part(
+        return RowValues(
             (*a.masses[::-1], m_a, m_b, *b.masses), (*a.springs[::-1], poly([kappa]), *b.springs), 1
         )
 
@@ -69,19 +79,25 @@ def _side(pair: tuple[Ball, Ball], mass: Ball, kappa: Ball, nu: int, wall: bool)
     """W = (m Theta - kappa A - m x A)/A of degree nu over nu."""
     theta, zeros = pair
     numerator = cut(mass * theta - kappa * zeros - mass * shifted(zeros, 1), nu)
-    return Stiffness(numerator if wall else grounded_at_zero(numerator, 1), zeros, nu, wall, 1)
+    return Stiffness(
+        numerator=numerator if wall else grounded_at_zero(numerator, 1),
+        denominator=zeros,
+        masses=nu,
+        wall=wall,
+        q=1,
+    )
 
 
-def to_end(segment: Segment, data: Data) -> Iterator[Leaf]:
-    """Yield every segment with b = n and this receptance, for random tau_i."""
-    taus = _random(segment.distance)
+def to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
+    """Yield every row with b = n and this receptance, for random tau_i."""
+    taus = _random(row.distance)
     prescribed = [0 * data.denominator[0] - tau for tau in taus]
     numerator = data.numerator
     for tau in taus:
         numerator = numerator * poly([1, 1 / (0 * data.denominator[0] + tau)])
-    drive, known = replace(segment, b=segment.a), roots(data.numerator, segment.numerator_degree)
-    for leaf in between(drive, Data(numerator, data.denominator), known, prescribed):
-        yield replace(leaf, gauges=segment.distance) if isinstance(leaf, Part) else leaf
+    drive, known = replace(row, b=row.a), roots(data.numerator, row.numerator_degree)
+    for leaf in between(drive, Receptance(numerator, data.denominator), known, prescribed):
+        yield replace(leaf, gauges=row.distance) if isinstance(leaf, RowValues) else leaf
 
 
 def _random(count: int) -> list[float]:

@@ -29,10 +29,11 @@ from disting.errors import ContradictionError
 from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.duality import are_dual, dual
-from disting.fibres.synthesis.fibre import fibre, segments
+from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
+from disting.model.row import grounded_and_free
 from disting.model.symmetry import forms
 from disting.questions.identifiability.parts import Alternative, Origin, Renaming
 
@@ -226,7 +227,7 @@ def foster_count(chain: Chain) -> int | None:
     >>> foster_count(Chain(4, 2, 1, 3, 1, 3)), foster_count(Chain(2, meas_plus=2))
     (3, None)
     """
-    grounded, free = segments(chain)
+    grounded, free = grounded_and_free(chain.structure)
     if (
         chain.lag
         or chain.ground_dampers
@@ -235,7 +236,7 @@ def foster_count(chain: Chain) -> int | None:
         or (grounded is not None and grounded.distance)
     ):
         return None
-    ways = comb(free.nodes - 1, free.a - 1)
+    ways = comb(free.n_masses - 1, free.a - 1)
     if grounded is not None:
         ways *= comb(chain.n_masses - 1, chain.gap) * comb(chain.gap - 1, grounded.a - 1)
     return ways

@@ -17,6 +17,7 @@ from disting.questions.inclusion.decide import inclusions as inclusions
 from disting.questions.inclusion.decide import joined as joined
 from disting.questions.inclusion.decide import needs_ideals as needs_ideals
 from disting.questions.inclusion.decide import quick_closure as quick_closure
+from disting.questions.inclusion.decide import turned as turned
 from disting.questions.inclusion.finding import ONE_SIDED as ONE_SIDED
 from disting.questions.inclusion.finding import Inclusion as Inclusion
 from disting.questions.inclusion.finding import InclusionFinding as InclusionFinding

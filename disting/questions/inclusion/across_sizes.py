@@ -30,13 +30,14 @@ from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
     Meeting,
-    PartLimit,
     PoleSharing,
+    RowLimit,
     TooLarge,
 )
 from disting.evidence.conditions import Counts
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.row import Row, canonical_rows
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.finding import Inclusion, InclusionFinding
@@ -45,7 +46,6 @@ from disting.questions.inclusion.limits import follows, reached
 from disting.questions.inclusion.meeting import room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.questions.inclusion.profiles import ordered
-from disting.questions.inclusion.rows import Row, rows_of
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part, theorem
 
@@ -86,7 +86,13 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
             Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
         )
     solved = found.solved
-    evidence = LimitFibre(False, found.steps, solved.left_given, solved.labels, solved.solutions)
+    evidence = LimitFibre(
+        left_is_larger=False,
+        steps=found.steps,
+        small_given=solved.left_given,
+        labels=solved.labels,
+        solutions=solved.solutions,
+    )
     return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, found.safety, evidence)
 
 
@@ -94,9 +100,9 @@ def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meetin
     """What shows that the smaller chain is a limit of the larger one; None if nothing."""
     if exceeds(small, large):
         return None
-    parts = next(part_limits(small, large, counting=False), None)
-    if parts is not None:
-        return Limit(left_is_larger, parts)
+    limits = next(row_limits(small, large, counting=False), None)
+    if limits is not None:
+        return Limit(left_is_larger, limits)
     whole = room(rational_part(small), rational_part(large))
     if whole.suffices:
         return Meeting(left_is_larger, *astuple(whole))
@@ -107,11 +113,11 @@ def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limi
     """Limits with a count of dimensions, and limits of chains that a theorem says to be the
     same.
     """
-    for parts in part_limits(small, large, counting=True):
-        yield Limit(left_is_larger, parts)
+    for limits in row_limits(small, large, counting=True):
+        yield Limit(left_is_larger, limits)
     for one, other in product(twins(small), twins(large)):
-        for parts in part_limits(one, other, counting=False):
-            yield Limit(left_is_larger, parts, tuple(one.indices), tuple(other.indices))
+        for limits in row_limits(one, other, counting=False):
+            yield Limit(left_is_larger, limits, tuple(one.indices), tuple(other.indices))
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -125,19 +131,19 @@ def twins(chain: Chain) -> tuple[Chain, ...]:
     return tuple(dict.fromkeys(canonical(c).chain for c in members if theorem(chain, c)))
 
 
-def part_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[PartLimit, ...]]:
+def row_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[RowLimit, ...]]:
     """Yield the ways to make the rows of the smaller chain from different rows of the larger one.
 
     `counting`: not by limits of elements alone, but also by a count of dimensions after them.
     """
     if small.lag != large.lag:
         return
-    wanted, given = rows_of(small), rows_of(large)
+    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
     for chosen in permutations(given, len(wanted)):
         pairs = list(zip(chosen, wanted, strict=True))
-        found = [_part(a, given[a], b, wanted[b], counting) for a, b in pairs]
-        if all(part is not None for part in found):
-            yield tuple(part for part in found if part is not None)
+        found = [_row_limit(a, given[a], b, wanted[b], counting) for a, b in pairs]
+        if all(limit is not None for limit in found):
+            yield tuple(limit for limit in found if limit is not None)
 
 
 def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
@@ -172,15 +178,15 @@ def degrees_of(chain: Chain) -> tuple[int, int]:
     return degrees(rational_part(chain))
 
 
-def _part(given: str, row: Row, wanted: str, target: Row, counting: bool) -> PartLimit | None:
+def _row_limit(given: str, row: Row, wanted: str, target: Row, counting: bool) -> RowLimit | None:
     """A way from one row to the other, each of its limits an identity; limits of elements alone
     first.
     """
     ways = reached(row)
     if target in ways and target in follows(row, ways[target]):
-        return PartLimit(given, wanted, ways[target])
+        return RowLimit(given, wanted, ways[target])
     for below, steps in ways.items() if counting else ():
         found = room(target.structure, below.structure)
         if found.suffices and below in follows(row, steps):
-            return PartLimit(given, wanted, steps, tuple(map(int, astuple(found))))
+            return RowLimit(given, wanted, steps, tuple(map(int, astuple(found))))
     return None

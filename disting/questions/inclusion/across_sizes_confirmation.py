@@ -5,24 +5,24 @@ evidence alone.
 from dataclasses import astuple
 
 from disting.evidence.across_sizes import (
+    AcrossSizes,
     Limit,
     LimitFibre,
     Meeting,
-    PartLimit,
     PoleSharing,
+    RowLimit,
     TooLarge,
 )
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Solved
-from disting.evidence.kinds import AcrossSizes
 from disting.model.chain import Chain
+from disting.model.row import Row, canonical_rows
 from disting.questions.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins
 from disting.questions.inclusion.limit_fibre import contains
 from disting.questions.inclusion.limits import follows
 from disting.questions.inclusion.meeting import Room, room
 from disting.questions.inclusion.pole_sharing import excludes
 from disting.questions.inclusion.profiles import ordered
-from disting.questions.inclusion.rows import Row, rows_of
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
 
@@ -70,25 +70,25 @@ def _twin(chain: Chain, indices: tuple[int, ...]) -> Chain | None:
     )
 
 
-def _follow(parts: tuple[PartLimit, ...], small: Chain, large: Chain) -> bool:
-    """Whether the parts are all rows of the smaller chain, made from different rows of the
+def _follow(limits: tuple[RowLimit, ...], small: Chain, large: Chain) -> bool:
+    """Whether these are all rows of the smaller chain, made from different rows of the
     larger one.
     """
-    wanted, given = rows_of(small), rows_of(large)
-    names = sorted(p.wanted for p in parts), {p.given for p in parts}
+    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
+    names = sorted(p.wanted for p in limits), {p.given for p in limits}
     complete = (
-        names[0] == sorted(wanted) and len(names[1]) == len(parts) and names[1] <= given.keys()
+        names[0] == sorted(wanted) and len(names[1]) == len(limits) and names[1] <= given.keys()
     )
     return (
         small.lag == large.lag
         and complete
-        and all(_leads(p, given[p.given], wanted[p.wanted]) for p in parts)
+        and all(_leads(p, given[p.given], wanted[p.wanted]) for p in limits)
     )
 
 
-def _leads(part: PartLimit, row: Row, target: Row) -> bool:
-    ends = follows(row, part.steps)
-    if not part.room:
+def _leads(limit: RowLimit, row: Row, target: Row) -> bool:
+    ends = follows(row, limit.steps)
+    if not limit.room:
         return target in ends
     counts = (room(target.structure, below.structure, "verify") for below in ends)
-    return any(c.suffices and tuple(map(int, astuple(c))) == part.room for c in counts)
+    return any(c.suffices and tuple(map(int, astuple(c))) == limit.room for c in counts)

@@ -8,21 +8,21 @@ from disting.behaviour.sample import Representation
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.evidence.conditions import Counts, FreeChoice, Labels
 from disting.evidence.decision import FibreAt
-from disting.evidence.ideals import ByParts, Refuted, Solved
+from disting.evidence.ideals import ByRows, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
     Outside,
-    PartsInside,
     RelativeDegrees,
+    RowsInside,
 )
-from disting.fibres.ideals import Limits, coefficient_map, confirms_by_parts, decide, normalised
+from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.structure import Structure
 from disting.questions.inclusion.across_sizes_confirmation import confirms_across_sizes
-from disting.questions.inclusion.closures import confirms_parts
+from disting.questions.inclusion.closures import confirms_rows
 from disting.questions.inclusion.profiles import degrees_refute, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
@@ -63,12 +63,12 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
             return evidence.left_is_larger != left_is_smaller and _fall_apart(
                 smaller, larger, here, there
             )
-        case Outside() | PartsInside():
+        case Outside() | RowsInside():
             given, other = (a, b) if left_is_smaller else (b, a)
-            return evidence.left_given == left_is_smaller and confirms_parts(evidence, given, other)
-        case ByParts():
-            parts = (rational_part(a), rational_part(b))
-            return evidence.left_given == left_is_smaller and confirms_by_parts(evidence, *parts)
+            return evidence.left_given == left_is_smaller and confirms_rows(evidence, given, other)
+        case ByRows():
+            pair = (rational_part(a), rational_part(b))
+            return evidence.left_given == left_is_smaller and confirms_by_rows(evidence, *pair)
         case FibreAt():
             return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
         case Solved():

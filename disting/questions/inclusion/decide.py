@@ -6,12 +6,12 @@ impossible. What is found first is kept. Chains of different sizes are compared 
 there CLOSURE is asked alone. For chains of one size:
 
 1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
-2. CLOSURE by parts: `closures` proves or refutes it; small ideals of both parts
+2. CLOSURE by rows: `closures` proves or refutes it; small ideals of both rows
    (`disting.fibres.ideals.by_two_rows`) prove it.
 3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
-   the parts refute it without any chance; one fibre by the synthesis refutes or proves it
+   the rows refute it without any chance; one fibre by the synthesis refutes or proves it
    (`image`), and with it CLOSURE is proven; a small ideal refutes it.
-4. Where neither is known: the parts, then the whole model, as ideals of fibres, with the bounds of
+4. Where neither is known: the rows, then the whole model, as ideals of fibres, with the bounds of
    `disting.fibres.ideals.bounds`. An empty fibre refutes IMAGE, a solution, whose elements may be
    zero, proves CLOSURE.
 """
@@ -22,14 +22,14 @@ from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.evidence.across_sizes import LimitFibre, PoleSharing
 from disting.evidence.decision import FibreAt
-from disting.evidence.ideals import ByParts, Refuted, Solved
+from disting.evidence.ideals import ByRows, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
-from disting.evidence.limits import Outside, PartsInside, RelativeDegrees
+from disting.evidence.limits import Outside, RelativeDegrees, RowsInside
 from disting.fibres.ideals import (
     Limits,
     coefficient_map,
-    decide_by_parts,
-    included_by_parts,
+    decide_by_rows,
+    included_by_rows,
     normalised,
 )
 from disting.fibres.ideals import decide as decide_ideal
@@ -54,9 +54,9 @@ from disting.questions.same.exact import rational_part
 
 # of one ideal; less than for a verdict
 INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)
-# of the ideal of one part, tried for every pair
+# of the ideal of one row, tried for every pair
 CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)
-PART_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one part
+ROW_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one row
 NOT_ASKED = "of chains of different sizes only limits are asked for"
 
 
@@ -143,7 +143,7 @@ def turned(found: InclusionFinding) -> InclusionFinding:
 
 
 def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    """CLOSURE of the model of the smaller rank in the other, by parts; by more for chains of
+    """CLOSURE of the model of the smaller rank in the other, by rows; by more for chains of
     different sizes.
     """
     if small.n_masses != large.n_masses:
@@ -152,12 +152,12 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
     if told is not None:
         evidence, safety = told
         inclusion = (
-            Inclusion.LEFT_IN_RIGHT if isinstance(evidence, PartsInside) else Inclusion.NEITHER
+            Inclusion.LEFT_IN_RIGHT if isinstance(evidence, RowsInside) else Inclusion.NEITHER
         )
         return InclusionFinding(
             inclusion, Certainty.BOUNDED if safety else Certainty.PROVEN, safety, evidence
         )
-    closed = included_by_parts(
+    closed = included_by_rows(
         rational_part(small), rational_part(large), settings.seed, CLOSURE_LIMITS
     )
     if closed.evidence is None:
@@ -170,9 +170,9 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
 
 
 def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
-    """The model of the smaller rank searched in the other by ideals: by parts, then as a whole."""
+    """The model of the smaller rank searched in the other by ideals: by rows, then as a whole."""
     structures = (rational_part(small), rational_part(large))
-    found = decide_by_parts(*structures, settings.seed, PART_LIMITS)
+    found = decide_by_rows(*structures, settings.seed, ROW_LIMITS)
     if found.evidence is not None:
         return _read(found.membership, found.safety, found.evidence)
     reason = ""
@@ -226,7 +226,7 @@ def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> I
 
 def _turned(evidence: InclusionEvidence | None) -> InclusionEvidence | None:
     match evidence:
-        case FibreAt() | Solved() | Refuted() | ByParts() | Outside() | PartsInside():
+        case FibreAt() | Solved() | Refuted() | ByRows() | Outside() | RowsInside():
             return replace(evidence, left_given=not evidence.left_given)
         case PoleSharing() | LimitFibre():
             return replace(evidence, left_is_larger=not evidence.left_is_larger)

@@ -45,7 +45,7 @@ of the row, and for all their limits.
 from typing import Any
 
 from disting.algebra.resultant import polynomial, resultant
-from disting.questions.inclusion.rows import Row
+from disting.model.row import Row
 
 
 def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
@@ -55,7 +55,7 @@ def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int
     What is not 0 is no receptance of the row, and no limit of its receptances.
     """
     e = 2 * row.n_masses - 2
-    at_end = row.act == row.meas and row.act in (1, row.n_masses)
+    at_end = row.a == row.b and row.a in (1, row.n_masses)
     if (
         not row.damped
         or row.ground_dampers
@@ -66,13 +66,13 @@ def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int
     ):
         return 0
     n, d = polynomial(num, modulus), polynomial(den, modulus)
-    if row.walled and row.act == row.n_masses:
+    if row.grounded and row.a == row.n_masses:
         a, b = int(d[e + 2]), int(n[e])
         u = b * d - a * n.left_shift(2)
         v = int(u[e + 1]) * n - b * u.derivative()
         lower = e * b * (e * b * u + v.left_shift(1)) + int(n[e - 1]) * v
         return resultant(v, lower, e, e - 1)
-    if row.walled:
+    if row.grounded:
         n0, n1, d0, d1 = (int(p[i]) for p in (n, d) for i in (0, 1))
         held = polynomial([d0 * n0 % modulus, (d1 * n0 - d0 * n1) % modulus], modulus)
         return _free(n0 * n0 * n, (n0 * n0 * d - held * n).right_shift(2), e)

@@ -186,11 +186,11 @@ def inclusion_from_dict(data: dict[str, object]) -> InclusionFinding:
     evidence = inclusion_evidence_from(plain) if isinstance(plain, dict) and plain else None
     grade = Certainty(str(certainty)) if certainty else None
     return InclusionFinding(
-        Inclusion(str(data["inclusion"])),
-        grade,
-        int(str(data["safety"])),
-        evidence,
-        str(data["reason"]),
+        inclusion=Inclusion(str(data["inclusion"])),
+        certainty=grade,
+        safety=int(str(data["safety"])),
+        evidence=evidence,
+        reason=str(data["reason"]),
     )
 
 

@@ -21,13 +21,10 @@ from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.powers import powers
-from disting.evidence.decision import FibreAt
 from disting.evidence.ideals import Refuted
-from disting.fibres.ideals import Limits, decide, normalised, refuted_by_parts
+from disting.fibres.ideals import Limits, decide, normalised, refuted_by_rows
 from disting.fibres.synthesis.decide import (
     DRAWS,
-    Exact,
-    Grounds,
     member,
     point_bits,
     safety_of_point,
@@ -47,7 +44,7 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
     falling = by_relative_degrees(small, large)
     if falling is not None:
         return falling
-    exact = refuted_by_parts(rational_part(small), rational_part(large), settings.seed)
+    exact = refuted_by_rows(rational_part(small), rational_part(large), settings.seed)
     if exact is not None:
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
     found = _by_synthesis(small, large, settings)
@@ -61,13 +58,14 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
     if any(c.lag or c.dead_time for c in (small, large)) or small.damped != large.damped:
         return unknown
     found = member(small, large, settings.seed)
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
-        return unknown
     if found.membership is Membership.EXCLUDED:
-        safety, inclusion = safety_of_point(large), Inclusion.NEITHER
+        told, inclusion = found.decision(safety_of_point(large)), Inclusion.NEITHER
     else:
-        safety, inclusion = safety_of_equivalent(small, large), Inclusion.LEFT_IN_RIGHT
-    return InclusionFinding(inclusion, Certainty.BOUNDED, safety, _evidence(found))
+        told = found.decision(safety_of_equivalent(small, large))
+        inclusion = Inclusion.LEFT_IN_RIGHT
+    if told.membership is Membership.UNKNOWN:
+        return unknown
+    return InclusionFinding(inclusion, Certainty.BOUNDED, told.safety, found.evidence)
 
 
 def _by_ideal(
@@ -90,8 +88,3 @@ def safety_of_equivalent(small: Chain, large: Chain) -> int:
     coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)
     return point_bits(large) - ceil((coefficients + 1) * log2(degree) + log2(DRAWS)) - 1
-
-
-def _evidence(found: Exact) -> FibreAt:
-    point = tuple((name, str(value)) for name, value in found.point.items())
-    return FibreAt(True, point, found.grounds.value, found.solutions, found.real, found.positive)

@@ -28,7 +28,7 @@ is e/2 - 2, else e/2 - 1.
 from typing import Any
 
 from disting.algebra.resultant import interpolated, polynomial, resultant
-from disting.questions.inclusion.rows import Row
+from disting.model.row import Row
 
 
 def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
@@ -38,17 +38,17 @@ def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> i
     What is not 0 is no receptance of the row, and no limit of its receptances.
     """
     e, n = 2 * row.n_masses - 2, row.n_masses
-    alone = row.act == row.meas and (row.act == n - 1 or (not row.walled and row.act == 2))
-    if not row.damped or row.ground_dampers or not alone or e < (2 if row.walled else 4):
+    alone = row.a == row.b and (row.a == n - 1 or (not row.grounded and row.a == 2))
+    if not row.damped or row.ground_dampers or not alone or e < (2 if row.grounded else 4):
         return 0
-    if len(num) > e + 1 or len(den) != e + 3 or not (row.walled or den[0] == den[1] == 0):
+    if len(num) > e + 1 or len(den) != e + 3 or not (row.grounded or den[0] == den[1] == 0):
         return 0
     numerator, denominator = (
         polynomial(num, modulus),
-        polynomial(den if row.walled else den[2:], modulus),
+        polynomial(den if row.grounded else den[2:], modulus),
     )
-    r = _in_x(numerator, denominator, e, 4 if row.walled else 2, modulus)
-    if row.walled:
+    r = _in_x(numerator, denominator, e, 4 if row.grounded else 2, modulus)
+    if row.grounded:
         return resultant(
             polynomial(r[::2], modulus), polynomial(r[1::2], modulus), e // 2, e // 2 - 1
         )

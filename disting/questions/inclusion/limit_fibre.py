@@ -18,14 +18,14 @@ from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.powers import powers
-from disting.evidence.ideals import Solved
+from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals import Decision, Limits, coefficient_map, confirms, decide
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
+from disting.model.row import Row, canonical_rows
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
 from disting.questions.inclusion.limits import Step, follows, reached
 from disting.questions.inclusion.meeting import least_rank, most_rank
-from disting.questions.inclusion.rows import Row, rows_of
 
 LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre
 MODELS = 12  # that are tried for a pair
@@ -60,7 +60,9 @@ def contained(small: Chain, large: Chain, seed: str) -> Contained | None:
             or safety < LEAST_SAFETY
         ):
             continue
-        if tells(solved, target, joined(rows), seed) and _follow(steps, rows, rows_of(large)):
+        if tells(solved, target, joined(rows), seed) and _follow(
+            steps, rows, canonical_rows(large.structure)
+        ):
             return Contained(steps, solved, safety)
     return None
 
@@ -69,7 +71,7 @@ def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solved) -> boo
     """Whether the limits hold and the solutions are solutions, for models of the smaller chain
     or for ranks proven equal.
     """
-    target, given = position(small), rows_of(large)
+    target, given = position(small), canonical_rows(large.structure)
     names = {name for name, _ in steps}
     if not names or len(names) < len(steps) or not names <= given.keys():
         return False
@@ -87,27 +89,21 @@ def joined(rows: Sequence[Row]) -> Structure:
     the sum of theirs.
     """
     first, size = rows[0].n_masses, sum(row.n_masses for row in rows)
-    joints = [i + at for row, at in zip(rows, (0, first), strict=False) for i in row.joints]
+    placed = list(zip(rows, (0, first), strict=False))
     elements: list[Element] = [Mass(i) for i in range(1, size + 1)]
-    elements += [Spring(i) for i in joints]
-    elements += [Damper(i) for i in joints if rows[0].damped]
-    (act, meas), (other_act, other_meas) = (rows[0].act, rows[0].meas), (0, 0)
+    elements += [Spring(i + at) for row, at in placed for i in row.joints]
+    elements += [Damper(i + at) for row, at in placed for i in row.joints if row.damped]
+    minus, plus = (0, 0), rows[0].ports
     if len(rows) > 1:
-        (other_act, other_meas), (act, meas) = (
-            (act, meas),
-            (
-                first + rows[1].act,
-                first + rows[1].meas,
-            ),
-        )
-    return Structure(size, tuple(elements), Ports(other_act, act, other_meas, meas), 0)
+        minus, plus = plus, (first + rows[1].a, first + rows[1].b)
+    return Structure(size, tuple(elements), Ports(minus[0], plus[0], minus[1], plus[1]), 0)
 
 
 def _results(target: Structure, large: Chain) -> Iterator[tuple[RowSteps, tuple[Row, ...]]]:
     """Limits of the rows with the powers of s of the smaller chain and at least its rank."""
     ways = [
         [(name, below, path) for below, path in reached(row).items()]
-        for name, row in rows_of(large).items()
+        for name, row in canonical_rows(large.structure).items()
     ]
     for chosen in (
         c
@@ -128,10 +124,10 @@ def _fit(rows: Sequence[Row]) -> bool:
     """Whether the model of these rows can be written: only the first one has a wall, and no
     damper is left to the ground.
     """
-    return not any(row.walled for row in rows[1:]) and not any(row.ground_dampers for row in rows)
+    return not any(row.grounded for row in rows[1:]) and not any(row.ground_dampers for row in rows)
 
 
-def _decided(target: Structure, result: Structure, seed: str) -> Decision:
+def _decided(target: Structure, result: Structure, seed: str) -> Decision[Solved | Refuted]:
     equal = least_rank(target) == least_rank(result)
     return decide(
         *map(coefficient_map, (target, result)), equal_rank=equal, seed=seed, limits=LIMITS

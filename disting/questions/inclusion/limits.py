@@ -7,13 +7,13 @@ is N_1/D_1, for w = 0 it is N_0/D_0:
 | element | limit | what remains |
 |---|---|---|
 | spring (its damper 0) | ∞ | its masses, with their ground dampers, are one; or one with the wall |
-| spring with its damper | 0 | the piece with force and sensor |
-| mass | ∞ | it is a wall; the piece with force and sensor hangs on it |
+| spring with its damper | 0 | the row with both ports |
+| mass | ∞ | it is a wall; the row with both ports hangs on it |
 | damper to the ground | 0 | the row without it |
 
 So every row that results is, for all values of its parameters, a limit of rows of the larger kind;
-step by step also after several limits. What is no row with one wall at most, or has force and
-sensor in two pieces, is left out.
+step by step also after several limits. What is no row with one wall at most, or has the ports in
+two rows, is left out.
 """
 
 from collections.abc import Iterator
@@ -23,8 +23,8 @@ from typing import Any
 
 from disting.algebra.symbols import coefficients, symbols
 from disting.behaviour.transfer import plain_receptance
+from disting.model.row import Row
 from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring
-from disting.questions.inclusion.rows import Row
 
 INFINITE, ZERO = "∞", "0"
 REMEMBERED = 1024  # rows whose limits, and limits whose identities, are kept
@@ -66,7 +66,7 @@ def specialised(row: Row) -> Iterator[Specialised]:
         yield from _made(row, Spring(k), ZERO, [i - k if i > k else None for i in range(n + 1)])
     for k in range(1, n + 1):
         yield from _made(row, Mass(k), INFINITE, [i - k if i >= k else None for i in range(n + 1)])
-        if not row.walled:
+        if not row.grounded:
             yield from _made(
                 row, Mass(k), INFINITE, [k - i if 0 < i <= k else None for i in range(n + 1)]
             )
@@ -127,15 +127,18 @@ def is_limit(row: Row, s: Specialised) -> bool:
 
 def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> Iterator[Specialised]:
     """The row of the nodes that are left; none if a port is lost, or if nothing is left."""
-    act, meas = nodes[row.act], nodes[row.meas]
-    if not act or not meas:
+    a, b = nodes[row.a] or 0, nodes[row.b] or 0
+    if not (a and b):
         return
-    walled = any(0 in (nodes[k], nodes[k + 1]) and nodes[k] != nodes[k + 1] for k in row.joints)
+    grounded = any(0 in (nodes[k], nodes[k + 1]) and nodes[k] != nodes[k + 1] for k in row.joints)
     left = {nodes[i] for i in row.ground_dampers if limit != ZERO or element != GroundDamper(i)}
     dampers = tuple(sorted(i for i in left if i))
     n_masses = max(i for i in nodes if i is not None)
     yield Specialised(
-        element, limit, Row(n_masses, walled, act, meas, row.damped, dampers), tuple(nodes)
+        element,
+        limit,
+        Row(n_masses, grounded, min(a, b), max(a, b), row.damped, dampers),
+        tuple(nodes),
     )
 
 

@@ -25,6 +25,7 @@ from functools import lru_cache
 
 from disting.behaviour.powers import Powers, powers
 from disting.behaviour.sample import Representation, drawn, seen_at
+from disting.model.row import rows_of
 from disting.model.structure import Structure
 
 POINTS = 2  # at which a rank is looked at; what is seen at one is a lower bound
@@ -89,14 +90,8 @@ def _same_mass(small: Structure, large: Structure) -> bool:
 
 
 def _keeps_momentum(structure: Structure) -> bool:
-    """Whether the force acts on a row that neither springs nor dampers tie to the ground; no
-    lag.
+    """Whether neither springs nor dampers tie the last row, on which the force acts, to the ground;
+    no lag.
     """
-    first, last = next(
-        span for span in structure.blocks if span[0] <= structure.ports.act_plus <= span[1]
-    )
-    tied = any(
-        (e.kind == "b" and first <= e.at <= last) or (e.kind == "k" and e.at == first - 1)
-        for e in structure.elements
-    )
-    return not tied and not structure.lag
+    row = rows_of(structure)[-1]
+    return not (row.grounded or row.ground_dampers or structure.lag)

@@ -37,9 +37,9 @@ from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import prime
 from disting.behaviour.powers import powers
 from disting.model.chain import Chain
-from disting.questions.inclusion.profiles import part_falls
+from disting.model.row import GROUNDED, canonical_rows
+from disting.questions.inclusion.profiles import row_falls
 from disting.questions.inclusion.row_equations import RowEquation, equation_safety, row_equation
-from disting.questions.inclusion.rows import GROUNDED, rows_of
 from disting.questions.inclusion.split_poles import (
     Polynomial,
     Split,
@@ -129,7 +129,7 @@ def labels(label: str) -> tuple[str, ...]:
 
 def exclusion_safety(large: Chain) -> int:
     """Largest b with P(all trials by an equation err) <= 2^-b."""
-    return TRIALS * equation_safety(rows_of(large)[GROUNDED])
+    return TRIALS * equation_safety(canonical_rows(large.structure)[GROUNDED])
 
 
 def _covered(small: Chain, large: Chain) -> bool:
@@ -150,7 +150,7 @@ def _excludes(
     if found is None:
         return False
     b = _bounds(small, large, found.n.degree())
-    row = rows_of(large)[GROUNDED]
+    row = canonical_rows(large.structure)[GROUNDED]
     equation = row_equation(row, label) if by_equation else None
     shape = tuple(sorted(i // step_of(large) for i in p) for p in powers(row.structure))
     allowed = (_solutions(found.n, s, b, modulus) for s in _sharings(found, b, modulus))
@@ -162,7 +162,7 @@ def _excludes(
 def _bounds(small: Chain, large: Chain, degree: int) -> Bounds:
     step = step_of(large)
     first, second = 2 * large.gap // step, 2 * (large.n_masses - large.gap) // step
-    fall_second, fall_first = (-(-fall // step) for fall in part_falls(large))
+    fall_second, fall_first = (-(-fall // step) for fall in row_falls(large))
     zeros, top = 2 // step, first + second - min(fall_first, fall_second)
     poles = poles_of(small) + zeros
     factor = min(first + second - poles, top - degree)

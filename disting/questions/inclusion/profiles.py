@@ -4,9 +4,9 @@ receptances.
 Degrees: with masses other than zero no special value raises the number of poles or lowers the
 relative degree. Projections: of equally many poles, the coefficients are regular functions of the
 parameters, and V1 in V2 gives rank1(S) <= rank2(S) for every set S of them. Relative degrees: the
-receptance of a part whose ports are l masses apart falls as s^-(2 + l) with dampers and as s^-(2 +
+receptance of a row whose ports are l masses apart falls as s^-(2 + l) with dampers and as s^-(2 +
 2 l) without, its leading coefficient a product of springs or dampers and inverse masses. Of two
-parts the slower one leads; only if both fall alike special values cancel. Dampers to the ground
+rows the slower one leads; only if both fall alike special values cancel. Dampers to the ground
 change nothing of that, a lag adds 1.
 """
 
@@ -18,6 +18,7 @@ from disting.behaviour.profile import Profile
 from disting.evidence.conditions import Counts, Labels
 from disting.evidence.limits import FullImage, LargerProjection, RelativeDegrees
 from disting.model.chain import Chain
+from disting.model.row import rows_of
 from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 
 T = TypeVar("T")
@@ -97,26 +98,23 @@ def by_relative_degrees(small: Chain, large: Chain) -> InclusionFinding | None:
     """A receptance of the left model that always falls faster than any of the larger right one;
     None if it need not.
     """
-    falls = part_falls(large)
-    here, there = min(part_falls(small)), min(falls)
+    falls = row_falls(large)
+    here, there = min(row_falls(small)), min(falls)
     if small.damped != large.damped or here <= there or (len(falls) == 2 and falls[0] == falls[1]):
         return None
     evidence = RelativeDegrees(False, here, there)
     return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=evidence)
 
 
-def part_falls(chain: Chain) -> tuple[int, ...]:
-    """Relative degrees of the receptances of the free and, with a gap, of the grounded part, one
+def row_falls(chain: Chain) -> tuple[int, ...]:
+    """Relative degrees of the receptances of the free and, with a gap, of the grounded row, one
     more with a lag.
 
-    >>> part_falls(Chain(4, 2, 1, 3, 1, 4, damped=True))
+    >>> row_falls(Chain(4, 2, 1, 3, 1, 4, damped=True))
     (3, 2)
     """
-    each = 1 if chain.damped else 2
-    free, grounded = abs(chain.act_plus - chain.meas_plus), abs(chain.act_minus - chain.meas_minus)
-    return tuple(
-        2 + each * apart + chain.lag for apart in ((free, grounded) if chain.gap else (free,))
-    )
+    rows = reversed(rows_of(chain.structure))
+    return tuple(row.relative_degree + chain.lag for row in rows)
 
 
 def inside(left_is_smaller: bool) -> Inclusion:

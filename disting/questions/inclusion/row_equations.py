@@ -26,7 +26,7 @@ from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import SEARCH_BITS, Size, prime, residues, safety
 from disting.behaviour.powers import common_power, powers
 from disting.behaviour.transfer import plain_receptance, values_at
-from disting.questions.inclusion.rows import Row
+from disting.model.row import Row
 
 DEGREES = range(2, 9)
 MONOMIALS = 120  # of a block, at most
@@ -67,6 +67,16 @@ def row_equation(row: Row, label: str) -> RowEquation | None:
         _kernel_vector(block, _models(row, len(block), label, modulus), modulus) if block else None
     )
     return None if found is None else RowEquation(block, found, modulus)
+
+
+def label_of(row: Row) -> str:
+    """What stands for a row in the labels of random points. Such labels are stored with evidence,
+    so this text stays as it is, whatever the names of the fields.
+    """
+    return (
+        f"Row(n_masses={row.n_masses}, walled={row.grounded}, act={row.a}, meas={row.b},"
+        f" damped={row.damped}, ground_dampers={row.ground_dampers})"
+    )
 
 
 def equation_safety(row: Row) -> int:
@@ -150,7 +160,7 @@ def _models(row: Row, count: int, label: str, modulus: int) -> list[tuple[int, .
 def _model(row: Row, label: str, modulus: int) -> tuple[int, ...]:
     """The coefficients of a random model, those of N first."""
     return model_at(
-        row, residues(f"{label}:{row}", len(row.structure.parameters), modulus), modulus
+        row, residues(f"{label}:{label_of(row)}", len(row.structure.parameters), modulus), modulus
     )
 
 

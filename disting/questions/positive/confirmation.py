@@ -19,9 +19,14 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
-from disting.questions.positive.parts import Obstacle, obstacle, only_parts_sum_to_zero, swap_fails
+from disting.questions.positive.obstacles import (
+    Obstacle,
+    obstacle,
+    only_rows_sum_to_zero,
+    swap_fails,
+)
 from disting.questions.positive.points import equivalent, read
-from disting.questions.positive.shares import part_words, refuse, theorem, without_dead_time
+from disting.questions.positive.shares import refuse, row_words, theorem, without_dead_time
 
 
 def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
@@ -81,7 +86,7 @@ def _excluded(evidence: Excluded, given: Chain, other: Chain) -> bool:
     if evidence.name != Obstacle.SWAPPED:
         return obstacle(given, other) == evidence.name
     fails = _is_of(evidence.point, given) and swap_fails(given, other)
-    return fails and only_parts_sum_to_zero(given, read(evidence.point), 2 * other.gap)
+    return fails and only_rows_sum_to_zero(given, read(evidence.point), 2 * other.gap)
 
 
 def _is_empty(point: Values, given: Chain, other: Chain) -> bool:
@@ -89,8 +94,8 @@ def _is_empty(point: Values, given: Chain, other: Chain) -> bool:
 
 
 def _interlaced(evidence: Interlacing, given: Chain, other: Chain) -> bool:
-    """The parts again; points, where there are any, are looked at again."""
-    same = not given.damped and evidence.parts == part_words(given, other) != ()
+    """The rows again; points, where there are any, are looked at again."""
+    same = not given.damped and evidence.parts == row_words(given, other) != ()
     points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))
     return same and all(
         not values or _answers(values, given, other, answer) for values, answer in points

@@ -12,10 +12,10 @@ from disting.algebra.sampling import residues
 from disting.evidence.positive import Values
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.segment import Segment
 from disting.fibres.synthesis.target import Target, fraction, target
 from disting.model.chain import Chain
-from disting.questions.positive.parts import Point, distances, parts, receptances
+from disting.model.row import Row
+from disting.questions.positive.obstacles import Point, distances, receptances, rows
 from disting.questions.positive.undamped_rows import word, words
 
 Range = tuple[Fraction, Fraction]
@@ -48,27 +48,27 @@ def equivalent(given: Chain, point: Point, other: Chain) -> Answer:
     """Whether `other` has positive parameters with the receptance of `given` at this positive
     point.
 
-    Undamped, with one gap and decay: part by part, by words. Undamped, `other` without a gap and
+    Undamped, with one gap and decay: row by row, by words. Undamped, `other` without a gap and
     ports apart: by the word of the whole. Damped: NO where all solutions are listed and none is
     positive. UNKNOWN otherwise.
     """
     if other.damped:
         return _damped(target(given.structure, point), other)
     if given.gap == other.gap and distances(given) == distances(other):
-        pairs = zip((p for p in parts(other) if p), receptances(given, point), strict=True)
-        return _all(_part(segment, t) for segment, t in pairs)
+        pairs = zip(rows(other), receptances(given, point), strict=True)
+        return _all(_row(row, t) for row, t in pairs)
     if not other.gap and distances(other)[1]:
-        return _part(parts(other)[1], target(given.structure, point).folded(1))
+        return _row(rows(other)[-1], target(given.structure, point).folded(1))
     return Answer.UNKNOWN
 
 
-def _part(segment: Segment, t: Target) -> Answer:
+def _row(row: Row, t: Target) -> Answer:
     """Whether a positive row of this type has this receptance."""
-    if segment.distance == 0:
-        return Answer.YES  # it comes from a collocated part (Foster)
-    if t.denominator.degree() != segment.nodes or t.numerator.degree() != segment.numerator_degree:
+    if row.distance == 0:
+        return Answer.YES  # it comes from a collocated row (Foster)
+    if t.denominator.degree() != row.n_masses or t.numerator.degree() != row.numerator_degree:
         return Answer.UNKNOWN  # a special point: a pole and a zero coincide
-    found, known = word(t), words(segment.nodes, segment.a, segment.b)
+    found, known = word(t), words(row.n_masses, row.a, row.b)
     if found is None:
         return Answer.UNKNOWN
     return (

@@ -32,7 +32,7 @@ from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical, forms
-from disting.questions.positive.parts import Obstacle, Point
+from disting.questions.positive.obstacles import Obstacle, Point
 from disting.questions.positive.points import Range, equivalent, random_point, read, spelled
 from disting.questions.positive.shares import is_plain, positive_finding, refuse
 from disting.questions.positive.witness import DRAWS, bits, drawn_near, is_long

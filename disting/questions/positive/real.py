@@ -22,9 +22,9 @@ Where it is zero is a proper subvariety, whose image among the pairs (N, D), wit
 added, is a proper one too, because there are finitely many factors to each pair. The given rows
 fill the closure of these pairs. So for generic given rows and choices no element is zero.
 
-Chains of one gap and equal distances: the parts of `given` are taken one by one.
+Chains of one gap and equal distances: the rows of `given` are taken one by one.
 
-Chains with force and sensor at one place in each part: R has any g of the non-zero poles. So D/x,
+Chains with force and sensor at one place in each row: R has any g of the non-zero poles. So D/x,
 of degree N - 1, needs a real factor of degree g, then the numerator of R, of degree g - 1, one of
 degree a_minus - 1, and that of F, of degree N - g - 1, one of degree a_plus - g - 1; the same
 argument on elements. What is known of real factors of `given` helps: its own gap is the degree of
@@ -32,10 +32,10 @@ a real factor of D/x, its own ports those of factors of the numerators.
 
 None. A polynomial of even degree that must have a real factor of odd degree and has no real root
 shows that there is no real equivalent. The polynomials: N, if `other` has no gap; with the same
-gap and distances, the numerators of the two parts, because generic equivalents have the same parts
-(own poles, see `parts`; that holds for all parameters but a proper algebraic subset, and an open
-set without it still has an open part); with ports together, for each set of g poles that is closed
-under conjugation (the poles of R are the roots of a real factor of D/x, and simple), the two
+gap and distances, the numerators of the two rows, because generic equivalents have the same rows
+(own poles, see `obstacles`; that holds for all parameters but a proper algebraic subset, and an
+open set without it still has an open part); with ports together, for each set of g poles that is
+closed under conjugation (the poles of R are the roots of a real factor of D/x, and simple), the two
 numerators that it gives: if each set fails, or there is none, there is no equivalent. All of this
 is told by balls that leave something out: a root is not real, a leading coefficient is not zero,
 two poles differ. So it stays for all models near by: an open set, proven at one point, be it
@@ -48,12 +48,12 @@ from flint import acb, ctx
 
 from disting.algebra.sampling import residues
 from disting.evidence.positive import Values
-from disting.fibres.synthesis.ball import Ball, Imprecise, Poly, product, roots, shifted
+from disting.fibres.synthesis.ball import Ball, Imprecise, Poly, product, roots, shifted, splits
 from disting.fibres.synthesis.construction import is_plain
-from disting.fibres.synthesis.segment import Segment, splits
 from disting.fibres.synthesis.target import Target, target
 from disting.model.chain import Chain
-from disting.questions.positive.parts import Point, distances, parts, receptances
+from disting.model.row import Row
+from disting.questions.positive.obstacles import Point, distances, receptances, rows
 from disting.questions.positive.points import random_point, read, spelled
 
 TRIES = 1000  # points of mixed signs, a millisecond each; seldom are more than a few needed
@@ -76,7 +76,7 @@ def always_real(given: Chain, other: Chain) -> bool:
         return _by_any_poles(given, other)
     if given.gap != other.gap or distances(given) != distances(other):
         return False
-    return all(_row(a, b) for a, b in zip(parts(given), parts(other), strict=True) if a and b)
+    return all(_row(*pair) for pair in zip(rows(given), rows(other), strict=True))
 
 
 def real_witness(given: Chain, other: Chain, seed: str) -> Values:
@@ -113,31 +113,31 @@ def lacks_real(given: Chain, point: Point, other: Chain) -> bool:
 
 
 def _candidates(given: Chain, point: Point, other: Chain) -> Iterator[list[Factor]]:
-    """For each way in which real parts of `other` may share the receptance, the polynomials
+    """For each way in which real rows of `other` may share the receptance, the polynomials
     that must have real factors.
     """
     whole = target(given.structure, point).folded(1)
-    grounded, free = parts(other)
-    full = whole.denominator.degree() == other.n_masses
-    if full and grounded is None:
-        yield [_numerator(whole, free)]
-    elif full and grounded and _together(other):
-        yield from _shared(whole, grounded, free)
-    elif full and grounded and given.gap == other.gap and distances(given) == distances(other):
-        yield [
-            _numerator(t, s)
-            for s, t in zip((grounded, free), receptances(given, point), strict=True)
-        ]
+    searched = rows(other)
+    alike = given.gap == other.gap and distances(given) == distances(other)
+    if whole.denominator.degree() != other.n_masses:
+        yield []  # nothing is said
+    elif len(searched) == 1:
+        yield [_numerator(whole, *searched)]
+    elif _together(other):
+        yield from _shared(whole, *searched)
+    elif alike:
+        pairs = zip(searched, receptances(given, point), strict=True)
+        yield [_numerator(t, row) for row, t in pairs]
     else:
         yield []  # nothing is said
 
 
-def _numerator(t: Target, segment: Segment) -> Factor:
-    return t.balls.numerator, segment.numerator_degree, segment.a - 1
+def _numerator(t: Target, row: Row) -> Factor:
+    return t.balls.numerator, row.numerator_degree, row.a - 1
 
 
-def _shared(whole: Target, grounded: Segment, free: Segment) -> Iterator[list[Factor]]:
-    """Both numerators for every set of poles, closed under conjugation, that the grounded part
+def _shared(whole: Target, grounded: Row, free: Row) -> Iterator[list[Factor]]:
+    """Both numerators for every set of poles, closed under conjugation, that the grounded row
     may have.
     """
     data = whole.balls
@@ -147,10 +147,10 @@ def _shared(whole: Target, grounded: Segment, free: Segment) -> Iterator[list[Fa
         for z in roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)
     ]
     still = (acb(0), data.numerator[0] / slope[0])
-    for mine, others in splits(poles, grounded.nodes):
+    for mine, others in splits(poles, grounded.n_masses):
         if all(any(z.conjugate().overlaps(w) for w, _ in mine) for z, _ in mine):
             pairs = ((mine, grounded), ([still, *others], free))
-            yield [(_sum(part), s.numerator_degree, s.a - 1) for part, s in pairs]
+            yield [(_sum(some), row.numerator_degree, row.a - 1) for some, row in pairs]
 
 
 def _sum(poles: list[tuple[Ball, Ball]]) -> Poly:
@@ -171,28 +171,25 @@ def _fails(polynomial: Poly, degree: int, factor: int) -> bool:
 
 def _by_any_poles(given: Chain, other: Chain) -> bool:
     """Whether real factors of all degrees exist, with force and sensor at one place in each
-    part.
+    row.
     """
-    (mine_grounded, mine_free), (grounded, free) = parts(given), parts(other)
-    if grounded is None:
-        return _splits(free.numerator_degree, free.a - 1, 0 if mine_grounded else mine_free.a - 1)
-    own = mine_grounded is not None and mine_grounded.nodes == grounded.nodes
-    if (
-        own
-        and mine_grounded
-        and all(_row(*pair) for pair in ((mine_grounded, grounded), (mine_free, free)))
-    ):
+    mine, searched = rows(given), rows(other)
+    if len(searched) == 1:
+        known = 0 if given.gap else mine[0].a - 1
+        return _splits(searched[0].numerator_degree, searched[0].a - 1, known)
+    same = given.gap == other.gap
+    if same and all(_row(*pair) for pair in zip(mine, searched, strict=True)):
         return True
     poles = _splits(other.n_masses - 1, other.gap, given.gap)
-    return poles and all(_splits(s.numerator_degree, s.a - 1, 0) for s in (grounded, free))
+    return poles and all(_splits(row.numerator_degree, row.a - 1, 0) for row in searched)
 
 
-def _row(given: Segment, other: Segment) -> bool:
+def _row(given: Row, other: Row) -> bool:
     """Whether each generic real row has a real equivalent of the other type."""
-    same = sorted((given.a, given.nodes + 1 - given.b)) == sorted(
-        (other.a, other.nodes + 1 - other.b)
+    same = sorted((given.a, given.n_masses + 1 - given.b)) == sorted(
+        (other.a, other.n_masses + 1 - other.b)
     )
-    covered = other.distance <= 1 or other.b == other.nodes or other.a == 1
+    covered = other.distance <= 1 or other.b == other.n_masses or other.a == 1
     return same or (covered and _splits(other.numerator_degree, other.a - 1, given.a - 1))
 
 
@@ -204,8 +201,8 @@ def _splits(degree: int, factor: int, known: int) -> bool:
 
 
 def _together(chain: Chain) -> bool:
-    """Whether force and sensor are at one place in each part."""
-    return all(part is None or part.distance == 0 for part in parts(chain))
+    """Whether force and sensor are at one place in each row."""
+    return all(row.distance == 0 for row in rows(chain))
 
 
 def _signed(point: Point, label: str) -> Point:

@@ -1,8 +1,8 @@
 """Whether all, some or no positive models of one chain have a positive equivalent in another one.
 
 Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality,
-Foster (ALWAYS); decay, residues, own poles, signs, swapped parts (NEVER, see `parts`); the
-arrangement of poles and zeros of each part (ALWAYS or SOMETIMES, see `words`). Then a rational
+Foster (ALWAYS); decay, residues, own poles, signs, swapped rows (NEVER, see `obstacles`); the
+arrangement of poles and zeros of each row (ALWAYS or SOMETIMES, see `words`). Then a rational
 point without any equivalent (NEVER, but for a probability that is bounded). Then random points:
 one with a positive equivalent and one without (SOMETIMES).
 
@@ -12,7 +12,7 @@ tell it (see `witness`), so points of undamped models testify however short they
 whose solutions are listed, are never called SOMETIMES by points.
 
 Foster: undamped, both chains with force and sensor at one place. H = sum r_j/(x + l_j) with l_j >=
-0, r_j > 0. Any g of the non-zero poles serve for the grounded part R, the others for F. For a part
+0, r_j > 0. Any g of the non-zero poles serve for the grounded row R, the others for F. For a row
 R = sum r_j/(x + l_j) with n poles the n - 1 zeros -z_i separate the poles, so 1/R = m x + c - sum
 t_i/(x + z_i) with m, t_i > 0. Any a - 1 of the zeros serve for the left side, the others for the
 right side, W = sum t_i x/(z_i (x + z_i)), plus 1/R(0) >= 0 on the left (0 at a free end, as it
@@ -34,26 +34,26 @@ from disting.evidence.positive import (
     EmptyFibre,
     Excluded,
     Interlacing,
-    PartWords,
     Points,
     PositiveEvidence,
     PositiveFinding,
+    RowWords,
     Share,
 )
 from disting.fibres.synthesis.decide import member, point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.result import Answer
-from disting.fibres.synthesis.segment import Segment
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.row import Row
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
-from disting.questions.positive.parts import (
+from disting.questions.positive.obstacles import (
     Obstacle,
     distances,
     obstacle,
-    only_parts_sum_to_zero,
-    parts,
+    only_rows_sum_to_zero,
+    rows,
     swap_fails,
 )
 from disting.questions.positive.points import equivalent, random_point, spelled
@@ -86,7 +86,7 @@ def positive_finding(
     against = obstacle(given, other)
     if against:
         return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
-    compared = () if given.damped else part_words(given, other)
+    compared = () if given.damped else row_words(given, other)
     return _by_words(given, other, compared, seed) if compared else _by_points(given, other, seed)
 
 
@@ -132,44 +132,40 @@ def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
     return first, second
 
 
-def part_words(given: Chain, other: Chain) -> tuple[PartWords, ...]:
-    """What each part of undamped `other` lacks; () where the parts do not correspond or what
+def row_words(given: Chain, other: Chain) -> tuple[RowWords, ...]:
+    """What each row of undamped `other` lacks; () where the rows do not correspond or what
     they lack is not known.
     """
     if given.gap != other.gap or distances(given) != distances(other):
         return ()
-    pairs = [
-        (name, a, b)
-        for name, a, b in zip(("grounded", "free"), parts(given), parts(other), strict=True)
-        if a and b
-    ]
-    found = tuple(_lacking(name, a, b) for name, a, b in pairs)
-    known = any(p.lacking for p in found) or all(_contained(a, b) for _, a, b in pairs)
+    pairs = list(zip(rows(given), rows(other), strict=True))
+    found = tuple(_lacking(a, b) for a, b in pairs)
+    known = any(p.lacking for p in found) or all(_contained(a, b) for a, b in pairs)
     return found if known else ()
 
 
-def _lacking(name: str, given: Segment, other: Segment) -> PartWords:
+def _lacking(given: Row, other: Row) -> RowWords:
     ports = (given.a, given.b), (other.a, other.b)
     lacking = (
         () if _contained(given, other) else tuple(sorted(_words(given).lower - _words(other).upper))
     )
-    return PartWords(name, given.nodes, *ports, lacking)
+    return RowWords(given.name, given.n_masses, *ports, lacking)
 
 
-def _contained(given: Segment, other: Segment) -> bool:
+def _contained(given: Row, other: Row) -> bool:
     """Whether every positive row of the one type is the same as one of the other; mirrored
     ports count as equal (`words`).
     """
-    sides = [sorted((s.a - 1, s.nodes - s.b)) for s in (given, other)]
+    sides = [sorted((s.a - 1, s.n_masses - s.b)) for s in (given, other)]
     return given.distance == 0 or sides[0] == sides[1] or _words(given).upper <= _words(other).lower
 
 
-def _words(segment: Segment) -> Words:
-    return words(segment.nodes, segment.a, segment.b)
+def _words(row: Row) -> Words:
+    return words(row.n_masses, row.a, row.b)
 
 
 def _by_words(
-    given: Chain, other: Chain, compared: tuple[PartWords, ...], seed: str
+    given: Chain, other: Chain, compared: tuple[RowWords, ...], seed: str
 ) -> PositiveFinding:
     if not any(p.lacking for p in compared):
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Interlacing(compared))
@@ -198,7 +194,7 @@ def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
 def _never(given: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
     """Proofs that there is no equivalent, found at one rational point."""
     point = rational_point(given, about(f"positivity:{seed}", given, other), point_bits(other))
-    if swap_fails(given, other) and only_parts_sum_to_zero(given, point, 2 * other.gap):
+    if swap_fails(given, other) and only_rows_sum_to_zero(given, point, 2 * other.gap):
         yield PositiveFinding(
             Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point))
         )

@@ -50,7 +50,7 @@ from flint import fmpq
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.algebra.sampling import residues
 from disting.model.chain import Chain
-from disting.questions.positive.parts import Point
+from disting.questions.positive.obstacles import Point
 from disting.questions.positive.points import Range
 
 DRAWS = 3  # of each kind of witness, at most

@@ -18,9 +18,9 @@ large that the bound is small enough for this n (`synthesis.decide.point_bits`);
 Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up to DRAWS points are
 drawn, of either model.
 
-Where the synthesis has no method (force and sensor two or more masses apart inside a part; with
+Where the synthesis has no method (force and sensor two or more masses apart inside a row; with
 dampers to the ground also some neighbouring ports) or finds only numbers, what is known of the
-rows of both chains decides (`ideals.by_rows`), then the fibre's ideal, modulo random primes and
+rows of both chains decides (`ideals.by_one_row`), then the fibre's ideal, modulo random primes and
 with bounds of its own (see `disting.fibres.ideals`). No other program is asked: the answer depends
 on the question alone.
 
@@ -34,7 +34,7 @@ What equal ranks are needed for. One direction is looked at, say V1 against V2. 
 lie inside V2, the closures differ, whatever the ranks. Where it does, V1 = V2 holds only because
 both have one dimension: an irreducible closed set contains none but itself of its own dimension.
 Ranks seen at points are lower bounds, so two that are seen equal may differ. So a bounded HOLDS is
-as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full parts need no
+as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full rows need no
 ranks.
 """
 
@@ -47,16 +47,17 @@ from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import Refuted, Shared, Solved
 from disting.fibres import ideals
+from disting.fibres.decision import Decision
 from disting.fibres.ideals import Limits, chains_told_apart, coefficient_map, normalised
-from disting.fibres.ideals.by_rows import differ_by_row
-from disting.fibres.ideals.full_parts import same_by_full_parts
-from disting.fibres.ideals.rows import DampedRow
+from disting.fibres.ideals.by_one_row import differ_by_row
+from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.ideals.zeros import safety_of_branches
-from disting.fibres.synthesis.decide import Direction, Exact, Grounds, decide, safety_of_point
+from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.duality import are_dual
-from disting.fibres.synthesis.foster import are_foster, are_same_by_parts
+from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.row import Row
 from disting.model.settings import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
@@ -84,7 +85,7 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         )
     found = by_synthesis(a, b, settings)
     if found is None:
-        found = by_full_parts(a, b)
+        found = by_full_rows(a, b)
     if found is None:
         found = by_row(a, b)
     # they make the ideals of whole fibres too large
@@ -101,18 +102,16 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     if a.damped != b.damped:
         return None
     found = decide(a, b, settings.seed)
-    if found.grounds not in (Grounds.REFUTED, Grounds.CONSTRUCTION):
-        return None
-    safety = safety_of_point(b if found.direction is Direction.LEFT_IN_RIGHT else a)
-    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, Certainty.BOUNDED, safety, _evidence(found))
+    searched = b if found.direction is Direction.LEFT_IN_RIGHT else a
+    told = found.decision(safety_of_point(searched))
+    return None if told.membership is Membership.UNKNOWN else decided(told)
 
 
-def by_full_parts(a: Chain, b: Chain) -> Finding | None:
-    """What parts that can have any receptance prove; a dead time that both have is a factor of
+def by_full_rows(a: Chain, b: Chain) -> Finding | None:
+    """What rows that can have any receptance prove; a dead time that both have is a factor of
     its own.
     """
-    evidence = same_by_full_parts(a.structure, b.structure)
+    evidence = same_by_full_rows(a.structure, b.structure)
     return (
         None
         if evidence is None
@@ -127,7 +126,13 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
     if found is None or found[1] < LEAST_SAFETY:
         return None
-    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, found[1], found[0])
+    return Finding(
+        rule=EXACT,
+        outcome=Outcome.FAILS,
+        certainty=Certainty.BOUNDED,
+        safety=found[1],
+        evidence=found[0],
+    )
 
 
 def by_row(a: Chain, b: Chain) -> Finding | None:
@@ -138,12 +143,18 @@ def by_row(a: Chain, b: Chain) -> Finding | None:
     if evidence is None:
         return None
     given, searched = (
-        DampedRow(evidence.wall, evidence.masses, ports)
+        Row(evidence.masses, evidence.wall, *ports, damped=True)
         for ports in (evidence.given, evidence.searched)
     )
     safety = safety_of_branches(given, searched)
     return (
-        Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety, evidence)
+        Finding(
+            rule=EXACT,
+            outcome=Outcome.FAILS,
+            certainty=Certainty.BOUNDED,
+            safety=safety,
+            evidence=evidence,
+        )
         if safety >= LEAST_SAFETY
         else None
     )
@@ -162,15 +173,22 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
             )
         found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
         if found.evidence and found.safety >= limits.safety:
-            outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
             evidence = replace(found.evidence, is_normalised=coordinates is normalised)
-            return Finding(EXACT, outcome, Certainty.BOUNDED, found.safety, evidence)
+            return decided(replace(found, evidence=evidence))
         reasons.append(found.reason)
     return Finding(
         EXACT,
         Outcome.ABANDONED,
         note=f"the ideal of the fibre is too large for the limits ({reasons[-1]})",
     )
+
+
+def decided(found: Decision[FibreAt | Solved | Refuted]) -> Finding:
+    """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
+    if found.membership is Membership.UNKNOWN:
+        return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
+    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
+    return Finding(EXACT, outcome, Certainty.BOUNDED, safety=found.safety, evidence=found.evidence)
 
 
 def resting_on_ranks(finding: Finding, left: Profile, right: Profile) -> Finding:
@@ -207,17 +225,6 @@ def theorem(a: Chain, b: Chain) -> str:
         return "symmetry"
     if are_foster(a, b):
         return "Foster"
-    if are_same_by_parts(a, b):
+    if are_same_by_rows(a, b):
         return "parts"
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
-
-
-def _evidence(found: Exact) -> FibreAt:
-    return FibreAt(
-        left_given=found.direction is Direction.LEFT_IN_RIGHT,
-        point=tuple((name, str(value)) for name, value in found.point.items()),
-        grounds=found.grounds.value,
-        solutions=found.solutions,
-        real=found.real,
-        positive=found.positive,
-    )

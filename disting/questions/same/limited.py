@@ -22,7 +22,7 @@ from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
 from disting.model.question import Question
 from disting.model.settings import Settings
-from disting.questions.same.exact import by_full_parts, by_ideals, by_shares, by_synthesis, theorem
+from disting.questions.same.exact import by_full_rows, by_ideals, by_shares, by_synthesis, theorem
 
 SECONDS = 60.0
 # the work is limited long before the time
@@ -40,7 +40,7 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     named = theorem(a, b)
     if named:
         return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    full = by_full_parts(a, b)
+    full = by_full_rows(a, b)
     if full is not None:
         return full
     try:

@@ -110,7 +110,13 @@ def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
         )
     outcome = SAME[left.share] if len(shares) == 1 else Outcome.SOMETIMES
     certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
-    return Finding(ADMISSIBLE, outcome, certainty, safety, BothWays(left, right))
+    return Finding(
+        rule=ADMISSIBLE,
+        outcome=outcome,
+        certainty=certainty,
+        safety=safety,
+        evidence=BothWays(left, right),
+    )
 
 
 def rational_map(left: Chain, right: Chain) -> str:
@@ -167,7 +173,13 @@ def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
             certainty, safety = weakest(
                 (Certainty.PROVEN, 0), (with_one.certainty, with_one.safety)
             )
-            return Finding(ADMISSIBLE, Outcome.SOMETIMES, certainty, safety, evidence)
+            return Finding(
+                rule=ADMISSIBLE,
+                outcome=Outcome.SOMETIMES,
+                certainty=certainty,
+                safety=safety,
+                evidence=evidence,
+            )
     return None
 
 
@@ -176,7 +188,11 @@ def by_counts(left: Identifiability, right: Identifiability) -> Finding:
     certainty, safety = weakest(left.count_grade, right.count_grade)
     if certainty is not Certainty.NUMERICAL and all(_is_odd(x) for x in (left, right)):
         return Finding(
-            ADMISSIBLE, Outcome.HOLDS, certainty, safety, OddFibres(left.least, right.least)
+            rule=ADMISSIBLE,
+            outcome=Outcome.HOLDS,
+            certainty=certainty,
+            safety=safety,
+            evidence=OddFibres(left.least, right.least),
         )
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_REAL)
 

@@ -9,6 +9,7 @@ from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation, Sample
 from disting.evidence.conditions import (
+    ByConditions,
     Counts,
     Embedding,
     Forms,
@@ -19,8 +20,8 @@ from disting.evidence.conditions import (
 )
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
-from disting.evidence.ideals import ByRow, FullParts, Refuted, Shared, Solved
-from disting.evidence.kinds import ByConditions, Evidence
+from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
+from disting.evidence.kinds import Evidence
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
@@ -31,7 +32,7 @@ from disting.fibres.ideals import (
     confirms_row,
     decide,
     normalised,
-    same_by_full_parts,
+    same_by_full_rows,
 )
 from disting.fibres.synthesis.decide import Grounds
 from disting.fibres.synthesis.fibre import fibre
@@ -70,8 +71,8 @@ class Witness:
                     evidence.left_given,
                     not evidence.left_given,
                 )
-            case FullParts():
-                return _full_parts(evidence, left, right)
+            case FullRows():
+                return _full_rows(evidence, left, right)
             case Shared():
                 return _shares(evidence, left, right)
             case Solved() | Refuted():
@@ -223,10 +224,10 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     )
 
 
-def _full_parts(evidence: FullParts, left: Chain, right: Chain) -> bool:
+def _full_rows(evidence: FullRows, left: Chain, right: Chain) -> bool:
     """Both ranks once more, at fresh points."""
     a, b = (canonical(chain).chain.structure for chain in (left, right))
-    return same_by_full_parts(a, b, "verify") == evidence
+    return same_by_full_rows(a, b, "verify") == evidence
 
 
 def _shares(evidence: Shared, left: Chain, right: Chain) -> bool:

@@ -5,8 +5,8 @@ what a figure needs.
 from disting.report.fit.bode import bode as bode
 from disting.report.fit.convergence import profile_panels as profile_panels
 from disting.report.fit.convergence import waterfall as waterfall
-from disting.report.fit.fit_page import fit_page as fit_page
 from disting.report.fit.residuals import residuals as residuals
+from disting.report.fit.selection_page import fit_page as fit_page
 from disting.report.fit.sensitivity import collinearity_dots as collinearity_dots
 from disting.report.fit.sensitivity import importance_bars as importance_bars
 from disting.report.fit.thresholds import models_by_threshold as models_by_threshold

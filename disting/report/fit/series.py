@@ -45,7 +45,13 @@ def series_of(
     """Training and test data, each with its own scatter."""
     named = (("training data", train, Tone.FIRST, "o"), ("test data", test, Tone.SECOND, "x"))
     return [
-        Series(label, data, tone, marker, scatter(data, [response_of(candidate, task, data.omega)]))
+        Series(
+            label=label,
+            measured=data,
+            tone=tone,
+            marker=marker,
+            scatter=scatter(data, [response_of(candidate, task, data.omega)]),
+        )
         for label, data, tone, marker in named
         if data is not None
     ]

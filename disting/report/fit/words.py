@@ -4,10 +4,10 @@ from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.cost import Case, Cost
 from disting.fit.fitted import fit_percent
-from disting.fit.judged import Candidate
 from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
+from disting.measurement.units import differentiated
 from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
 
@@ -151,7 +151,7 @@ def unit_of(kind: str, measured: FrequencyResponse) -> str:
     """
     if kind not in MOTIONS:
         return "s"
-    motion = measured.to_quantity(MOTIONS[kind]).output.unit
+    motion = differentiated(measured.output.unit, measured.sensor, MOTIONS[kind])
     if not measured.input.unit or not motion:
         return f"input per {MOTIONS[kind]}"
     quotient = (
@@ -198,11 +198,6 @@ def cost_in_words(cost: Cost) -> str:
         f"{CASES[cost.case]}, weighted {'π' if first == pi else readable(first)} :"
         f" {readable(second)}"
     )
-
-
-def violations(candidate: Candidate) -> str:
-    """The reasons why a candidate is excluded, in one text; "" if it is admissible."""
-    return "; ".join(candidate.reasons)
 
 
 def fit_in_words(

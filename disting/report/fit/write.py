@@ -15,9 +15,9 @@ from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
-from disting.report.fit.fit_page import fit_page
 from disting.report.fit.onward import Site, beside
 from disting.report.fit.residuals import residuals
+from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold

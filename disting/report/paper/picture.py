@@ -34,11 +34,11 @@ def of_scene(
         _inline(scene, "wide") + _inline(narrow, "narrow") if narrow else _inline(scene, "both")
     )
     return Picture(
-        name,
-        printed,
-        caption,
-        ((".svg", svg(scene).encode()), (".png", png(scene)), (".pdf", pdf(scene))),
-        inline,
+        name=name,
+        printed=printed,
+        caption=caption,
+        files=((".svg", svg(scene).encode()), (".png", png(scene)), (".pdf", pdf(scene))),
+        inline=inline,
     )
 
 
@@ -56,9 +56,9 @@ def _inline(scene: Scene, width: str) -> Markup:
 def of_plot(name: str, printed: str, caption: str, plot: Drawn) -> Picture:
     """A picture of a plot, whatever name the plot has by itself."""
     return Picture(
-        name,
-        printed,
-        caption,
-        ((".svg", plot.svg), (".png", plot.png), (".pdf", plot.pdf)),
-        plot.inline_as(name),
+        name=name,
+        printed=printed,
+        caption=caption,
+        files=((".svg", plot.svg), (".png", plot.png), (".pdf", plot.pdf)),
+        inline=plot.inline_as(name),
     )

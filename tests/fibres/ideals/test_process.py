@@ -30,7 +30,7 @@ def sleep():
 
 
 def test_a_result():
-    ended = run_limited(double, (21,), 20)
+    ended = run_limited(double, (21,), 600)
     assert (ended.end, ended.value, ended.reason) == (End.DONE, 42, "")
 
 

@@ -20,8 +20,8 @@ def pair(number):
     return [normalised(Family(3, True)[k].structure) for k in (1, number)]
 
 
-@pytest.mark.parametrize(("number", "expected"), CASES)
 @pytest.mark.parametrize("tangent", [True, False])
+@pytest.mark.parametrize(("number", "expected"), CASES)
 def test_over_the_rationals(number, expected, tangent):
     assert fibre_over_rationals(*pair(number), POINT, tangent, LONG) == (expected, "")
 

@@ -16,8 +16,8 @@ from disting.conditions import Outcome
 from disting.fibres.ideals import chains_told_apart
 from disting.fibres.ideals.factored import factored, shared_fibre, values
 from disting.fibres.ideals.shares import _transposes, is_symmetric, shares_by_type
-from disting.fibres.ideals.system import rows
 from disting.model.chain import Chain
+from disting.model.row import rows_of
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.exact import exact_finding
@@ -35,9 +35,9 @@ def model(name):
     ).chain
 
 
-def physical(structure, span, numbers):
+def physical(structure, ends, numbers):
     """Stiffness matrix of a row from its elements, by SymPy, and its elements by kind and place."""
-    first, last = span
+    first, last = ends
     size, matrix, found = last - first + 1, sympy.zeros(last - first + 1), {}
     for e, number in zip(structure.elements, numbers, strict=True):
         if not first <= e.at + (e.kind in "kd") <= last:
@@ -81,11 +81,11 @@ def unknown(kind, i, found, ports):
 def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name):
     structure = model(name).structure
     numbers = [sympy.Rational(x, 7) for x in residues(name, len(structure.elements), 97)]
-    for span, _ in rows(structure):
-        matrix, found = physical(structure, span, numbers)
-        ports = sorted(p for p in structure.ports if span[0] <= p <= span[1])
+    for place, ends in zip(rows_of(structure), structure.row_ends, strict=True):
+        matrix, found = physical(structure, ends, numbers)
+        ports = sorted(p for p in structure.ports if ends[0] <= p <= ends[1])
         ports = (ports[0], ports[-1])
-        row = factored(structure, span)
+        row = factored(place)
         point = [*(Fraction(int(x.p), int(x.q)) for x in unknowns(row, found, ports)), Fraction(1)]
 
         def at(polynomials, point=point):
@@ -98,14 +98,14 @@ def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name):
                     total += sympy.Rational(value.numerator, value.denominator) * S**power
             return total
 
-        inverse = matrix.inv()[ports[0] - span[0], ports[1] - span[0]]
+        inverse = matrix.inv()[ports[0] - ends[0], ports[1] - ends[0]]
         ratio = sympy.cancel(inverse * at(row.whole.denominator) / at(row.whole.numerator))
         assert ratio.is_number
         assert ratio > 0
 
 
 def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
-    row = factored(model("4:6+b1").structure, (1, 4))
+    row = factored(*rows_of(model("4:6+b1").structure))
     modulus = prime("own share", 192)
     for draw in range(200):
         point = residues(f"own:{draw}", len(row.parameters), modulus)
@@ -179,5 +179,5 @@ def test_a_power_that_is_a_transposition():
 
 
 def test_groups_of_rows_are_symmetric():
-    assert is_symmetric(factored(model("5:2+b1").structure, (1, 5)), "six roots")
-    assert is_symmetric(factored(model("5:8+b1").structure, (1, 5)), "two and two")
+    assert is_symmetric(factored(*rows_of(model("5:2+b1").structure)), "six roots")
+    assert is_symmetric(factored(*rows_of(model("5:8+b1").structure)), "two and two")

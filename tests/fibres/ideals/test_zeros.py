@@ -12,7 +12,7 @@ from disting.algebra.sampling import prime, residues
 from disting.errors import CatalogError
 from disting.fibres.ideals import Limits, decide, generic_rank
 from disting.fibres.ideals.fibre_ideal import evaluated
-from disting.fibres.ideals.parts import parts
+from disting.fibres.ideals.monic_map import monic_map
 from disting.fibres.ideals.row_answers import (
     ROWS,
     false_answers,
@@ -20,7 +20,7 @@ from disting.fibres.ideals.row_answers import (
     line_of,
     read_answers,
 )
-from disting.fibres.ideals.rows import DampedRow, canonical_row, row_map, rows_of
+from disting.fibres.ideals.splits import receptances
 from disting.fibres.ideals.system import terms
 from disting.fibres.ideals.zeros import (
     BITS,
@@ -36,6 +36,7 @@ from disting.fibres.ideals.zeros import (
 from disting.files import shipped_folder
 from disting.model.chain import Chain
 from disting.model.question import Membership
+from disting.model.row import Row, rows_of
 
 P = prime("test of zeros")
 LONG = prime("test of zeros", BITS)
@@ -45,19 +46,19 @@ def all_rows(masses):
     ports = [(a, b) for a in range(1, masses + 1) for b in range(a, masses + 1)]
     return sorted(
         {
-            canonical_row(wall, masses, p)
-            for wall in (False, True)
-            if wall or masses > 1
+            Row(masses, grounded, *p, damped=True).canonical
+            for grounded in (False, True)
+            if grounded or masses > 1
             for p in ports
         }
     )
 
 
 def chain(row):
-    n, (a, b) = row.masses, row.ports
+    n, a, b = row.n_masses, row.a, row.b
     return (
         Chain(n + 1, n, a, n + 1, b, n + 1, damped=True)
-        if row.wall
+        if row.grounded
         else Chain(n, 0, 0, a, 0, b, damped=True)
     )
 
@@ -69,13 +70,15 @@ def at(polynomials, values, names, modulus):
 
 
 @pytest.mark.parametrize("row", [r for n in (1, 2, 3, 4) for r in all_rows(n)], ids=str)
-def test_numerator_and_denominator_are_those_of_the_part(row):
-    found, part = row_map(row), parts(chain(row).structure).named[0][1]
+def test_numerator_and_denominator_are_those_of_the_chain(row):
+    found, whole = monic_map(row), receptances(chain(row).structure).named[0][1]
     values = dict(zip(found.parameters, residues(str(row), len(found.parameters), P), strict=True))
     there = (
         values | {f"u{h[1:]}": values[h] * values[f"e{h[1:]}"] % P for h in found.heads} | {"g1": 1}
     )
-    num, den = (at(some, there, part.parameters, P) for some in (part.numerator, part.denominator))
+    num, den = (
+        at(some, there, whole.parameters, P) for some in (whole.numerator, whole.denominator)
+    )
     zeros, poles = (
         at(some, values, found.parameters, P)
         for some in (found.whole.numerator, found.whole.denominator)
@@ -92,7 +95,7 @@ def full(masses):
     return [
         r
         for r in all_rows(masses)
-        if generic_rank(row_map(r).whole, "test") == len(row_map(r).parameters)
+        if generic_rank(monic_map(r).whole, "test") == len(monic_map(r).parameters)
     ]
 
 
@@ -110,7 +113,7 @@ def test_some_pairs_can_be_compared():
 
 @pytest.mark.parametrize("pair", PAIRS, ids=str)
 def test_an_answer_is_that_of_the_whole_fibre(pair):
-    maps = [row_map(row).whole for row in pair]
+    maps = [monic_map(row).whole for row in pair]
     whole = decide(
         *maps, equal_rank=True, seed="test", limits=Limits(seconds=600, entries=10**8, safety=40)
     )
@@ -123,11 +126,11 @@ def test_an_answer_is_that_of_the_whole_fibre(pair):
 
 @pytest.mark.parametrize(
     "row",
-    [DampedRow(True, 3, (1, 2)), DampedRow(True, 4, (2, 4)), DampedRow(False, 4, (1, 3))],
+    [Row(3, True, 1, 2, True), Row(4, True, 2, 4, True), Row(4, False, 1, 3, True)],
     ids=str,
 )
 def test_a_row_is_not_refuted_by_itself_and_its_own_branch_holds_the_point(row):
-    found = row_map(row)
+    found = monic_map(row)
     point = given_point(found, "test")
     own = next(
         b
@@ -156,14 +159,14 @@ def _zeros_at(found, label, modulus):
 
 
 def test_one_branch_of_each_orbit_speaks_for_all():
-    given, searched = DampedRow(True, 3, (2, 3)), DampedRow(True, 3, (1, 2))
+    given, searched = Row(3, True, 2, 3, True), Row(3, True, 1, 2, True)
     assert len(branches(given, searched)) < len(list(assignments(3, searched)))
-    point = given_point(row_map(given), "test")
+    point = given_point(monic_map(given), "test")
     from disting.fibres.ideals.zeros import _basis
 
-    size = len(row_map(searched).parameters) - len(row_map(searched).heads)
+    size = len(monic_map(searched).parameters) - len(monic_map(searched).heads)
     found = {
-        b: _basis(equations(point, row_map(searched), b), size, point.modulus, 10**8).is_one
+        b: _basis(equations(point, monic_map(searched), b), size, point.modulus, 10**8).is_one
         for b in assignments(3, searched)
     }
     assert all(found.values()) == all(found[b] for b in branches(given, searched))
@@ -171,7 +174,7 @@ def test_one_branch_of_each_orbit_speaks_for_all():
 
 @pytest.mark.parametrize(
     "row",
-    [DampedRow(True, 4, (2, 4)), DampedRow(True, 5, (3, 4)), DampedRow(False, 5, (2, 4))],
+    [Row(4, True, 2, 4, True), Row(5, True, 3, 4, True), Row(5, False, 2, 4, True)],
     ids=str,
 )
 def test_zeros_are_free_where_sympy_finds_the_whole_group(row):
@@ -196,7 +199,7 @@ def test_shipped_answers_have_their_bounds_and_read_back():
 
 
 def test_a_forged_or_damaged_answer_is_found(tmp_path):
-    row, other = DampedRow(True, 4, (2, 4)), DampedRow(True, 4, (1, 3))
+    row, other = Row(4, True, 2, 4, True), Row(4, True, 1, 3, True)
     true = known_answers()[frozenset((row, other))]
     (tmp_path / ROWS).write_text(line_of(true))
     assert (

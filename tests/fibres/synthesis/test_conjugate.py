@@ -73,7 +73,7 @@ def test_a_fibre_is_the_same_as_with_every_way_tried(number, monkeypatch):
 
 
 def test_the_solutions_of_a_models_own_fibre_are_those_of_every_way(monkeypatch):
-    """The zeros of a chain's own receptance fall into kinds: each part of the chain has its own."""
+    """The zeros of a chain's own receptance fall into kinds: each row of the chain has its own."""
     chain = Chain(4, 0, 0, 2, 0, 3, damped=True)
     goal = target(chain.structure, rational_point(chain, "own"))
     quick = fibre(chain, goal)

@@ -10,13 +10,13 @@ from flint import acb, ctx, fmpq
 
 from disting.fibres.synthesis.damped_neighbours import degree_of
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.fibre import fibre, segments
+from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
 from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
-from disting.fibres.synthesis.segment import Segment
 from disting.fibres.synthesis.target import Target, target
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.row import Row, grounded_and_free, rows_of
 
 
 def own_fibre(chain: Chain, seed: str = "test") -> tuple[dict[str, fmpq], Fibre]:
@@ -31,7 +31,7 @@ def holds(fibre: Fibre, point: dict[str, fmpq]) -> int:
 
 
 def covered(chain: Chain) -> bool:
-    return all(is_covered(s) for s in segments(chain) if s is not None)
+    return all(map(is_covered, rows_of(chain.structure)))
 
 
 @pytest.mark.parametrize("n", [2, 3, 4])
@@ -54,7 +54,7 @@ def test_a_planted_damped_solution_is_found_again(n: int) -> None:
 @pytest.mark.parametrize("n", [2, 3, 4, 5])
 def test_foster_counts_all_real_and_positive(n: int) -> None:
     for chain in Family(n):
-        grounded, free = segments(chain)
+        grounded, free = grounded_and_free(chain.structure)
         if free.distance or (grounded is not None and grounded.distance):
             continue
         expected = comb(n - chain.gap - 1, free.a - 1)
@@ -69,7 +69,7 @@ def test_foster_counts_all_real_and_positive(n: int) -> None:
 @pytest.mark.parametrize("n", [3, 4])
 def test_undamped_chains_with_distant_ports_have_families(n: int) -> None:
     for chain in Family(n):
-        grounded, free = segments(chain)
+        grounded, free = grounded_and_free(chain.structure)
         distance = free.distance + (grounded.distance if grounded else 0)
         _, found = own_fibre(chain)
         assert found.status is (Status.INFINITE if distance else Status.COMPLETE), chain
@@ -97,28 +97,28 @@ def test_every_solution_reproduces_the_transfer_function() -> None:
 
 
 @pytest.mark.parametrize(
-    ("segment", "degree"),
+    ("row", "degree"),
     [
-        ((2, 1, 2, True), 1),
-        ((3, 1, 2, True), 8),
-        ((3, 2, 3, True), 3),
-        ((4, 1, 2, True), 19),
-        ((4, 2, 3, True), 33),
-        ((4, 3, 4, True), 5),
-        ((3, 1, 2, False), 2),
-        ((4, 1, 2, False), 4),
-        ((4, 2, 3, False), 18),
+        (Row(2, True, 1, 2, damped=True), 1),
+        (Row(3, True, 1, 2, damped=True), 8),
+        (Row(3, True, 2, 3, damped=True), 3),
+        (Row(4, True, 1, 2, damped=True), 19),
+        (Row(4, True, 2, 3, damped=True), 33),
+        (Row(4, True, 3, 4, damped=True), 5),
+        (Row(3, False, 1, 2, damped=True), 2),
+        (Row(4, False, 1, 2, damped=True), 4),
+        (Row(4, False, 2, 3, damped=True), 18),
     ],
 )
-def test_degree_of_the_inner_equation(segment: tuple[int, int, int, bool], degree: int) -> None:
+def test_degree_of_the_inner_equation(row: Row, degree: int) -> None:
     """The numbers are those of Groebner bases modulo a prime for random data."""
-    assert degree_of(Segment(*segment, q=2)) == degree
+    assert degree_of(row) == degree
 
 
 def test_long_inner_equations_are_solved_only_where_the_poles_are_known() -> None:
-    segment = Segment(5, 2, 3, wall=False, q=2)
-    assert degree_of(segment) == 54
-    assert not is_covered(segment) and is_covered(replace(segment, alone=True))
+    row = Row(5, False, 2, 3, damped=True)
+    assert degree_of(row) == 54
+    assert is_covered(row) and not is_covered(replace(row, before=1))
 
 
 @pytest.mark.slow

@@ -4,29 +4,29 @@ import pytest
 from flint import acb, ctx
 
 from disting.fibres.synthesis.ball import Imprecise, poly, roots, vanishes
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, OPEN, Part, combined
+from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, OPEN, RowValues, combined
 from disting.fibres.synthesis.damped_neighbours import inner_neighbours, interpolated
 from disting.fibres.synthesis.damped_next_to_end import next_to_end
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.segment import Segment
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
+from disting.model.row import Row
 
 
 @pytest.mark.parametrize("n", [3, 4])
 def test_inner_method_finds_what_the_end_method_finds(n: int) -> None:
     chain = Chain(n, act_plus=n - 1, meas_plus=n, damped=True)
     t = target(chain.structure, rational_point(chain, "test"))
-    segment = Segment(n, n - 1, n, wall=False, q=2)
+    row = Row(n, False, n - 1, n, damped=True)
     with ctx.workprec(500):
         ways = [
-            [p for p in way(segment, t.balls) if isinstance(p, Part)]
+            [p for p in way(row, t.balls) if isinstance(p, RowValues)]
             for way in (next_to_end, inner_neighbours)
         ]
         assert len(ways[0]) == len(ways[1]) >= 1
-        for part in ways[0]:
+        for found in ways[0]:
             assert any(
-                all(a.overlaps(b) for a, b in zip(part.masses, other.masses, strict=True))
+                all(a.overlaps(b) for a, b in zip(found.masses, other.masses, strict=True))
                 for other in ways[1]
             )
 
@@ -50,11 +50,14 @@ def test_a_wide_ball_proves_nothing() -> None:
 
 
 def test_combined_keeps_what_is_open_unless_a_side_is_refuted() -> None:
-    def join(a: Part, b: Part) -> Part:
-        return Part(a.masses + b.masses)
+    def join(a: RowValues, b: RowValues) -> RowValues:
+        return RowValues(a.masses + b.masses)
 
     assert list(combined([NONZERO], lambda: [OPEN], join)) == [NONZERO]
     assert list(combined([OPEN], lambda: [NONZERO], join)) == [NONZERO]
-    assert list(combined([Part()], lambda: [OPEN], join)) == [OPEN]
-    assert list(combined([BOUNDARY], lambda: [Part()], join)) == [BOUNDARY]
-    assert list(combined([Part()], lambda: [Part(), NONZERO], join)) == [Part(), NONZERO]
+    assert list(combined([RowValues()], lambda: [OPEN], join)) == [OPEN]
+    assert list(combined([BOUNDARY], lambda: [RowValues()], join)) == [BOUNDARY]
+    assert list(combined([RowValues()], lambda: [RowValues(), NONZERO], join)) == [
+        RowValues(),
+        NONZERO,
+    ]

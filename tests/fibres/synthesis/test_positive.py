@@ -10,10 +10,11 @@ import pytest
 from flint import fmpq
 
 from disting import Chain, Family
-from disting.fibres.synthesis.fibre import fibre, segments
-from disting.fibres.synthesis.foster import are_foster, are_same_by_parts
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target
+from disting.model.row import rows_of
 from disting.model.symmetry import canonical
 from disting.questions.same.exact import theorem
 from tests.oracles.positive_synthesis import positive_equivalent, positive_point
@@ -25,7 +26,7 @@ def theorem_pairs(n):
 
 @pytest.mark.parametrize("n", [2, 3, 4, pytest.param(5, marks=pytest.mark.slow)])
 def test_equivalents_of_the_theorems_are_found_positive(n):
-    """Where each part's ports are at most neighbours all members are tried; farther apart only
+    """Where each row's ports are at most neighbours all members are tried; farther apart only
     one member of a family is.
     """
     for k, (a, b) in enumerate(theorem_pairs(n)):
@@ -35,8 +36,8 @@ def test_equivalents_of_the_theorems_are_found_positive(n):
 
 
 def distance(chain):
-    """Largest distance of the two ports inside one part."""
-    return max(s.distance for s in segments(canonical(chain).chain) if s is not None)
+    """Largest distance of the two ports inside one row."""
+    return max(row.distance for row in rows_of(canonical(chain).chain.structure))
 
 
 @pytest.mark.parametrize(
@@ -90,8 +91,8 @@ def test_rows_at_the_wall_read_backwards_have_positive_springs(n):
 
 def test_parts_need_the_same_gap_and_no_damping():
     family = Family(4)
-    assert are_same_by_parts(family[14], family[20]) and not are_same_by_parts(family[2], family[6])
-    assert not are_same_by_parts(Family(4, damped=True)[14], Family(4, damped=True)[20])
+    assert are_same_by_rows(family[14], family[20]) and not are_same_by_rows(family[2], family[6])
+    assert not are_same_by_rows(Family(4, damped=True)[14], Family(4, damped=True)[20])
 
 
 def test_some_positive_models_have_an_equivalent_and_others_have_none():

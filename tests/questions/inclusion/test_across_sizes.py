@@ -13,8 +13,8 @@ from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
     Meeting,
-    PartLimit,
     PoleSharing,
+    RowLimit,
     TooLarge,
 )
 from disting.evidence.conditions import Counts
@@ -107,13 +107,13 @@ def test_a_chain_grows_by_its_last_mass():
     """The ports stay where they are, the new mass is let go."""
     small, large = (canonical(Chain(n, 1, 1, 2, 1, 3)).chain for n in (3, 4))
     parts = {p.given: p for p in included(small, large, False).parts}
-    assert parts["grounded"] == PartLimit("grounded", "grounded", ())
+    assert parts["grounded"] == RowLimit("grounded", "grounded", ())
     assert parts["free"].steps in ((("k23", "0"),), (("k12", "0"),), (("k23", "∞"),))
 
 
 def test_a_row_let_go_while_the_other_comes_to_rest():
     evidence = limits(subject(3, 3), subject(4, 23)).evidence
-    assert evidence == Limit(False, (PartLimit("grounded", "free", (("k01", "0"),)),))
+    assert evidence == Limit(False, (RowLimit("grounded", "free", (("k01", "0"),)),))
     assert evidence.formula == "grounded ⇒ free: k01 → 0"
     assert "the grounded row becomes the free one with k01 zero" in evidence.sentence("3:3", "4:23")
 
@@ -132,7 +132,7 @@ def test_a_row_by_a_count():
     small, large = subject(3, 6, True), subject(4, 10, True)
     evidence = limits(small, large).evidence
     free = next(p for p in evidence.parts if p.wanted == "free")
-    assert free == PartLimit("free", "free", (), (6, 8, 1, 1)) and free.formula == "6 + 1 + 1 ≥ 8"
+    assert free == RowLimit("free", "free", (), (6, 8, 1, 1)) and free.formula == "6 + 1 + 1 ≥ 8"
     for false in (
         free._replace(room=(7, 8, 1, 1)),
         free._replace(room=()),

@@ -13,11 +13,11 @@ from disting.evidence.limits import (
     FullImage,
     LargerProjection,
     Outside,
-    PartsInside,
     RelativeDegrees,
+    RowsInside,
     Why,
 )
-from disting.fibres.ideals import coefficient_map, included_by_parts, refuted_by_parts
+from disting.fibres.ideals import coefficient_map, included_by_rows, refuted_by_rows
 from disting.model.chain import Chain, Sensor
 from disting.questions.inclusion import (
     Inclusion,
@@ -30,7 +30,7 @@ from disting.questions.inclusion import (
     inclusions_to_dict,
 )
 from disting.questions.inclusion.decide import CLOSURE_LIMITS
-from disting.questions.inclusion.profiles import by_relative_degrees, part_falls
+from disting.questions.inclusion.profiles import by_relative_degrees, row_falls
 
 ENGINE = Engine()
 
@@ -90,7 +90,7 @@ def test_finite_elements_and_limits_are_two_answers():
         Inclusion.LEFT_IN_RIGHT,
     )
     assert isinstance(both.image.evidence, RelativeDegrees) and isinstance(
-        both.closure.evidence, PartsInside
+        both.closure.evidence, RowsInside
     )
     assert "limit of models A2" in both.sentence(
         "A3", "A2"
@@ -134,7 +134,7 @@ def test_limits_that_are_not_known(n, damped, unknown):
         grades = {
             f.certainty
             for f in (both.image, both.closure)
-            if isinstance(f.evidence, Outside | PartsInside)
+            if isinstance(f.evidence, Outside | RowsInside)
         }
         assert grades <= {"proven", "bounded"} and all(
             f.safety >= 100 for f in (both.image, both.closure) if f.safety
@@ -170,7 +170,7 @@ def test_the_closures_of_three_damped_masses_are_proven():
     ]
 
 
-def test_false_parts_are_refused():
+def test_false_rows_are_refused():
     seven, one, two, three = (subjects(3, True)[k] for k in (6, 0, 1, 2))
     outside = inclusions(seven, one).closure.evidence
     (step,) = outside.steps
@@ -184,12 +184,12 @@ def test_false_parts_are_refused():
         replace(outside, steps=(step._replace(why=Why.COEFFICIENT, detail="b4"),)),
         replace(outside, steps=(step._replace(why=Why.RANK, detail="7 > 6"),)),
         replace(outside, steps=(step._replace(split="same"),)),
-        PartsInside(True, (step._replace(why=Why.FULL),)),
-        PartsInside(True, (step,)),
+        RowsInside(True, (step._replace(why=Why.FULL),)),
+        RowsInside(True, (step,)),
     ):
         assert not confirms(false, seven, one)
     assert not confirms(replace(outside, steps=inside.steps), three, two)
-    assert not confirms(PartsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
+    assert not confirms(RowsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
 
 
 def test_false_evidence_is_refused():
@@ -202,9 +202,9 @@ def test_false_evidence_is_refused():
     assert not confirms(Counts((4, 4), (2, 4)), one, two)
 
 
-def test_false_evidence_of_parts_is_refused():
+def test_false_evidence_of_rows_is_refused():
     seven, six = (subjects(3, True)[k] for k in (6, 5))
-    solved = included_by_parts(
+    solved = included_by_rows(
         *(s.chain.structure for s in (seven, six)), "test", CLOSURE_LIMITS
     ).evidence
     assert (
@@ -225,12 +225,12 @@ def test_false_evidence_of_parts_is_refused():
         assert not confirms(replace(solved, steps=steps), seven, six)
 
 
-def test_false_refutations_of_parts_are_refused():
+def test_false_refutations_of_rows_are_refused():
     small, large = (
         ENGINE.subject("", Chain(3, *ports, damped=True))
         for ports in ((0, 0, 1, 0, 3), (2, 2, 3, 2, 3))
     )
-    evidence = refuted_by_parts(*(s.chain.structure for s in (small, large)), "test")
+    evidence = refuted_by_rows(*(s.chain.structure for s in (small, large)), "test")
     (step,) = evidence.steps
     assert isinstance(step.shown, Vanishing) and confirms(evidence, small, large)
     for index in (0, 1, step.shown.index + 1, step.shown.index + 2):
@@ -253,12 +253,12 @@ def test_false_relative_degrees_are_refused():
 
 
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
-def test_part_falls_are_relative_degrees(n, damped):
+def test_row_falls_are_relative_degrees(n, damped):
     for chain in Family(n, damped):
         for more in ({}, {"lag": True}, {"ground_dampers": (1,)}):
             form = replace(chain, sensor=Sensor.POSITION, **more)
             numerator, denominator = coefficient_map(form.structure).degrees
-            assert denominator - numerator == min(part_falls(form))
+            assert denominator - numerator == min(row_falls(form))
 
 
 def test_a_lag_on_one_side_is_no_refutation():

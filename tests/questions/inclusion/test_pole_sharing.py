@@ -10,11 +10,16 @@ import sympy as sp
 
 from disting import Chain, Family
 from disting.algebra.sampling import prime, residues
+from disting.model.row import Row
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.across_sizes import included
 from disting.questions.inclusion.pole_sharing import TRIALS, excludes, excluding_points
-from disting.questions.inclusion.row_equations import equation_safety, model_at, row_equation
-from disting.questions.inclusion.rows import Row
+from disting.questions.inclusion.row_equations import (
+    equation_safety,
+    label_of,
+    model_at,
+    row_equation,
+)
 
 
 def pair(small, large, damped=False):
@@ -162,3 +167,9 @@ def test_coefficients_are_polynomials_also_where_the_lowest_vanish():
                 for i in range(top + 1)
             ]
             assert model_at(row, [values[name] for name in names], modulus) == tuple(plain)
+
+
+def test_the_label_of_a_row_stays_as_it_is_stored():
+    """It stands in labels of stored evidence, from which primes and points are drawn again."""
+    stored = "Row(n_masses=2, walled=True, act=2, meas=2, damped=True, ground_dampers=())"
+    assert label_of(Row(2, True, 2, 2, True)) == stored

@@ -5,17 +5,17 @@ import sympy as sp
 
 from disting.algebra.resultant import polynomial, resultant
 from disting.algebra.sampling import prime, residues
+from disting.model.row import Row
 from disting.questions.inclusion.end_rows import end_resultant
 from disting.questions.inclusion.inner_rows import inner_resultant
-from disting.questions.inclusion.rows import Row
 
 S = sp.Symbol("s")
 P = prime("row resultants")
 COLLOCATED = sorted(
     {
-        Row(n, walled, at, at, True).canonical
+        Row(n, grounded, at, at, True).canonical
         for n in (2, 3, 4)
-        for walled in (False, True)
+        for grounded in (False, True)
         for at in range(1, n + 1)
     },
     key=repr,
@@ -35,7 +35,7 @@ def receptance(row, numbers):
         for r, c, sign in ((i, i, 1), (i - 1, i - 1, 1), (i, i - 1, -1), (i - 1, i, -1)):
             if r >= 0 and c >= 0:
                 a[r, c] += sign * w
-    minor = a.minor_submatrix(row.act - 1, row.meas - 1) if row.n_masses > 1 else sp.eye(1)
+    minor = a.minor_submatrix(row.a - 1, row.b - 1) if row.n_masses > 1 else sp.eye(1)
     found = [
         sp.Poly(sp.expand(m.det(method="berkowitz")), S).all_coeffs()[::-1] for m in (minor, a)
     ]
@@ -49,14 +49,14 @@ def test_models_fulfil_the_equations_and_others_do_not(row):
         assert end_resultant(row, num, den, P) == inner_resultant(row, num, den, P) == 0
     e = 2 * row.n_masses - 2
     num, den = (residues(f"{row}:{name}", count, P) for name, count in (("b", e + 1), ("a", e + 3)))
-    if not row.walled:
+    if not row.grounded:
         den[0], den[1], den[3] = 0, 0, den[2] * num[1] * pow(num[0], -1, P) % P  # momentum is kept
     at_end, alone = (
-        row.act in (1, row.n_masses),
-        row.act == row.n_masses - 1 or (row.act == 2 and not row.walled),
+        row.a in (1, row.n_masses),
+        row.a == row.n_masses - 1 or (row.a == 2 and not row.grounded),
     )
-    assert bool(end_resultant(row, num, den, P)) == (at_end and (row.walled or e > 2))
-    assert bool(inner_resultant(row, num, den, P)) == (alone and (row.walled or e > 2))
+    assert bool(end_resultant(row, num, den, P)) == (at_end and (row.grounded or e > 2))
+    assert bool(inner_resultant(row, num, den, P)) == (alone and (row.grounded or e > 2))
 
 
 def test_two_masses_at_a_wall_by_hand():

@@ -25,7 +25,7 @@ from disting.fibres.synthesis.decide import rational_point
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding
-from disting.questions.positive.parts import obstacle, only_parts_sum_to_zero
+from disting.questions.positive.obstacles import obstacle, only_rows_sum_to_zero
 from disting.questions.positive.points import equivalent, random_point, read
 from tests.oracles.positive_synthesis import positive_equivalent
 
@@ -115,7 +115,7 @@ def test_points_are_what_the_synthesis_says(n, i, j):
 
 @pytest.mark.parametrize(("n", "i", "j"), [(3, 7, 6), (4, 20, 8)])
 def test_inclusions_with_a_negative_grounded_part(n, i, j):
-    """Generic models are included over the real numbers, by one solution whose grounded part is
+    """Generic models are included over the real numbers, by one solution whose grounded row is
     negative.
     """
     given, other = Family(n, damped=True)[i], Family(n, damped=True)[j]
@@ -180,7 +180,7 @@ def test_each_obstacle():
 
 @pytest.mark.parametrize("n", [4, 5])
 def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
-    """In floating point: every sum of two parts that the obstacle excludes against every row
+    """In floating point: every sum of two rows that the obstacle excludes against every row
     without a gap.
     """
     rows = [Chain(n, act_plus=a, meas_plus=b) for a, b in combinations(range(1, n + 1), 2)]
@@ -192,7 +192,7 @@ def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
 
 
 def sign_changes(chain, k):
-    """Of the residues in the order of the poles, from the modes of both parts."""
+    """Of the residues in the order of the poles, from the modes of both rows."""
     point = {name: float(v.p) / float(v.q) for name, v in random_point(chain, f"signs:{k}").items()}
     grounded = modes(point, 1, chain.gap, chain.act_minus, chain.meas_minus) if chain.gap else []
     free = modes(point, chain.gap + 1, chain.n_masses, chain.act_plus, chain.meas_plus)
@@ -223,7 +223,7 @@ def test_empty_fibre_is_bounded():
 
 
 def test_whole_against_sum():
-    """A sum of two parts in a chain without a gap: some have their zeros between the poles,
+    """A sum of two rows in a chain without a gap: some have their zeros between the poles,
     some not.
     """
     given, other = Chain(4, 2, 1, 3, 2, 4), Chain(4, meas_plus=2)
@@ -239,9 +239,9 @@ def test_proof_of_swap_needs_simple_parts():
     """Equal poles on both sides of the gap: nothing is proven at such a point."""
     chain = Family(3, damped=True)[7]
     point = rational_point(chain, "swap")
-    assert only_parts_sum_to_zero(chain, point, 2)
+    assert only_rows_sum_to_zero(chain, point, 2)
     reduced = 1 / point["m2"] + 1 / point["m3"]
-    assert not only_parts_sum_to_zero(
+    assert not only_rows_sum_to_zero(
         chain, point | {f"{x}01": point[f"{x}23"] * reduced * point["m1"] for x in "kd"}, 2
     )
 

@@ -72,7 +72,7 @@ def test_points_of_mixed_signs_against_newtons_method(i, j):
 
 @pytest.mark.parametrize(("i", "j"), TOWARDS_END)
 def test_real_factors_of_an_odd_degree_always_exist(i, j):
-    """Grounded or free part of three masses with the ports apart: its numerator is linear, or
+    """Grounded or free row of three masses with the ports apart: its numerator is linear, or
     both models have its factor.
     """
     here, there = pair(4, i, j)

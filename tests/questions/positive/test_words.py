@@ -13,11 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Chain
-from disting.fibres.synthesis.branch_ends import Part
-from disting.fibres.synthesis.segment import Data, Segment
+from disting.fibres.synthesis.branch_ends import RowValues
+from disting.fibres.synthesis.receptance import Receptance
 from disting.fibres.synthesis.target import Target
 from disting.fibres.synthesis.undamped import neighbours_at
-from disting.questions.positive.parts import receptances
+from disting.model.row import Row
+from disting.questions.positive.obstacles import receptances
 from disting.questions.positive.undamped_rows import word, words
 
 PORTS = [(n, a, b) for n in range(2, 6) for a in range(1, n) for b in range(a + 1, n + 1)]
@@ -61,11 +62,11 @@ def from_word(given):
 
 def has_positive_neighbours(n, a, t, kappa):
     with ctx.workprec(600):
-        data = Data(acb_poly(t.numerator), acb_poly(t.denominator))
+        data = Receptance(acb_poly(t.numerator), acb_poly(t.denominator))
         leaves = [
             x
-            for x in neighbours_at(Segment(n, a, a + 1, False, 1), data, kappa)
-            if isinstance(x, Part)
+            for x in neighbours_at(Row(n, False, a, a + 1), data, kappa)
+            if isinstance(x, RowValues)
         ]
         values = [[*leaf.masses, *(k[0] for k in leaf.springs)] for leaf in leaves]
         return any(all(v.real > 0 and abs(v.imag) < 1e-60 for v in each) for each in values)

@@ -10,6 +10,8 @@ from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.report.fit import waterfall
+from disting.report.fit.style import Drawn
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
 # antiresonance 33.8 Hz, resonance 58.5 Hz
@@ -17,11 +19,11 @@ VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}
 HOSTILE = """</script><img src=x onerror='alert(1)'>&amp;{{ 7*7 }} $x^2$ <!-- --"""
 
 
-def response(start: int, step: int, seed: int) -> FrequencyResponse:
-    """The drive between 5 and 200 Hz with 1 % noise."""
+def response(start: int, step: int, seed: int, drive: Chain = DRIVE) -> FrequencyResponse:
+    """The drive, or another with its values, between 5 and 200 Hz with 1 % noise."""
     omega = 2 * np.pi * np.geomspace(5.0, 200.0, 90)[start::step]
     noise = np.random.default_rng(seed).normal(size=(2, len(omega))) / 100
-    measured = predicted(DRIVE, VALUES, omega) * (1 + noise[0] + 1j * noise[1])
+    measured = predicted(drive, VALUES, omega) * (1 + noise[0] + 1j * noise[1])
     coherence = np.full(len(omega), 0.998)
     signals = (("torque", "Nm"), (HOSTILE, "rad/s^2"))
     return FrequencyResponse(omega, measured, None, coherence, DRIVE.sensor, *signals, HOSTILE)  # type: ignore[arg-type]
@@ -40,6 +42,12 @@ def test() -> FrequencyResponse:
 @pytest.fixture(scope="session")
 def selection(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
     return select(train, figure_1((1, 2)), test=test)
+
+
+@pytest.fixture(scope="session")
+def starts(selection: Selection) -> Drawn:
+    """One figure, for pages of which no figure is looked at."""
+    return waterfall(selection.described)
 
 
 @pytest.fixture(scope="session")

@@ -12,8 +12,9 @@ from disting.fit.members import Twin
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.report.fit import fit_page, waterfall
+from disting.report.fit import fit_page
 from disting.report.fit.onward import Site, next_steps
+from disting.report.fit.style import Drawn
 from tests.report.links import follow_link
 
 REPORTS = Path(__file__).parents[3] / "reports"
@@ -21,28 +22,28 @@ REPORTS = Path(__file__).parents[3] / "reports"
 
 @pytest.fixture(scope="module")
 def page(
-    selection: Selection, train: FrequencyResponse, tmp_path_factory: pytest.TempPathFactory
+    selection: Selection,
+    train: FrequencyResponse,
+    starts: Drawn,
+    tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     path = tmp_path_factory.mktemp("browser") / "fit.html"
-    path.write_text(
-        fit_page(selection, [], [waterfall(selection.described)], train), encoding="utf-8"
-    )
+    path.write_text(fit_page(selection, [], [starts], train), encoding="utf-8")
     return path
 
 
 @pytest.fixture
-def tab(browser, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
+def tab(window, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     """The page; at the end of the test: no message on the console, no request but for the file."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    opened, troubles, requests = context.new_page(), [], []
+    opened, troubles, requests = window.new_page(), [], []
     opened.on("console", lambda message: troubles.append(message.text))
     opened.on("pageerror", lambda error: troubles.append(str(error)))
     opened.on("request", lambda request: requests.append(request.url))
     opened.goto(page.as_uri())
     yield opened
+    opened.close()
     assert troubles == []
     assert requests == [page.as_uri()]
-    context.close()
 
 
 def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection) -> None:  # type: ignore[no-untyped-def]
@@ -103,18 +104,19 @@ def test_commands_break_between_their_words(tab) -> None:  # type: ignore[no-unt
 
 
 def test_structures_lead_to_the_catalogue(
-    browser,  # type: ignore[no-untyped-def]
+    window,  # type: ignore[no-untyped-def]
     selection: Selection,
     train: FrequencyResponse,
+    starts: Drawn,
     tmp_path: Path,
 ) -> None:
     """To the model's page, and to the model among those with ground dampers."""
     (first,) = selection.members
     loaded = Twin(Chain(3, damped=True, ground_dampers=(2,)), {})
     found = replace(selection, members=(replace(first, twins=(loaded,)),))
-    text = fit_page(found, [], [waterfall(found.described)], train, site=Site(REPORTS, tmp_path))
+    text = fit_page(found, [], [starts], train, site=Site(REPORTS, tmp_path))
     (tmp_path / "fit.html").write_text(text, encoding="utf-8")
-    opened = browser.new_page()
+    opened = window.new_page()
     for link, title in ((".member h3 a", "Model A1"), (".same a", "1+b2")):
         opened.goto((tmp_path / "fit.html").as_uri())
         follow_link(opened, link)

@@ -74,13 +74,12 @@ def test_nothing_is_cut_off_where_units_are_not_known(train: FrequencyResponse) 
     )
 
 
-def test_settings_of_the_user_neither_enter_nor_change(selection: Selection) -> None:
-    assert selection.selected is not None
-    before = waterfall(selection.selected)
+def test_settings_of_the_user_neither_enter_nor_change(selection: Selection, starts: Drawn) -> None:
+    before = starts
     with matplotlib.rc_context(
         {"lines.linewidth": 9, "font.size": 20, "axes.facecolor": "red", "svg.hashsalt": "other"}
     ):
-        after = waterfall(selection.selected)
+        after = waterfall(selection.described)
         assert matplotlib.rcParams["font.size"] == 20
     assert (before.svg, before.png, before.pdf) == (after.svg, after.png, after.pdf)
 

@@ -3,6 +3,8 @@
 import csv
 import json
 import re
+from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -14,7 +16,6 @@ from disting.fit.modes import physical
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain, Sensor
 from disting.report.fit import (
     collinearity_dots,
     fit_page,
@@ -23,14 +24,15 @@ from disting.report.fit import (
     write_fit_report,
 )
 from disting.report.fit.criteria import limits, nearest, weakest
-from disting.report.fit.fit_page import reasoning
+from disting.report.fit.selection_page import reasoning
+from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
 from disting.verdict.comparison import name_of
 from tests.report.outline import Outline
 
-from .conftest import DRIVE, HOSTILE
+from .conftest import DRIVE, HOSTILE, response
 
 FIGURES = [
     "bode",
@@ -61,10 +63,10 @@ def outline(written: list[Path]) -> Outline:
 
 
 @pytest.fixture(scope="module")
-def empty(nothing: Selection, train: FrequencyResponse) -> Outline:
+def empty(nothing: Selection, train: FrequencyResponse, starts: Drawn) -> Outline:
     """With one figure: of the files of all of them, those of `written` are looked at."""
     found = nothing.described
-    return Outline(fit_page(nothing, physical(found, nothing.task), [waterfall(found)], train))
+    return Outline(fit_page(nothing, physical(found, nothing.task), [starts], train))
 
 
 def test_all_files_are_written_and_linked(written: list[Path], outline: Outline) -> None:
@@ -151,10 +153,14 @@ def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline
 
 
 def test_more_candidates_than_fit_are_behind_details(
-    selection: Selection, train: FrequencyResponse, monkeypatch: pytest.MonkeyPatch
+    selection: Selection,
+    train: FrequencyResponse,
+    starts: Drawn,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("disting.report.fit.fit_page.FIRST", 10)
-    text = fit_page(selection, [], [waterfall(selection.described)], train)
+    # the package has a function of the module's name
+    monkeypatch.setattr(import_module("disting.report.fit.selection_page"), "FIRST", 10)
+    text = fit_page(selection, [], [starts], train)
     assert "<summary>All 24 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
     assert len(re.findall('class="chosen"', text)) in (1, 2)
@@ -235,10 +241,11 @@ def test_an_unknown_parameter_has_no_profile(
     assert not (tmp_path / "x").exists()
 
 
-def test_structures_that_no_data_can_tell_apart_are_named(
-    train: FrequencyResponse, test: FrequencyResponse
-) -> None:
-    loose = Thresholds(1e12, 1e12, 1e12)
+FAR = replace(DRIVE, meas_plus=2)
+
+
+def test_structures_that_no_data_can_tell_apart_are_named(starts: Drawn) -> None:
+    train, test, loose = response(0, 2, 1, FAR), response(1, 3, 2, FAR), Thresholds(*3 * (1e12,))
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
     found = select(train, candidates, test=test, thresholds=loose)
     assert (
@@ -246,7 +253,7 @@ def test_structures_that_no_data_can_tell_apart_are_named(
         and len(found.selected.chain.ground_dampers) == 1
         and found.saved == 1
     )
-    said = " ".join(Outline(fit_page(found, [], [waterfall(found.described)], train)).text.split())
+    said = " ".join(Outline(fit_page(found, [], [starts], train)).text.split())
     assert (
         "2 masses, force 1, sensor 2, damper b2. 2 masses, force 1, sensor 2, damper b1 and" in said
     )
@@ -261,12 +268,10 @@ def test_no_alternatives_are_said_so(outline: Outline) -> None:
     )
 
 
-def test_what_no_data_determine_is_said_in_words(
-    train: FrequencyResponse, test: FrequencyResponse
-) -> None:
-    found = select(
-        train, [Chain(2, meas_plus=2, damped=True, sensor=Sensor.ACCELERATION)], test=test
-    )
+def test_what_no_data_determine_is_said_in_words() -> None:
+    free = replace(FAR, ground_dampers=())
+    train = response(0, 2, 1, free)
+    found = select(train, [free], test=response(1, 3, 2, free))
     candidate = found.described
     drawn = [
         waterfall(candidate),

@@ -14,24 +14,24 @@ from disting.algebra.sampling import prime, residues
 from disting.evidence.ideals import Vanishing
 from disting.fibres.ideals import (
     Limits,
-    confirms_by_parts,
-    decide_by_parts,
+    confirms_by_rows,
+    decide_by_rows,
     generic_rank,
-    included_by_parts,
+    included_by_rows,
     normalised,
-    refuted_by_parts,
+    refuted_by_rows,
 )
 from disting.fibres.ideals.by_two_rows import vanishing
 from disting.fibres.ideals.monodromy import _is_inseparable, poles_are_inseparable
-from disting.fibres.ideals.parts import gap, parts, splits
+from disting.fibres.ideals.splits import gap, receptances, splits
 from disting.fibres.synthesis.decide import Grounds, member
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.question import Membership
 from disting.model.symmetry import canonical
 
-LIMITS = Limits(seconds=20, entries=1_000_000, safety=100)
-P = prime("test of parts")
+LIMITS = Limits(seconds=600, entries=1_000_000, safety=100)
+P = prime("test of rows")
 
 
 def value(model, values):
@@ -47,10 +47,10 @@ def canonicals(n, damped):
 
 
 @pytest.mark.parametrize(("n", "damped"), [(2, True), (3, False), (3, True), (4, True)])
-def test_the_parts_of_every_split_add_up_to_the_receptance(n, damped):
+def test_the_rows_of_every_split_add_up_to_the_receptance(n, damped):
     for chain, h in product(canonicals(n, damped), range(1, n)):
         structure = chain.structure
-        own = [m for _, m in parts(structure).named]
+        own = [m for _, m in receptances(structure).named]
         names = sorted({x for m in own for x in m.parameters})
         values = dict(zip(names, residues(str(chain), len(names), P), strict=True))
         num, den = value(own[-1], values)
@@ -59,7 +59,7 @@ def test_the_parts_of_every_split_add_up_to_the_receptance(n, damped):
             first = value(own[0], values)
             num, den = num * first[1] + first[0] * den, den * first[1]
         for split in splits(structure, h):
-            (a, b), (c, d) = (value(m, values) for _, m in split.parts.named)
+            (a, b), (c, d) = (value(m, values) for _, m in split.receptances.named)
             assert (a * d + c * b) * den == num * b * d
             assert (b.degree(), d.degree()) == (2 * h, 2 * (n - h))
 
@@ -88,9 +88,9 @@ def test_groups_agree_with_sympy(chain):
     transitive.
     """
     s = sympy.Symbol("s")
-    for _, part in parts(chain.structure).named:
-        point = [3 + 2 * i + i * i for i in range(len(part.parameters))]
-        coefficients = [int(p(*point)) for p in part.denominator][:: 1 if chain.damped else 2]
+    for _, row in receptances(chain.structure).named:
+        point = [3 + 2 * i + i * i for i in range(len(row.parameters))]
+        coefficients = [int(p(*point)) for p in row.denominator][:: 1 if chain.damped else 2]
         polynomial = sympy.Poly(coefficients[::-1], s)
         while polynomial.eval(0) == 0:
             polynomial = polynomial.quo(sympy.Poly(s))
@@ -101,7 +101,7 @@ def test_groups_agree_with_sympy(chain):
 
 def test_roots_in_pairs_are_not_inseparable():
     """An undamped chain in s: with z also -z is a pole, so the group is imprimitive."""
-    model = parts(Chain(4).structure).free
+    model = receptances(Chain(4).structure).free
     assert _is_inseparable(model, 2, "test") and not _is_inseparable(model, 1, "test")
 
 
@@ -132,8 +132,8 @@ def test_markov_parameters_agree_with_sympy():
         Chain(3, 2, 2, 3, 2, 3, damped=True).structure,
     )
     (split,) = splits(given, 2)
-    assert vanishing(split.parts.grounded, parts(searched).grounded) == 3
-    assert vanishing(split.parts.free, parts(searched).free) is None
+    assert vanishing(split.receptances.grounded, receptances(searched).grounded) == 3
+    assert vanishing(split.receptances.free, receptances(searched).free) is None
 
 
 def agrees_with_the_synthesis(n, damped):
@@ -143,14 +143,14 @@ def agrees_with_the_synthesis(n, damped):
     for small, large in product(chains, chains):
         if not (ranks[small] < ranks[large] and gap(large.structure)):
             continue
-        exact = refuted_by_parts(small.structure, large.structure, "test")
-        inside = included_by_parts(
+        exact = refuted_by_rows(small.structure, large.structure, "test")
+        inside = included_by_rows(
             small.structure, large.structure, "test", replace(LIMITS, entries=30_000)
         )
         synthesis = member(small, large)
         assert exact is None or synthesis.grounds in (Grounds.REFUTED, Grounds.NONE)
         if n < 4 or not damped:
-            found = decide_by_parts(small.structure, large.structure, "test", LIMITS)
+            found = decide_by_rows(small.structure, large.structure, "test", LIMITS)
             counts[found.membership] += 1
             if (
                 synthesis.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION)
@@ -160,30 +160,30 @@ def agrees_with_the_synthesis(n, damped):
                     found.membership is Membership.MEMBER
                 )
         for evidence in (exact, inside.evidence) if n == 3 else ():
-            assert evidence is None or confirms_by_parts(evidence, small.structure, large.structure)
+            assert evidence is None or confirms_by_rows(evidence, small.structure, large.structure)
     return counts
 
 
 @pytest.mark.parametrize(
     ("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)]
 )
-def test_parts_agree_with_the_synthesis(n, damped):
+def test_rows_agree_with_the_synthesis(n, damped):
     counts = agrees_with_the_synthesis(n, damped)
     assert counts[Membership.EXCLUDED] > 0
 
 
 @pytest.mark.slow
-def test_parts_agree_with_the_synthesis_on_four_damped_masses():
+def test_rows_agree_with_the_synthesis_on_four_damped_masses():
     agrees_with_the_synthesis(4, True)
 
 
 def test_20_lies_in_the_closure_of_8():
     """Four damped masses; the ideals of the whole fibre found it first."""
     small, large = (canonical(Family(4, True)[i]).chain.structure for i in (20, 8))
-    found = included_by_parts(small, large, "test", LIMITS)
+    found = included_by_rows(small, large, "test", LIMITS)
     assert found.membership is Membership.MEMBER and found.safety >= 100
-    assert confirms_by_parts(found.evidence, small, large)
-    assert not confirms_by_parts(replace(found.evidence, left_given=False), small, large)
+    assert confirms_by_rows(found.evidence, small, large)
+    assert not confirms_by_rows(replace(found.evidence, left_given=False), small, large)
 
 
 def test_members_refute_nothing():
@@ -196,8 +196,8 @@ def test_members_refute_nothing():
     # dual
     pairs.append((Chain(4, 1, 1, 2, 1, 2, damped=True), Chain(4, 2, 2, 3, 2, 3, damped=True)))
     for a, b in pairs:
-        assert refuted_by_parts(a.structure, b.structure, "test") is None
-        assert refuted_by_parts(b.structure, a.structure, "test") is None
+        assert refuted_by_rows(a.structure, b.structure, "test") is None
+        assert refuted_by_rows(b.structure, a.structure, "test") is None
 
 
 def test_what_is_not_covered_is_unknown():
@@ -209,11 +209,11 @@ def test_what_is_not_covered_is_unknown():
         Chain(3),
     )
     for other in others:
-        found = decide_by_parts(plain.structure, other.structure, "test", LIMITS)
+        found = decide_by_rows(plain.structure, other.structure, "test", LIMITS)
         assert found.membership is Membership.UNKNOWN and found.reason and found.evidence is None
-        assert refuted_by_parts(plain.structure, other.structure, "test") is None
+        assert refuted_by_rows(plain.structure, other.structure, "test") is None
     both = Chain(3, 1, 1, 2, 1, 2)
-    assert "one place" in decide_by_parts(both.structure, both.structure, "test", LIMITS).reason
+    assert "one place" in decide_by_rows(both.structure, both.structure, "test", LIMITS).reason
     with pytest.raises(TypeError):
         bool(found)
 
@@ -223,8 +223,8 @@ def test_a_forged_step_is_refused():
         Chain(4, 2, 1, 3, 1, 4, damped=True).structure,
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,
     )
-    found = refuted_by_parts(small, large, "test")
-    assert found is not None and found.is_proven and confirms_by_parts(found, small, large)
+    found = refuted_by_rows(small, large, "test")
+    assert found is not None and found.is_proven and confirms_by_rows(found, small, large)
     (step,) = found.steps
     assert step.shown == Vanishing(2)
     for forged in (
@@ -232,20 +232,20 @@ def test_a_forged_step_is_refused():
         replace(step, part="grounded"),
         replace(step, split="rigid"),
     ):
-        assert not confirms_by_parts(replace(found, steps=(forged,)), small, large)
+        assert not confirms_by_rows(replace(found, steps=(forged,)), small, large)
 
 
-def test_sentences_name_the_parts():
+def test_sentences_name_the_rows():
     small, large = (
         Chain(4, 2, 1, 3, 1, 4, damped=True).structure,
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,
     )
-    found = refuted_by_parts(small, large, "test")
-    assert "Markov parameter 2 of the free part of B" in found.sentence("A", "B")
+    found = refuted_by_rows(small, large, "test")
+    assert "Markov parameter 2 of the free row of B" in found.sentence("A", "B")
     assert "of a generic B stay together in an equivalent A" in replace(
         found, left_given=False
     ).sentence("A", "B")
-    nothing = refuted_by_parts(
+    nothing = refuted_by_rows(
         Chain(5, 1, 1, 2, 1, 3, damped=True).structure,
         Chain(5, 2, 2, 3, 2, 3, damped=True).structure,
         "t",

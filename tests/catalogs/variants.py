@@ -13,7 +13,7 @@ same for all three. What changes are the places of the coefficients: powers of s
 zero are cancelled, the others shift the numerator and leave zero coefficients. So the degrees and
 the number of constant (zero) coefficients change, the number of free ones does not; and another
 condition may be the first to decide where the models have different multiplicities of the pole at
-zero, that is, where one has a damper from its free part to the ground and the other none.
+zero, that is, where one has a damper from its free row to the ground and the other none.
 """
 
 from collections import Counter

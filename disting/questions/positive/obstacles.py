@@ -1,42 +1,42 @@
-"""What splitting a receptance into its two parts says about equivalents of undamped and damped
-chains: NEVER, or part by part.
+"""What a receptance as the sum of those of two rows says about equivalents of undamped and damped
+chains: NEVER, or row by row.
 
-H = R + F, R of the grounded part (g masses), F of the free part; d_R, d_F = springs between the
+H = R + F, R of the grounded row (g masses), F of the free row; d_R, d_F = springs between the
 ports of each. Statements are about all positive parameters of `given` but for a proper algebraic
-subset (poles of R and F coincide, a mode has a node at a port). M is the mass of the free part.
+subset (poles of R and F coincide, a mode has a node at a port). M is the mass of the free row.
 
 Decay. R ~ c s^(-2-d_R) damped, c x^(-1-d_R) undamped, with c > 0, F likewise. So H falls off by 1
 or 2 + min(d_R, d_F), and chains with different ones never have the same receptance.
 
-Residues (undamped). A part with d > 0 has residues whose sum is zero, all of them non-zero: some
-are negative. The residues of a part with d = 0 are squares of modes, positive. So a chain with d >
-0 in one part never equals one with d = 0 in both.
+Residues (undamped). A row with d > 0 has residues whose sum is zero, all of them non-zero: some
+are negative. The residues of a row with d = 0 are squares of modes, positive. So a chain with d >
+0 in one row never equals one with d = 0 in both.
 
-Own poles (undamped, the other chain has d > 0 in a part). The residues of that part sum to zero:
+Own poles (undamped, the other chain has d > 0 in a row). The residues of that row sum to zero:
 which subsets of the residues r_j of `given` do that for all parameters? A factor of all masses and
-springs of one part of `given` divides its residues alone, so the sum over the subset is zero for
-each part by itself. Poles and zeros of a part can be chosen freely within a word (see `words`);
-r_j = nu N/D' at a pole grows without bound as the pole nears another of the same part. So no
-proper subset of a part sums to zero for all parameters: it is a whole part of `given`, with d > 0.
-The free part is the one with the pole 0. Hence R and F are the same functions in both chains, with
+springs of one row of `given` divides its residues alone, so the sum over the subset is zero for
+each row by itself. Poles and zeros of a row can be chosen freely within a word (see `words`); r_j =
+nu N/D' at a pole grows without bound as the pole nears another of the same row. So no proper subset
+of a row's sums to zero for all parameters: it is all of a row of `given`, with d > 0.
+The free row is the one with the pole 0. Hence R and F are the same functions in both chains, with
 the same gap and decay; otherwise there is no equivalent.
 
 Signs (undamped, the other chain has no gap). In a row of n masses with ports a < b, d = b - a, the
 residue of mode j has the sign of (-1)^h_j, where h_0 = 0, h_(n-1) = d and h changes by 1 - z from
 one mode to the next, z zeros lying between both poles (see `words`). So in the order of the poles
 the residues change their signs as often as z is 0 or 2, that is d + 2 t times with t twos, and t
-<= min(a - 1, n - b). In a sum of two parts the residues of each part keep their order: they change
+<= min(a - 1, n - b). In a sum of two rows the residues of each row keep their order: they change
 their signs max(d_R, d_F) times at least. If that is more than d + 2 min(a - 1, n - b) of the other
 chain, it never equals the sum.
 
-Swapped parts (damped). Let the only subsets of non-zero poles whose residues sum to zero be the
+Swapped rows (damped). Let the only subsets of non-zero poles whose residues sum to zero be the
 poles of R, and those of F. (At one rational point balls tell the sums of all other subsets from
 zero; the product over all of them is a rational function of the parameters, so generically none
 vanishes.) Then the other chain has R' = R and F' = F, or R' = F - 1/(M s^2) and F' = R + 1/(M
 s^2). The first needs equal decays. The second needs
   - d_F = 0, for R' falls off with the negative factor -1/M otherwise;
-  - d_R = 0: F' ~ 1/(M s^2) for s to infinity otherwise, so the other free part is collocated with
-    the mass M at its port, but M is the mass of the whole part (s to 0); so there is no more than
+  - d_R = 0: F' ~ 1/(M s^2) for s to infinity otherwise, so the other free row is collocated with
+    the mass M at its port, but M is the mass of the whole row (s to 0); so there is no more than
     this mass, and R = 0;
   - hence d_R' = d_F' = 0, by the same limits.
 """
@@ -49,10 +49,10 @@ from math import inf
 from flint import acb, ctx, fmpq
 
 from disting.fibres.synthesis.ball import Ball, Imprecise, roots, shifted
-from disting.fibres.synthesis.fibre import PRECISIONS, segments
-from disting.fibres.synthesis.segment import Segment
+from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.target import Target, target
 from disting.model.chain import Chain
+from disting.model.row import Row, rows_of
 from disting.model.structure import Ports
 from disting.model.symmetry import canonical
 
@@ -69,15 +69,15 @@ class Obstacle(StrEnum):
     SWAPPED = "swapped parts"
 
 
-def parts(chain: Chain) -> tuple[Segment | None, Segment]:
-    """Grounded part (None without a gap) and free part of the canonical form."""
-    return segments(canonical(chain).chain)
+def rows(chain: Chain) -> tuple[Row, ...]:
+    """The rows of the canonical form, the free one last."""
+    return rows_of(canonical(chain).chain.structure)
 
 
 def distances(chain: Chain) -> tuple[float, int]:
-    """Springs between the ports in each part; infinity for a grounded part that is not there."""
-    grounded, free = parts(chain)
-    return inf if grounded is None else grounded.distance, free.distance
+    """Springs between the ports in each row; infinity for a grounded row that is not there."""
+    *grounded, free = rows(chain)
+    return grounded[0].distance if grounded else inf, free.distance
 
 
 def obstacle(given: Chain, other: Chain) -> Obstacle | None:
@@ -93,16 +93,17 @@ def obstacle(given: Chain, other: Chain) -> Obstacle | None:
         return None if _is_collocated(given) else Obstacle.RESIDUES
     if other.gap:
         return Obstacle.OWN_POLES if (given.gap, here) != (other.gap, there) else None
-    return Obstacle.SIGNS if given.gap and max(here) > _most_sign_changes(parts(other)[1]) else None
+    more = given.gap and max(here) > _most_sign_changes(*rows(other))
+    return Obstacle.SIGNS if more else None
 
 
-def _most_sign_changes(row: Segment) -> int:
+def _most_sign_changes(row: Row) -> int:
     """Of the residues, in the order of the poles."""
-    return row.distance + 2 * min(row.a - 1, row.nodes - row.b)
+    return row.distance + 2 * min(row.a - 1, row.n_masses - row.b)
 
 
 def receptances(given: Chain, point: Point) -> list[Target]:
-    """Receptances of the grounded part (if there is one) and of the free part, in x undamped
+    """Receptances of the grounded row (if there is one) and of the free row, in x undamped
     and in s damped; exact.
     """
     ports = [Ports(0, given.act_minus, 0, given.meas_minus)] if given.gap else []
@@ -112,7 +113,7 @@ def receptances(given: Chain, point: Point) -> list[Target]:
 
 
 def swap_fails(given: Chain, other: Chain) -> bool:
-    """Whether neither equal nor swapped parts can give a positive equivalent; damped chains
+    """Whether neither equal nor swapped rows can give a positive equivalent; damped chains
     with a gap.
     """
     if not (given.damped and other.damped and given.gap and other.gap):
@@ -123,8 +124,8 @@ def swap_fails(given: Chain, other: Chain) -> bool:
     return not (own or swapped)
 
 
-def only_parts_sum_to_zero(given: Chain, point: Point, count: int) -> bool:
-    """Proof at a point: no `count` non-zero poles but a part's own have residues that sum to
+def only_rows_sum_to_zero(given: Chain, point: Point, count: int) -> bool:
+    """Proof at a point: no `count` non-zero poles but a row's own have residues that sum to
     zero. False says nothing.
     """
     grounded, free = receptances(given, point)
@@ -141,14 +142,14 @@ def only_parts_sum_to_zero(given: Chain, point: Point, count: int) -> bool:
 
 
 def _sums(own: list[list[Ball]], count: int) -> list[Ball]:
-    """Sums of residues over all subsets of this size but the parts themselves."""
-    labelled = [(part, r) for part, residues in enumerate(own) for r in residues]
-    chosen = (c for c in combinations(labelled, count) if not _is_part(c, own))
+    """Sums of residues over all subsets of this size but those of whole rows."""
+    labelled = [(row, r) for row, residues in enumerate(own) for r in residues]
+    chosen = (c for c in combinations(labelled, count) if not _is_row(c, own))
     return [sum((r for _, r in c), acb(0)) for c in chosen]
 
 
-def _is_part(chosen: tuple[tuple[int, Ball], ...], own: list[list[Ball]]) -> bool:
-    return len({part for part, _ in chosen}) == 1 and len(chosen) == len(own[chosen[0][0]])
+def _is_row(chosen: tuple[tuple[int, Ball], ...], own: list[list[Ball]]) -> bool:
+    return len({row for row, _ in chosen}) == 1 and len(chosen) == len(own[chosen[0][0]])
 
 
 def _residues(t: Target, low: int) -> list[Ball]:
@@ -159,4 +160,4 @@ def _residues(t: Target, low: int) -> list[Ball]:
 
 
 def _is_collocated(chain: Chain) -> bool:
-    return all(part is None or part.distance == 0 for part in parts(chain))
+    return all(row.distance == 0 for row in rows(chain))

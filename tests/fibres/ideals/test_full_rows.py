@@ -10,17 +10,17 @@ import sympy
 
 from disting import Certainty, Chain, Family, Outcome, Query, Relation, View, compare
 from disting.catalogs.dampers import DamperSets
-from disting.evidence.ideals import FullParts
-from disting.fibres.ideals import Limits, same_by_full_parts
+from disting.evidence.ideals import FullRows
+from disting.fibres.ideals import Limits, same_by_full_rows
 from disting.model.settings import Settings
-from disting.questions.same.exact import by_full_parts, by_ideals
+from disting.questions.same.exact import by_full_rows, by_ideals
 from disting.questions.same.verify import Witness
 
-LIMITS = Limits(seconds=60.0, entries=500_000, safety=100)
+LIMITS = Limits(seconds=600, entries=500_000, safety=100)
 
 
-def found(a: Chain, b: Chain) -> FullParts | None:
-    return same_by_full_parts(a.structure, b.structure)
+def found(a: Chain, b: Chain) -> FullRows | None:
+    return same_by_full_rows(a.structure, b.structure)
 
 
 def rank_and_coefficients(dampers: tuple[int, ...], at: int) -> tuple[int, int]:
@@ -59,30 +59,30 @@ def test_a_grounded_part_is_full_exactly_where_its_rank_is_the_number_of_its_coe
 def test_what_it_says():
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(2,)) for at in (1, 2))
     evidence = found(a, b)
-    assert evidence == FullParts((7, 0))
+    assert evidence == FullRows((7, 0))
     assert (
         evidence.sentence("A", "B")
-        == "In A and B both grounded parts have as many determinable parameters as coefficients (7)"
-        " and the free parts are equal, so each can have the parts of the other."
+        == "In A and B both grounded rows have as many determinable parameters as coefficients (7)"
+        " and the free rows are equal, so each can have the rows of the other."
     )
     assert evidence.formula == "N_R = 7 = |Φ_R|"
 
 
 def test_compare_gives_it_as_proven_evidence_that_can_be_checked_again():
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(1, 2)) for at in (1, 2))
-    finding = by_full_parts(a, b)
+    finding = by_full_rows(a, b)
     assert finding.outcome is Outcome.HOLDS and finding.certainty is Certainty.PROVEN
     assert Witness().confirms(finding.evidence, "fibre", a, b)
     other = replace(b, ground_dampers=())
     assert not Witness().confirms(finding.evidence, "fibre", a, other)
-    assert not Witness().confirms(FullParts((6, 0)), "fibre", a, b)
+    assert not Witness().confirms(FullRows((6, 0)), "fibre", a, b)
     assert compare(a, b, query=Query(View.EXACT)).relation is Relation.INDISTINGUISHABLE
 
 
 @pytest.mark.parametrize("extra", [{"lag": True}, {"dead_time": True}, {"sensor": "position"}])
 def test_a_factor_that_only_one_chain_has_is_not_overlooked(extra):
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(2,)) for at in (1, 2))
-    assert found(replace(a, **extra), replace(b, **extra)) == FullParts((7, 0))
+    assert found(replace(a, **extra), replace(b, **extra)) == FullRows((7, 0))
     assert found(replace(a, **extra), b) is None
 
 

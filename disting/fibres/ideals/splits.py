@@ -1,19 +1,19 @@
-"""The receptance of a chain with a gap as a sum R + F of two parts, and the few ways in which
-another chain can split it.
+"""The receptance of a chain with a gap as the sum R + F of those of its rows, and the few ways in
+which another chain can split it.
 
-R is the receptance of the grounded part between the minus ports (0 without a gap), F of the free
-part between the plus ports; x = s for damped chains, q = 2, and x = s^2 for undamped ones, q = 1.
+R is the receptance of the grounded row between the minus ports (0 without a gap), F of the free
+row between the plus ports; x = s for damped chains, q = 2, and x = s^2 for undamped ones, q = 1.
 With monic denominators R = N_R/D_R and F = N_F/(x^q E), deg D_R = q g, deg E = q (N - 1 - g). Let
 the first chain be generic and let a second chain of as many masses, with a gap h, have the same
 receptance H. The poles of H that are not zero are simple, so the second chain takes q h of them,
-S, for its grounded part, and its parts are the partial fractions of H over S and over the rest.
+S, for its grounded row, and its rows are the partial fractions of H over S and over the rest.
 
 Theorem. Suppose 1. the Galois groups of D_R over Q(p_R) and of E over Q(p_F) are doubly
 transitive, 2. not all residues of R are equal, nor those of F at the roots of E (a single one is
-not zero), 3. a part of the second chain has a receptance O(x^-2). Then S holds all roots of D_R or
+not zero), 3. a row of the second chain has a receptance O(x^-2). Then S holds all roots of D_R or
 none, and all roots of E or none.
 
-Proof. By 3 the residues of H over S sum to 0 (grounded part), or to lim x H (free part). Let T be
+Proof. By 3 the residues of H over S sum to 0 (grounded row), or to lim x H (free row). Let T be
 the roots of D_R in S. Sum of the residues over T, minus lim x R in the second case, is an
 algebraic function of p_R only, and the negative of one of p_F only: a constant; multiplying all
 elements of R by a number divides it by that number, so it is 0. Hence the sum over T lies in
@@ -31,15 +31,22 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from disting.algebra.symbols import coefficients, renamed, symbols
-from disting.fibres.ideals.system import CoefficientMap, receptance_of_row, rows, separated
+from disting.fibres.ideals.system import (
+    CoefficientMap,
+    receptance_map,
+    receptance_of_row,
+    separated,
+    unknowns,
+)
+from disting.model.row import rows_of
 from disting.model.structure import Structure
 
-REMEMBERED = 256  # structures whose parts are kept: each is asked for in many pairs
+REMEMBERED = 256  # structures whose receptances are kept: each is asked for in many pairs
 
 
 @dataclass(frozen=True, slots=True)
-class Parts:
-    """Receptances of the grounded (None without a gap) and of the free part, as maps in
+class Receptances:
+    """Receptances of the grounded (None without a gap) and of the free row, as maps in
     normalised parameters.
     """
 
@@ -48,23 +55,23 @@ class Parts:
 
     @property
     def named(self) -> tuple[tuple[str, CoefficientMap], ...]:
-        """The parts that there are."""
+        """Those that there are, by the name of the row."""
         grounded = () if self.grounded is None else (("grounded", self.grounded),)
         return (*grounded, ("free", self.free))
 
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """What the two parts of another chain have to be: one of the three ways by its name, with
+    """What the two rows of another chain have to be: one of the three ways by its name, with
     both receptances.
     """
 
     name: str
-    parts: Parts
+    receptances: Receptances
 
 
 def is_plain(structure: Structure) -> bool:
-    """Whether parts are rows without dampers to the ground and without lag or dead time."""
+    """Whether there are no dampers to the ground, no lag and no dead time."""
     return not (
         structure.lag or structure.dead_time or any(e.kind == "b" for e in structure.elements)
     )
@@ -76,28 +83,24 @@ def power(structure: Structure) -> int:
 
 
 def gap(structure: Structure) -> int:
-    """Number of masses of the grounded part; 0 for a chain without a gap."""
-    return structure.blocks[0][1] if len(structure.blocks) == 2 else 0
+    """Number of masses of the grounded row; 0 for a chain without a gap."""
+    return structure.row_ends[0][1] if len(structure.row_ends) == 2 else 0
 
 
 @lru_cache(maxsize=REMEMBERED)
-def parts(structure: Structure) -> Parts:
-    """The parts of a plain chain.
+def receptances(structure: Structure) -> Receptances:
+    """The receptances of the rows of a plain chain.
 
     >>> from disting.model.chain import Chain
-    >>> p = parts(Chain(2, 1, 1, 2, 1, 2).structure)
+    >>> p = receptances(Chain(2, 1, 1, 2, 1, 2).structure)
     >>> [[str(a) for a in m.denominator] for _, m in p.named]
     [['u0', '0', '1'], ['0', '0', '1']]
     """
-    found = (
-        (names, receptance_of_row(structure, span, symbols(["s", *names])))
-        for span, names in rows(structure)
-    )
-    maps = [separated(names, *fraction) for names, fraction in found]
-    return Parts(maps[0] if len(maps) == 2 else None, maps[-1])
+    maps = [receptance_map(row) for row in rows_of(structure)]
+    return Receptances(maps[0] if len(maps) == 2 else None, maps[-1])
 
 
-def has_relation(other: Parts, q: int) -> bool:
+def has_relation(other: Receptances, q: int) -> bool:
     """Condition 3: a receptance that falls at least as x^-2."""
     return any(relative_degree(m) * q >= 4 for _, m in other.named)
 
@@ -116,25 +119,29 @@ def splits(given: Structure, h: int) -> tuple[Split, ...]:
     n, g = given.n_masses, gap(given)
     found = list[Split]()
     if h == g:
-        found.append(Split("same", parts(given)))
+        found.append(Split("same", receptances(given)))
     if g and h == n - 1 - g:
-        found.append(Split("exchanged", Parts(_without_rigid_body(given), _with_rigid_body(given))))
+        found.append(
+            Split("exchanged", Receptances(_without_rigid_body(given), _with_rigid_body(given)))
+        )
     if h == n - 1 and h != g:
-        found.append(Split("rigid", Parts(_without_rigid_body(given, whole=True), _rigid_body())))
+        found.append(
+            Split("rigid", Receptances(_without_rigid_body(given, whole=True), _rigid_body()))
+        )
     return tuple(found)
 
 
 def _without_rigid_body(structure: Structure, whole: bool = False) -> CoefficientMap:
     """F - c/s^2, or with `whole` R + F - c/s^2: c = N_F(0)/E(0), F = N_F/(s^2 E)."""
-    found = list(rows(structure))
-    names = tuple(name for _, some in (found if whole else found[-1:]) for name in some)
+    *grounded, free = rows_of(structure)
+    names = tuple(name for row in (*grounded * whole, free) for name in unknowns(row))
     ring = symbols(["s", *names])
-    num, den = receptance_of_row(structure, found[-1][0], ring)
+    num, den = receptance_of_row(free, ring)
     rest = den // ring["s"] ** 2
     at_zero = [renamed(coefficients(p, "s")[0], ring, {}) for p in (num, rest)]
     num, den = (num * at_zero[1] - rest * at_zero[0]) // ring["s"] ** 2, rest * at_zero[1]
-    if whole and len(found) == 2:
-        other_num, other_den = receptance_of_row(structure, found[0][0], ring)
+    for row in grounded * whole:
+        other_num, other_den = receptance_of_row(row, ring)
         num, den = num * other_den + other_num * den, den * other_den
     return separated(names, num, den)
 
@@ -143,9 +150,9 @@ def _with_rigid_body(structure: Structure) -> CoefficientMap:
     """R + c/s^2 with a free c: for generic parameters c depends on those of F alone, and is not
     constant.
     """
-    span, names = next(rows(structure))
+    grounded, names = rows_of(structure)[0], unknowns(rows_of(structure)[0])
     ring = symbols(["s", *names, "c"])
-    num, den = receptance_of_row(structure, span, ring)
+    num, den = receptance_of_row(grounded, ring)
     return separated((*names, "c"), num * ring["s"] ** 2 + ring["c"] * den, den * ring["s"] ** 2)
 
 

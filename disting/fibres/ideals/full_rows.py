@@ -1,0 +1,79 @@
+"""Two chains with one gap whose rows at both sides are the same or can have any receptance: they
+are the same.
+
+H = R + F, R the receptance of the grounded, F of the free row, of independent parameters; a lag
+or a sensor's power of s is a factor that both chains share. A row is full if its rank equals the
+number of its coefficients that are not constant (those of the monic denominator and of the
+numerator, see `system`). Then the closure of its image is the space of all functions with these
+constants. If each row of one chain equals that of the other, or both are full with equal
+constants, the closures of {R} and {F} are equal on both sides, and so are those of {R + F}: the
+sum is a continuous map wherever no pole is infinite, and generic sums have equal degrees.
+
+The rank at one point modulo a prime is at most the generic rank, which is at most the number of
+coefficients that are not constant: where they are equal, fullness is proven, nothing is left to
+chance.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+from disting.evidence.ideals import SAME, FullRows
+from disting.fibres.ideals.fibre_ideal import generic_rank
+from disting.fibres.ideals.system import Terms, receptance_map
+from disting.model.row import Row, rows_of
+from disting.model.structure import Structure
+
+
+def same_by_full_rows(a: Structure, b: Structure, label: str = "full rows") -> FullRows | None:
+    """The proof that two structures have equal closures row by row; None if there is none.
+    `label` draws the points.
+
+    >>> from disting.model.chain import Chain
+    >>> chains = (Chain(3, 2, m, 3, m, 3, damped=True, ground_dampers=(2,)) for m in (1, 2))
+    >>> same_by_full_rows(*(c.structure for c in chains))
+    FullRows(free=(7, 0))
+    """
+    if not _comparable(a, b):
+        return None
+    pairs = zip(rows_of(a), rows_of(b), strict=True)
+    found = [_shared(here, there, label) for here, there in pairs]
+    free = tuple(n for n in found if n is not None)
+    return FullRows(free) if len(free) == len(found) and any(free) else None
+
+
+def _comparable(a: Structure, b: Structure) -> bool:
+    """Whether both have a gap at the same place, one sensor quantity, and the same factors
+    beside.
+    """
+    kinds = [(s.row_ends, s.sensor_order, s.lag, s.dead_time) for s in (a, b)]
+    return kinds[0] == kinds[1] and len(a.row_ends) == 2
+
+
+def _shared(row: Row, other: Row, label: str) -> int | None:
+    """SAME for equal rows, the number of coefficients of full ones of one form, None for
+    others.
+    """
+    if row == other:
+        return SAME
+    here, there = (_full(r, label) for r in (row, other))
+    return len(here.free) if here is not None and here == there else None
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """Numbers of numerator and of all coefficients, which of them vary, and those that do not."""
+
+    sizes: tuple[int, int]
+    free: tuple[int, ...]
+    constants: tuple[Terms, ...]
+
+
+@cache
+def _full(row: Row, label: str) -> Form | None:
+    """The form of a row's coefficients if it is full."""
+    found = receptance_map(row)
+    varies = [any(any(exponents) for exponents, _ in terms) for terms in found.coordinates]
+    free = tuple(i for i, v in enumerate(varies) if v)
+    constants = tuple(terms for terms, v in zip(found.coordinates, varies, strict=True) if not v)
+    form = Form((len(found.numerator), len(found.coordinates)), free, constants)
+    return form if generic_rank(found, label) == len(free) else None

@@ -1,0 +1,169 @@
+"""The formats of files with measured data: how each is known, and who reads it.
+
+A new format is a row of `FORMATS`; a file is of the first one that it fits.
+"""
+
+import inspect
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from disting.errors import InputError, listed
+from disting.measurement.column_words import FREQUENCIES, meaning
+from disting.measurement.matlab import responses, variables
+from disting.measurement.response import FrequencyResponse
+from disting.measurement.stored import chosen_response, from_stored
+from disting.measurement.table import Table
+from disting.measurement.table_series import is_time, time_series
+from disting.measurement.tabular import frequency_response
+from disting.measurement.text_table import decoded, table
+from disting.measurement.time_series import TimeSeries
+from disting.measurement.uff import read_uff
+from disting.measurement.variables import (
+    RATE_NAMES,
+    STEP_NAMES,
+    TIME_NAMES,
+    from_variables,
+    holds_frequencies,
+    holds_response,
+    indexed,
+    series_from_variables,
+)
+
+T = TypeVar("T")
+Options = dict[str, Any]
+NAMED = {"frequency", "response"}  # options that only a frequency response of a MATLAB file has
+CLOCKS = {*RATE_NAMES, *STEP_NAMES, *TIME_NAMES}
+HEAD = 520  # bytes; what a MATLAB file of version 7.3 is known by stands behind 512
+
+
+@dataclass(frozen=True, slots=True)
+class Records:
+    """Time series of a format: `read` those of an input and an output; `names` of the signals of
+    a file; `held` = whether a file, with these options, is a record rather than a response.
+    """
+
+    read: Callable[[Path, str | int, str | int, Options], TimeSeries]
+    names: Callable[[Path], Iterable[str]]
+    held: Callable[[Path, Options], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """One format: `fits` = whether a file is of it, by its path and first bytes; `response` reads
+    a frequency response; `records` = None where no time series are read.
+
+    Readers raise InputError for what they cannot read, and for options that they do not know.
+    """
+
+    name: str
+    fits: Callable[[Path, bytes], bool]
+    response: Callable[[Path, Options], FrequencyResponse]
+    records: Records | None = None
+
+
+def format_of(file: Path) -> Format:
+    """The format of a file: that of the content, where the content shows it, else of the ending."""
+    with file.open("rb") as stream:
+        head = stream.read(HEAD)
+    return next(known for known in FORMATS if known.fits(file, head))
+
+
+def _is_matlab(file: Path, head: bytes) -> bool:
+    return (
+        file.suffix.lower() == ".mat"
+        or head.startswith(b"MATLAB ")
+        or b"\x89HDF\r\n" in (head[:6], head[512:518])
+    )
+
+
+def _from_matlab(file: Path, options: Options) -> FrequencyResponse:
+    """A response object where one is asked for, or where no variables make up a response; else
+    variables.
+    """
+    asked, index = indexed(options.get("response"))
+    arrays, stored = variables(file), responses(file)
+    if asked in stored or (
+        stored and (asked not in arrays if asked else not holds_response(arrays))
+    ):
+        name = chosen_response(stored, asked, file.name)
+        rest = {key: value for key, value in options.items() if key != "response"} | (
+            {"index": index} if index else {}
+        )
+        return checked(from_stored, rest, file)(stored[name], name, file.name, **rest)
+    return checked(from_variables, options, file)(arrays, file.name, **options)
+
+
+def _matlab_series(file: Path, input: str | int, output: str | int, options: Options) -> TimeSeries:
+    read = checked(series_from_variables, options, file)
+    return read(variables(file), file.name, str(input), str(output), **options)
+
+
+def _is_matlab_record(file: Path, options: Options) -> bool:
+    """Whether there is a clock or a sampling rate, and nothing that is a frequency response."""
+    arrays = variables(file)
+    return bool(arrays.keys() & CLOCKS) and not (
+        options.keys() & NAMED or holds_frequencies(arrays) or responses(file)
+    )
+
+
+def _is_universal(file: Path, head: bytes) -> bool:
+    return file.suffix.lower() in (".uff", ".unv", ".unf", ".bunv")
+
+
+def _from_universal(file: Path, options: Options) -> FrequencyResponse:
+    return checked(read_uff, options, file)(file, **options)
+
+
+def _table(file: Path) -> Table:
+    return table(decoded(file.read_bytes(), file.name), file.name)
+
+
+def _from_text(file: Path, options: Options) -> FrequencyResponse:
+    return checked(frequency_response, options, file)(_table(file), **options)
+
+
+def _text_series(file: Path, input: str | int, output: str | int, options: Options) -> TimeSeries:
+    return checked(time_series, options, file)(_table(file), input, output, **options)
+
+
+def _is_text_record(file: Path, options: Options) -> bool:
+    """Whether there is a column of times and none of frequencies."""
+    if "columns" in options:
+        return False
+    headers = _table(file).headers
+    return any(map(is_time, headers)) and not any(
+        meaning(header) in FREQUENCIES for header in headers
+    )
+
+
+def checked(reader: Callable[..., T], options: Options, file: Path) -> Callable[..., T]:
+    """The reader, if it knows all these options; else InputError, naming those that it knows."""
+    known = {
+        p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY
+    }
+    unknown = sorted(set(options) - known)
+    if unknown:
+        raise InputError(
+            f"{file.name}: unknown option {listed(unknown)}; known for this format:"
+            f" {', '.join(sorted(known))}"
+        )
+    return reader
+
+
+FORMATS = (
+    Format(
+        name="MATLAB",
+        fits=_is_matlab,
+        response=_from_matlab,
+        records=Records(_matlab_series, variables, _is_matlab_record),
+    ),
+    Format(name="universal", fits=_is_universal, response=_from_universal),
+    Format(
+        name="text",
+        fits=lambda *_: True,
+        response=_from_text,
+        records=Records(_text_series, lambda file: _table(file).headers, _is_text_record),
+    ),
+)
