@@ -24,7 +24,7 @@ from disting.files import intact_text, write_whole
 from disting.model.family import Family
 from disting.verdict import Engine, Progress, View, silent
 from disting.verdict.further import Further, further
-from disting.verdict.placed import TESTS, Placed
+from disting.verdict.placed import NOT_KNOWN, TESTS, Placed
 
 SCHEMA = 1
 SHIPPED_SIZES = (2, 3, 4)
@@ -72,7 +72,7 @@ class NextCatalog:
         if places or at is None or len(set(numbers)) < 2:
             return None
         if at not in self._read:
-            self._read[at] = _further(self.family, self.records[at])
+            self._read[at] = _further(self.family, self.records[at], self.records[0]["tests"])
         group = self.groups[at - 1]
         found = self._read[at].only([group.index(m) for m in numbers])
         return replace(found, costs=costs or Costs())
@@ -136,7 +136,7 @@ def read(folder: Path, n_masses: int, damped: bool) -> NextCatalog:
     try:
         records = [json.loads(line) for line in intact_text(path).splitlines()]
         header = records[0]
-        if header["schema"] != SCHEMA or header["tests"] != list(TESTS):
+        if header["schema"] != SCHEMA or not set(header["tests"]) <= set(TESTS):
             raise ValueError("another schema")
         if len(records) != header["groups"] + 1 or any(len(r["group"]) < 2 for r in records[1:]):
             raise ValueError("groups are missing")
@@ -159,8 +159,10 @@ def verify_next(
     computed now.
     """
     n, damped = stored.n_masses, stored.damped
-    read(folder, n, damped)
     path = folder / f"{name_of(n, damped)}.jsonl"
+    if not path.exists() and folder.resolve() != shipped_folder().resolve():
+        return []  # a folder of one's own need not have it
+    read(folder, n, damped)
     text = build_next(stored, engine, executor=executor, progress=progress)
     there = path.read_text(encoding="utf-8").splitlines()
     for number, (a, b) in enumerate(zip(there, text.splitlines(), strict=False), 1):
@@ -180,11 +182,11 @@ def _plain(table: Placed) -> Record:
     }
 
 
-def _further(family: Family, record: Record) -> Further:
+def _further(family: Family, record: Record, tests: Sequence[str]) -> Further:
     numbers = record["group"]
     try:
         tables = {
-            kind: _placed(kind, family.n_masses, len(numbers), record[kind.value])
+            kind: _placed(kind, family.n_masses, len(numbers), record[kind.value], tests)
             for kind in Kind
             if kind.value in record
         }
@@ -197,21 +199,24 @@ def _further(family: Family, record: Record) -> Further:
         ) from None
 
 
-def _placed(kind: Kind, n_masses: int, structures: int, plain: Record) -> Placed:
-    """Raises LookupError, TypeError or ValueError for what is none."""
+def _placed(
+    kind: Kind, n_masses: int, structures: int, plain: Record, tests: Sequence[str]
+) -> Placed:
+    """One table; a test that the file does not have is not known. Raises LookupError, TypeError or
+    ValueError for what is none.
+    """
+    rows = [dict(zip(tests, map(int, row), strict=True)) for row in plain["columns"]]
     found = Placed(
         kind,
         n_masses,
         tuple(LETTERS[letter] for letter in plain["gains"]),
-        tuple(tuple(map(int, row)) for row in plain["columns"]),
+        tuple(tuple(row.get(test, NOT_KNOWN) for test in TESTS) for row in rows),
         tuple(map(int, plain["classes"])),
         tuple(map(str, plain["links"])),
         frozenset((int(a), int(b)) for a, b in plain["open"]),
         int(plain["safety"]),
     )
     lists = (found.gains, found.columns, found.classes, found.links)
-    if {len(each) for each in lists} != {n_masses * structures} or any(
-        len(row) != len(TESTS) for row in found.columns
-    ):
+    if {len(each) for each in lists} != {n_masses * structures}:
         raise ValueError("masses are missing")
     return found
