@@ -40,8 +40,7 @@ COMMANDS = [
     ["simulate", "--csv", "bench ß.csv"],
     ["fit", "bench ß.csv", "--masses", "1", "--json", "fit ñ.json"],
     ["next", "3:1", "3:11", "--damped", "--csv", "next ł.csv"],
-    ["plan", "2:1+b1", "2:1+b2", "--set", "m1=1,m2=1,k12=9,b1=1", "--noise", "0.1"]
-    + ["--range", "0.1..2", "--lines", "20", "--out", "plan ž"],
+    "plan 2:1+b1 2:1+b2 --set m1=1,m2=1,k12=9,b1=1 --noise 0.1 --range 0.1..2 --lines 20".split(),
     ["report", "1", "--out", "pages å"],
     ["catalog", "build", "1", "--out", "catalogues ø"],
     ["catalog", "verify", "1", "--catalog", "catalogues ø"],
