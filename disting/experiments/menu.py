@@ -18,7 +18,7 @@ from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
 from disting.experiments.experiment import GENERIC, Entry, Experiment, MeasuredChain
 from disting.experiments.polynomials import residues_of
-from disting.experiments.profiles import drawn
+from disting.experiments.stacked_profiles import drawn
 from disting.model.chain import Chain
 
 COSTS = {"sensor": 1.0, "move": 1.0, "inertia": 2.0, "lock": 3.0}
@@ -81,6 +81,13 @@ class Item:
     def text(self) -> str:
         """In words, with the mass."""
         return WORDS[self.kind].format(self.at)
+
+    def is_worth(self, gain: Gain) -> bool:
+        """Whether there is anything to be seen. An inertia whose effect can be foretold is worth
+        it: a structure of which another effect is foretold is excluded. A sensor or a force where
+        it is already is none.
+        """
+        return gain is Gain.NEW or (gain is Gain.REPEATS and self.kind is Kind.INERTIA)
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from math import inf
 from disting.algebra.quotient import matrix
 from disting.algebra.sampling import prime, residues
 from disting.behaviour.sample import Representation
-from disting.experiments.profiles import drawn_at, seen_at
+from disting.experiments.stacked_profiles import drawn_at, seen_at
 from disting.fit.estimate import Task
 from disting.fit.joint import JointCost
 from disting.fit.practical import Practical

@@ -9,9 +9,6 @@ from disting.general.alternatives import alternatives as alternatives
 from disting.general.compared import ComparedModel as ComparedModel
 from disting.general.equivalent import Equivalent as Equivalent
 from disting.general.fibre import Extent as Extent
-from disting.general.files import ModelList as ModelList
-from disting.general.files import read_models as read_models
-from disting.general.files import write_models as write_models
 from disting.general.formulas import is_explicit as is_explicit
 from disting.general.formulas import is_without as is_without
 from disting.general.global_identifiability import GlobalIdentifiability as GlobalIdentifiability
@@ -19,3 +16,6 @@ from disting.general.global_identifiability import global_identifiability as glo
 from disting.general.local_identifiability import LocalIdentifiability as LocalIdentifiability
 from disting.general.local_identifiability import local_identifiability as local_identifiability
 from disting.general.model import Model as Model
+from disting.general.model_files import ModelList as ModelList
+from disting.general.model_files import read_models as read_models
+from disting.general.model_files import write_models as write_models

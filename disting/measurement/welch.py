@@ -55,6 +55,7 @@ def estimate(
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
 
     def spectrum(a: Real, b: Real) -> Complex:
+        """S_ab by Welch's method, shape (n_f,), at the lines that are kept."""
         options = {
             "fs": rate,
             "window": "hann",

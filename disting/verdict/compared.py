@@ -1,7 +1,7 @@
 """What a verdict asks of a model beyond the conditions: the Protocol that `verdict` folds over.
 
 Chains implement it in `chains`, chains under several experiments in
-`disting.experiments.compared`, any other parametric models in `disting.general.compared`.
+`disting.experiments.machine_side`, any other parametric models in `disting.general.compared`.
 """
 
 from collections.abc import Callable, Sequence

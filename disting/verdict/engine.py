@@ -17,7 +17,7 @@ from disting.behaviour.profile import Profile, profile
 from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.experiments import ComparedMachine, MeasuredChain
-from disting.experiments.profiles import profile as measured_profile
+from disting.experiments.stacked_profiles import profile as measured_profile
 from disting.general import ComparedModel, Model
 from disting.general.profiles import profile as general_profile
 from disting.model.chain import Chain

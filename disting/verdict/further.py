@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from disting.errors import InputError
-from disting.experiments.menu import Costs, Gain, Item, Kind, kinds
+from disting.experiments.menu import Costs, Item, Kind, kinds
 from disting.model.chain import Chain
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
@@ -59,11 +59,11 @@ class Further:
         return tuple(kind for kind in self.costs.cheapest_first if kind in self.tables)
 
     def items(self, structure: int) -> Iterator[Item]:
-        """Yield the experiments that show something new on this structure, cheapest first."""
+        """Yield the experiments that are worth it on this structure, cheapest first."""
         for kind in self.kinds:
-            for at in range(1, self.n_masses + 1):
-                if self.tables[kind].gain((structure, at)) is Gain.NEW:
-                    yield Item(kind, at)
+            for item in (Item(kind, at) for at in range(1, self.n_masses + 1)):
+                if item.is_worth(self.tables[kind].gain((structure, item.at))):
+                    yield item
 
     def others(self, structure: int) -> tuple[int, ...]:
         """The rest of the group."""

@@ -46,7 +46,7 @@ def left_over(found: Further, structure: int, item: Item) -> dict[int, tuple[int
 def in_words(found: Further, structure: int, item: Item) -> str:
     """What an item tells, for somebody who has this structure in mind."""
     known = found.tables[item.kind].gain((structure, item.at))
-    if known is not Gain.NEW:
+    if not item.is_worth(known):
         return NOTHING[known]
     left = left_over(found, structure, item)
     if not left:

@@ -31,7 +31,7 @@ from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING, condition_6, condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
-from disting.experiments.exact import LIMITS, by_ideals
+from disting.experiments.exact_under import LIMITS, by_ideals
 from disting.experiments.listing import by_list
 from disting.experiments.menu import Gain, Item, Kind, gain, measured
 from disting.model.chain import Chain
@@ -125,23 +125,19 @@ class Placed:
         return Certainty.PROVEN if sure else Certainty.BOUNDED
 
     def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
-        """Masses of another structure at which it is not told from this one at this spot, though
-        something new is seen there; what is undecided included.
+        """Masses of another structure at which it is not told from this one at this spot; what is
+        undecided included.
         """
         masses = range(1, self.n_masses + 1)
         return tuple(
-            j
-            for j in masses
-            if self.gain((other, j)) is Gain.NEW
-            and self.look_up(spot, (other, j))[0] is not Relation.DISTINGUISHABLE
+            j for j in masses if self.look_up(spot, (other, j))[0] is not Relation.DISTINGUISHABLE
         )
 
     def answer(self, spot: Spot, other: int) -> Answer:
-        """Whether the experiment at a spot that gains tells its structure from another one,
-        wherever the place is in that.
+        """Whether the experiment at a spot tells its structure from another one, wherever the
+        place is in that.
         """
-        places = [(other, j) for j in range(1, self.n_masses + 1)]
-        found = {self.look_up(spot, p)[0] for p in places if self.gain(p) is Gain.NEW}
+        found = {self.look_up(spot, (other, j))[0] for j in range(1, self.n_masses + 1)}
         if found <= {Relation.DISTINGUISHABLE}:
             return Answer.SURELY
         if found == {Relation.INDISTINGUISHABLE}:
@@ -216,6 +212,8 @@ class _Work:
             alike = [s for s in range(size) if gains[s] is same]
             for s in alike[1:]:
                 work.unite(alike[0], s, REPEATS)
+            # where it is not known whether something new is seen, neither is this
+            work.open |= {(alike[0], s) for s in range(size) if alike and firsts[s] == NOT_KNOWN}
         return work
 
     def fill(self, column: int, values: dict[int, Hashable]) -> None:

@@ -14,7 +14,7 @@ from disting import (
 )
 from disting.experiments import MeasuredChain
 from disting.experiments.polynomials import expanded, shape
-from disting.experiments.profiles import degrees
+from disting.experiments.stacked_profiles import degrees
 from tests.experiments.plain_stack import S, coefficients, transfer
 
 A = Family(3, damped=True)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from disting import Chain, Engine, Experiment, Family, Model, Query, View, compare
 from disting.behaviour.sample import Representation
 from disting.experiments import MeasuredChain
-from disting.experiments.profiles import profile
+from disting.experiments.stacked_profiles import profile
 from disting.model.settings import Settings
 from tests.experiments.plain_stack import S, has_equivalent, transfer
 from tests.laws.strategies import chains

@@ -3,16 +3,17 @@
 import csv
 import io
 import json
-from itertools import product
+from itertools import combinations, product
 
 import pytest
 
 from disting import Experiment, Family, Query, View, compare
 from disting.behaviour.sample import Representation
+from disting.catalogs.next_files import next_catalog
 from disting.cli.run import main
 from disting.errors import InputError
 from disting.experiments.menu import Costs, Gain, Item, Kind, gain, kinds, measured
-from disting.experiments.profiles import profile
+from disting.experiments.stacked_profiles import profile
 from disting.verdict import Engine, Relation
 from disting.verdict.everywhere import Answer
 from disting.verdict.further import Further, further
@@ -189,3 +190,29 @@ def test_nothing_to_do_and_bad_input(arguments, status, says, capsys, monkeypatc
     assert main(["next", *arguments, "--damped"]) == status
     said = capsys.readouterr()
     assert says in said.out + said.err
+
+
+def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engine):
+    """A1 carries force and sensor at mass 1: G/(1 + J s^2 R) there, which no A11 shows."""
+    found = further(named(A, 1, 11), engine)
+    item = Item(Kind.INERTIA, 1)
+    assert found.tables[Kind.INERTIA].gain((0, 1)) is Gain.REPEATS
+    assert item in set(found.items(0)) and found.whole(0, item) is Answer.SURELY
+    for j in (1, 2, 3):
+        pairs = [(item.experiment, Item(Kind.INERTIA, j).experiment)]
+        said = compare(A[1], A[11], experiments=[Experiment(), *pairs], query=EXACT)
+        assert said.relation is Relation.DISTINGUISHABLE
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_what_is_said_of_any_mass_holds_of_every_mass(damped, engine):
+    """Two structures whose effects are both foretold are alike there: no "any mass" then."""
+    for group in next_catalog(3, damped=damped).groups:
+        found = further(named(Family(3, damped), *group), engine)
+        table = found.tables[Kind.INERTIA]
+        every = [
+            table.look_up((a, i), (b, j))[0]
+            for a, b in combinations(range(len(group)), 2)
+            for i, j in product((1, 2, 3), repeat=2)
+        ]
+        assert found.anywhere(Kind.INERTIA) == (set(every) == {Relation.DISTINGUISHABLE})

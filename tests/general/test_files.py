@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Chain, InputError, Model, ModelList, Sensor, read_models, write_models
-from disting.general.files import LARGEST, MOST_MODELS, models_of, models_text
+from disting.general.model_files import LARGEST, MOST_MODELS, models_of, models_text
 
 WHOLE = """{"title": "Leaks & drives", "s": "p", "models": [
   {"name": "two leaks", "A": [["-k12-k01", 0], ["k12", "-k02"]], "B": [1, 0], "C": [0, 1]},

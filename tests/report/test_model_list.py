@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from disting import Engine, InputError, Model, ModelList, Query, View, global_identifiability
-from disting.general.files import models_of
 from disting.general.global_identifiability import IDENTIFIABILITY
+from disting.general.model_files import models_of
 from disting.report.formulas import written_model
 from disting.report.model_list import judged, model_list_page, page_name, write_model_list
 from tests.cli.process import called

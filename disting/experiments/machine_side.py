@@ -20,11 +20,11 @@ from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding
-from disting.experiments.exact import exact_finding
+from disting.experiments.exact_under import exact_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
-from disting.experiments.profiles import drawn_at, profile
+from disting.experiments.stacked_profiles import drawn_at, profile
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
