@@ -42,7 +42,8 @@ LIST = (
 )
 Groups = Any  # the object that argparse gives for sub-commands has no public type
 DESCRIPTION = (
-    "Which servo-drive chain models can no experiment tell apart? Exact verdicts, with evidence."
+    "Which servo-drive chain models can one force and one sensor not tell apart? Exact verdicts,"
+    " with evidence."
 )
 EPILOG = (
     "conditions:\n"

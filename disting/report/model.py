@@ -1,5 +1,5 @@
-"""A page about one model: its drawing, what no experiment can tell it from, its transfer function,
-what can be determined.
+"""A page about one model: its drawing, what its force and sensor cannot tell it from, its transfer
+function, what can be determined.
 
 It speaks of positive parameters, those of a machine; what is so over complex ones, as in the
 paper, is told behind it.

@@ -145,9 +145,9 @@ def _same(found: Plan, rival: Rival) -> str:
     if found.is_contained:
         does = f", which it does {_limits(rival)}" if rival.limits else ""
         return (
-            f"impossible: {name} contains {model}{does}, so no measurement of this machine excludes"
-            f" it, with whatever effort. The question that can be answered is the reverse: is a"
-            f" machine that is {name} told from {model}?"
+            f"impossible: {name} contains {model}{does}, so no measurement of this machine with"
+            " this force and sensor excludes it, with whatever effort. The question that can be"
+            f" answered is the reverse: is a machine that is {name} told from {model}?"
         )
     if rival.limits:
         return (
