@@ -1,7 +1,7 @@
 """A plan in words: the answer first, then the numbers behind it."""
 
 from collections.abc import Iterator, Sequence
-from math import ceil, sqrt
+from math import ceil, floor, sqrt
 
 import numpy as np
 
@@ -17,6 +17,17 @@ from disting.verdict import Relation
 LOUD = 0.3  # noise of a line beyond which the logarithm of a response is no longer linear in it
 FEWEST = 8  # lines of a response
 SHOWN = 12  # lines of the optimal spectrum in the table
+
+
+def chance(probability: float) -> str:
+    """A probability in percent; what is below 1 is not rounded to certainty.
+
+    >>> chance(0.95), chance(0.9962), chance(1 - 1e-9)
+    ('95 %', '99.6 %', '> 99.9 %')
+    """
+    if probability > 0.999:
+        return "> 99.9 %"
+    return f"{floor(1000 * probability) / 10:.1f} %" if probability > 0.99 else percent(probability)
 
 
 def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[str]:
@@ -82,10 +93,10 @@ def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
     names = [p.names[0 if true else 1] for p in found]
     head = "true" if true else "rival"
     width = max(len(head), *map(len, names))
-    yield f"{head:{width}}  {'lambda':>8}  {'power':>7}  {'periods':>8}  answer"
+    yield f"{head:{width}}  {'lambda':>8}  {'power':>8}  {'periods':>8}  answer"
     for name, p in zip(names, found, strict=True):
         periods = f"{readable(p.factor)}x" if p.noncentrality > 0 else "–"
-        row = f"{readable(p.noncentrality):>8}  {percent(p.power):>7}  {periods:>8}  {_short(p)}"
+        row = f"{readable(p.noncentrality):>8}  {chance(p.power):>8}  {periods:>8}  {_short(p)}"
         yield f"{name:{width}}  {row}"
 
 
@@ -119,7 +130,7 @@ def _answer(found: Plan) -> str:
     if found.answer is Answer.SAME:
         return _same(found, found.rival)
     said = (
-        f"{name} is excluded with a probability of {percent(found.power)} if the machine is {model}"
+        f"{name} is excluded with a probability of {chance(found.power)} if the machine is {model}"
         f" (level {percent(LEVEL)})"
     )
     more = (
@@ -218,7 +229,7 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f"noncentrality   {readable(found.noncentrality)}, of {readable(needed(found.surplus))} for"
         f" power {percent(POWER)}"
     )
-    yield f"power           {percent(found.power)}"
+    yield f"power           {chance(found.power)}"
     lines = max(FEWEST, ceil(found.factor * len(hertz)))
     yield f"needed for power {percent(POWER)}, one of:"
     yield f"  noise of a line at most {percent(typical(rival.rho) / sqrt(found.factor))}"
@@ -238,11 +249,11 @@ def _spectra(found: Plan, best: Designed) -> Iterator[str]:
         (f"  with crest {after:.2g}, at the peak of the first, {before:.2g}", best.at_equal_peak),
     ]
     width = max(len(name) for name, _ in rows)
-    yield f"{'excitation of the same power':{width}}  {'lambda':>8}  {'power':>7}  {'periods':>8}"
+    yield f"{'excitation of the same power':{width}}  {'lambda':>8}  {'power':>8}  {'periods':>8}"
     for name, size in rows:
         periods = f"{readable(needed(found.surplus) / size)}x"
-        reached = percent(power(size, found.surplus))
-        yield f"{name:{width}}  {readable(size):>8}  {reached:>7}  {periods:>8}"
+        reached = chance(power(size, found.surplus))
+        yield f"{name:{width}}  {readable(size):>8}  {reached:>8}  {periods:>8}"
     gap = best.optimum.bound / best.optimum.noncentrality - 1
     yield f"no spectrum of this power reaches more than {percent(gap)} beyond the optimal one"
     yield ""
