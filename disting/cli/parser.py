@@ -127,6 +127,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action="version", version=f"disting {__version__}")
+    top.set_defaults(grammar=top)  # a report has a reference of it
     groups = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     for add in (
         _add_models,

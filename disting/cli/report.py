@@ -70,7 +70,7 @@ def _catalogues(options: argparse.Namespace) -> None:
     with_dampers = [
         damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices
     ]
-    paths += write_report(catalogs, options.out, with_dampers)
+    paths += write_report(catalogs, options.out, with_dampers, options.grammar)
     for c in catalogs:
         relations = relations_in_words(v.relation for *_, v in c.pairs())
         print(
