@@ -24,7 +24,7 @@
   const weight = (entry, query, words) => {
     if (!words.every((word) => entry.text.includes(word))) return 0;
     const title = entry.low;
-    const start = title === query ? 400 : title.startsWith(query) ? 200 : title.split(/[^\w]+/).includes(query) ? 150 : title.includes(query) ? 100 : words.every((word) => title.includes(word)) ? 60 : 10;
+    const start = title === query ? 400 : title.split(/[^\w]+/).includes(query) ? 200 : title.startsWith(query) ? 150 : title.includes(query) ? 100 : words.every((word) => title.includes(word)) ? 60 : 10;
     return start - Math.min(title.length, 80) / 10;
   };
   const find = (text) => {
