@@ -23,6 +23,7 @@ from disting.verdict import Query, Relation, Verdict, View
 from disting.verdict.comparison import compare
 from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere
 from disting.verdict.proof import prove
+from disting.verdict.shown import shown
 
 FILE = ".json:"  # between a file and the name of a model in it
 MOST_TERMS = 30  # of a transfer function that is written out
@@ -206,7 +207,10 @@ def _explained(verdict: Verdict, drawn: list[str]) -> str:
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
     drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
-    lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
+    lines = [verdict.relation.upper(), "", *drawings, ""]
+    if verdict.evidence:
+        lines += [shown(verdict), ""]
+    lines.append(verdict.sentence)
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]
