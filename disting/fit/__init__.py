@@ -27,7 +27,7 @@ from disting.fit.designed import Designed as Designed
 from disting.fit.designed import designed as designed
 from disting.fit.estimate import Estimate as Estimate
 from disting.fit.estimate import Task as Task
-from disting.fit.estimate import estimates as estimates
+from disting.fit.exchange import estimates as estimates
 from disting.fit.explained import Explanation as Explanation
 from disting.fit.explained import Miss as Miss
 from disting.fit.export import predicted as predicted
