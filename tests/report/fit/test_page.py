@@ -11,8 +11,8 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
-from disting.fit.export import read_model, selection_to_dict
 from disting.fit.modes import physical
+from disting.fit.plain import read_model, selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
