@@ -32,7 +32,7 @@ from disting.fit.explained import Explanation
 from disting.fit.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.fit.judged import FOLDS, Candidate, judged
 from disting.fit.members import Member, members
-from disting.fit.plant import Real
+from disting.fit.plant import Complex, Real
 from disting.fit.practical import Thresholds
 from disting.fit.readings import Reading, readings
 from disting.fit.scatter import Scatter
@@ -139,12 +139,8 @@ def select(
     engine = engine or Engine(store=Store.none())
     alone = Cost(train, case, weights, lines(train) if lines else None)
     weighed = partial(joint_cost, alone, further, lines, alike)
-    task = Task(weighed(), sign or 1, bounds or {}, fixed or {}, seed)
-    task = task if sign else signed(task, candidates)
-    seen_by = pilot(task, candidates)
-    if isinstance(task.cost, JointCost):
-        parts = weighed(seen_by(task.cost)).parts
-        task = replace(task, cost=replace(task.cost, parts=parts))
+    asked = Task(weighed(), sign or 1, bounds or {}, fixed or {}, seed)
+    task, seen_by = _tried(asked if sign else signed(asked, candidates), candidates, weighed)
     within = limits_of(task.bounds, task.fixed)
     first = _representatives(candidates, task, engine, within, prune)
     wanted = [c for c in candidates if first[c] == c]
@@ -153,13 +149,12 @@ def select(
     )
     test_cost = judging_cost(task.cost, test, further, lines, alike, seen_by) if test else None
     limits = thresholds or Thresholds()
-    known = {c: found[c] for c in wanted}
-    fitted, seen = judged(known, task, test_cost, engine.settings)
+    fitted, seen = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
     fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
     chosen = choice(akaike_weighted(fitted, task), task.cost, test_cost or task.cost, seen, rule)
     said = chosen.explanation
     near = chosen.near if said.explains else ()
-    hopeless = not (said.explains or said.noisy or further)
+    misread = () if said.explains or said.noisy or further else chosen.candidates
     return Selection(
         selected=chosen.selected,
         candidates=chosen.candidates,
@@ -172,17 +167,26 @@ def select(
         rule=rule,
         explanation=said,
         members=members(near, task, test_cost, within, executor, progress),
-        readings=readings(
-            chosen.candidates, task, store=engine.store, executor=executor, progress=progress
-        )
-        if hopeless
-        else (),
+        readings=_readings(misread, task, engine.store, executor, progress),
         better=chosen.better,
         silent=tuple(silent),
         task=task,
         test=test or train,
         judging=test_cost or task.cost,
     )
+
+
+def _tried(
+    task: Task, candidates: Sequence[Chain], weighed: Callable[[Sequence[Complex]], AnyCost]
+) -> tuple[Task, Callable[[AnyCost], Sequence[Complex]]]:
+    """The task, its responses weighed by how their lines scatter about the best of a few candidates
+    (`pilot`), and what these look like at the lines of any cost.
+    """
+    seen_by = pilot(task, candidates)
+    if isinstance(task.cost, JointCost):
+        parts = weighed(seen_by(task.cost)).parts
+        task = replace(task, cost=replace(task.cost, parts=parts))
+    return task, seen_by
 
 
 def _representatives(
@@ -208,6 +212,19 @@ def _alternatives(
         return ()
     found = alternatives(selected.chain, candidates, engine, within)
     return alternatives_under_all(selected.chain, found, task.cost.setups, engine, within)
+
+
+def _readings(
+    candidates: Sequence[Candidate],
+    task: Task,
+    store: Store,
+    executor: Executor | None,
+    progress: Progress,
+) -> tuple[Reading, ...]:
+    """What the data would be where these candidates do not explain them."""
+    if not candidates:
+        return ()
+    return readings(candidates, task, store=store, executor=executor, progress=progress)
 
 
 def _check(
