@@ -20,6 +20,7 @@ from math import inf
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from disting.algebra.content import written
 from disting.errors import InputError
 from disting.fit.descent import Box, fine, rough
 from disting.fit.joint import AnyCost, AnyPlant
@@ -39,6 +40,7 @@ from disting.fit.starts import (
     stacked,
 )
 from disting.model.chain import Chain
+from disting.model.shown import summary
 from disting.store import Store
 from disting.store.code import digest
 from disting.verdict.engine import mapped
@@ -79,6 +81,9 @@ class Task:
             if not 0 < value < inf:
                 raise InputError(f"{name} is fixed to a positive number, not {value:g}")
 
+    def __repr__(self) -> str:
+        return summary(self, f"{self.cost!r}, sign {self.sign}")
+
     def plant(self, chain: Chain) -> AnyPlant:
         """The chain at the frequencies of the data."""
         return self.cost.plant(chain.structure, self.sign)
@@ -116,6 +121,10 @@ class Estimate:
     parameters: dict[str, float]
     j: float
     costs: tuple[float, ...] = ()
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.parameters.items())
+        return summary(self, f"J = {self.j:.4g}, {values}")
 
     @property
     def hit_rate(self) -> float:
@@ -363,13 +372,16 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
     texts = [
         digest(__name__),
         method,
-        repr(chain),
+        written(chain),
         *(part.measured.sensor.value for part in cost.parts),
-        *(repr((setup, len(p.measured))) for setup, p in zip(cost.setups, cost.parts, strict=True)),
-        repr((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
+        *(
+            written((setup, len(p.measured)))
+            for setup, p in zip(cost.setups, cost.parts, strict=True)
+        ),
+        written((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
     ]
-    texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
-    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
+    texts += [written(sorted(task.bounds.items())), written(sorted(task.fixed.items()))]
+    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=written)]
     return sha256(
         b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])
     ).hexdigest()
@@ -397,7 +409,7 @@ def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estim
 
 def _body(chain: Chain) -> tuple[int, str]:
     """Masses, springs and ports: what candidates that exchange their fits have in common."""
-    return chain.n_masses, repr(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+    return chain.n_masses, written(replace(chain, ground_dampers=(), lag=False, dead_time=False))
 
 
 def _stage(chain: Chain) -> tuple[int, str, int]:

@@ -24,6 +24,7 @@ from disting.fit.plant import Plant, Real
 from disting.fit.select import Selection
 from disting.fit.telling import suspicions
 from disting.model.chain import Chain, Sensor
+from disting.model.shown import plural, summary
 from disting.simulation import matrices, port_vectors
 
 if TYPE_CHECKING:
@@ -45,6 +46,11 @@ class StateSpace:
     C: Real
     D: Real
     delay: float
+
+    def __repr__(self) -> str:
+        return summary(
+            self, plural(len(self.A), "state") + f", dead time {self.delay:g} s" * bool(self.delay)
+        )
 
 
 def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:
