@@ -123,7 +123,7 @@ def test_lines_say_what_is_there(shown):
     assert repr(catalog(5)) == "<Catalog: chains-5-undamped, 73 models, 2628 pairs>"
     assert (
         lines["Verdict"]
-        == "<Verdict: A1 and A2 are distinguishable over positive parameters (bounded)>"
+        == "<Verdict: A1 and A2 are distinguishable over positive parameters (proven)>"
     )
     assert lines["Selection"] == "<Selection: 2:1+b1 of 24 candidates, 1 not excluded>"
     assert lines["FrequencyResponse"] == "<FrequencyResponse: 60 lines, 5 to 200 Hz, acceleration>"
