@@ -60,9 +60,9 @@ from disting.verdict.proof import prove as prove
 
 def _presenter() -> _Presenter:
     """What draws, imported when something is looked at: it stands above what it draws."""
-    from disting.report import notebook
+    from disting.report.notebook import Notebook
 
-    return notebook
+    return Notebook()
 
 
 _presented_by(_presenter)

@@ -209,7 +209,7 @@ class Catalog(Shown):
         """The matrix over positive parameters as a picture, with matplotlib; in a new figure where
         no axes are given. Returns the axes. Raises DistingError where matplotlib is missing.
         """
-        axes: Axes = self._presenter().plot(self, ax, {})
+        axes: Axes = self._presenter.plot(self, ax, {})
         return axes
 
     def models(self) -> "pd.DataFrame":

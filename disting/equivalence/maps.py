@@ -58,7 +58,7 @@ class Map:
         return {name: formula.value(point) for name, formula in self.formulas.items()}
 
     def _repr_latex_(self) -> str:
-        return f"$${self.latex}$$"
+        return self.latex  # an environment of its own: no dollar signs
 
     @property
     def python(self) -> str:

@@ -95,7 +95,7 @@ class Selection(Shown):
         """Bode diagram with matplotlib: the data on test, and the structures that they do not
         exclude, else the best one. `ax` and what is returned as in `FrequencyResponse.plot`.
         """
-        return tuple(self._presenter().plot(self, ax, {}))
+        return tuple(self._presenter.plot(self, ax, {}))
 
     @property
     def described(self) -> Candidate:

@@ -143,7 +143,7 @@ class FrequencyResponse(Shown):
         without them a new figure. `style` as `Axes.plot` takes it. Returns the axes. Raises
         DistingError where matplotlib is missing.
         """
-        return tuple(self._presenter().plot(self, ax, style))
+        return tuple(self._presenter.plot(self, ax, style))
 
     @property
     def frequency(self) -> Real:

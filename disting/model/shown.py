@@ -32,7 +32,11 @@ class Presented:
     """What a room above knows how to draw."""
 
     __slots__ = ()
-    _presenter: ClassVar[Callable[[], Presenter]]
+    _asked: ClassVar[Callable[[], Presenter]]
+
+    @property
+    def _presenter(self) -> Presenter:
+        return type(self)._asked()
 
 
 class Shown(Presented):
@@ -41,7 +45,7 @@ class Shown(Presented):
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        return self._presenter().html(self)
+        return self._presenter.html(self)
 
 
 class Drawn(Presented):
@@ -50,12 +54,12 @@ class Drawn(Presented):
     __slots__ = ()
 
     def _repr_svg_(self) -> str:
-        return self._presenter().svg(self)
+        return self._presenter.svg(self)
 
 
 def presented_by(presenter: Callable[[], Presenter]) -> None:
     """Name who draws; it is called when something is looked at, not before."""
-    Presented._presenter = staticmethod(presenter)
+    Presented._asked = staticmethod(presenter)
 
 
 def summary(of: object, text: str) -> str:

@@ -138,7 +138,7 @@ def test_what_users_write_is_escaped():
 def test_a_map_is_shown_as_a_formula():
     found = explicit_map(Chain(2), Chain(2, 1, 1, 2, 1, 2))
     assert found is not None
-    assert found._repr_latex_() == f"$${found.latex}$$" and "align" in found.latex
+    assert found._repr_latex_().startswith("\\begin{align}")
 
 
 def test_bode_diagrams_lie_on_new_axes_or_on_given_ones():

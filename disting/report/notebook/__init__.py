@@ -1,6 +1,6 @@
 """What a notebook shows of an object: a drawing, a table, a plot with matplotlib.
 
-The rooms below ask for it through `disting.model.shown.Presenter`, which this package is.
+The rooms below ask for it as `disting.model.shown.Presenter`, which `Notebook` is.
 """
 
 from collections.abc import Mapping
@@ -12,16 +12,17 @@ from disting.report.notebook.plots import drawn_on
 from disting.report.notebook.tables import table_of
 
 
-def html(shown: Any, /) -> str:
-    """The object as a piece of an HTML page; raises TypeError for what has none."""
-    return table_of(shown)
+class Notebook:
+    """Draws what a notebook asks for; it keeps nothing."""
 
+    def html(self, shown: Any, /) -> str:
+        """The object as a piece of an HTML page; raises TypeError for what has none."""
+        return table_of(shown)
 
-def svg(shown: Chain, /) -> str:
-    """The drawing of a chain on white paper, which is right in light and dark notebooks."""
-    return chain_svg(shown)
+    def svg(self, shown: Chain, /) -> str:
+        """The drawing of a chain on white paper, which is right in light and dark notebooks."""
+        return chain_svg(shown)
 
-
-def plot(shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
-    """The object on axes of matplotlib; raises TypeError for what has no plot."""
-    return drawn_on(shown, ax, style)
+    def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
+        """The object on axes of matplotlib; raises TypeError for what has no plot."""
+        return drawn_on(shown, ax, style)
