@@ -29,6 +29,7 @@ from disting.report.words import headline, plural, probability, title
 from disting.verdict import Decisions, Verdict
 from disting.verdict.further import Further
 from disting.verdict.further_words import anywhere, conclusion
+from disting.verdict.shown import shown as measured
 
 
 @singledispatch
@@ -51,7 +52,8 @@ def _verdict(shown: Verdict) -> str:
         (f"positive {shown.right}", _share(shown.right_positive, shown.left)),
         ("given up", "; ".join(shown.notes)),
     ]
-    return block(line(shown.sentence, bold=True), facts(rows))
+    seen = measured(shown)
+    return block(line(shown.sentence, bold=True), line(seen) if seen else "", facts(rows))
 
 
 def _inclusion(shown: Verdict, found: Inclusion) -> str:
