@@ -6,6 +6,8 @@ tell apart, with proof, and what else to measure then.
 'indistinguishable'
 """
 
+from types import ModuleType as _ModuleType
+
 from disting.algebra.certainty import Certainty as Certainty
 from disting.behaviour.expanded import transfer_function as transfer_function
 from disting.catalogs import Catalog as Catalog
@@ -36,6 +38,8 @@ from disting.model.chain import Sensor as Sensor
 from disting.model.domain import Domain as Domain
 from disting.model.family import Family as Family
 from disting.model.settings import Settings as Settings
+from disting.model.shown import Presenter as _Presenter
+from disting.model.shown import presented_by as _presented_by
 from disting.model.symmetry import Symmetry as Symmetry
 from disting.questions.identifiability import Identifiability as Identifiability
 from disting.questions.inclusion import Inclusion as Inclusion
@@ -52,3 +56,34 @@ from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
 from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.proof import prove as prove
+
+
+def _presenter() -> _Presenter:
+    """What draws, imported when something is looked at: it stands above what it draws."""
+    from disting.report.notebook import Notebook
+
+    return Notebook()
+
+
+_presented_by(_presenter)
+
+_ROOMS = ("fit", "measurement", "report", "simulation")  # beside the names above
+__all__ = sorted(
+    name
+    for name, value in globals().items()
+    if not name.startswith("_") and not isinstance(value, _ModuleType)
+)
+
+
+def __dir__() -> list[str]:
+    """What the Tab key offers: the public names, and the rooms that have names of their own."""
+    return [*__all__, *_ROOMS, "__version__"]
+
+
+def __getattr__(name: str) -> _ModuleType:
+    """A room, imported when it is named: `disting.fit` after `import disting`."""
+    if name not in _ROOMS:
+        raise AttributeError(f"disting has no {name}; dir(disting) lists what it has")
+    from importlib import import_module
+
+    return import_module(f"disting.{name}")

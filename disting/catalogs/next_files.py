@@ -22,6 +22,7 @@ from disting.errors import CatalogError
 from disting.experiments.menu import Costs, Gain, Kind
 from disting.files import intact_text, write_whole
 from disting.model.family import Family
+from disting.model.shown import plural, summary
 from disting.verdict import Engine, Progress, View, silent
 from disting.verdict.further import Further, further
 from disting.verdict.placed import NOT_KNOWN, TESTS, Placed
@@ -43,6 +44,10 @@ class NextCatalog:
 
     family: Family
     records: tuple[Record, ...]
+
+    def __repr__(self) -> str:
+        name = name_of(self.family.n_masses, self.family.damped)
+        return summary(self, f"{name}, {plural(len(self.groups), 'group')}")
 
     @property
     def groups(self) -> tuple[tuple[int, ...], ...]:

@@ -15,6 +15,7 @@ from disting.conditions import necessary, structural, sufficient
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.conditions.side import Side
+from disting.model.shown import summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +33,9 @@ class Necessary:
     check: Callable[[Profile, Profile], Finding]
     of_degrees: bool = False
 
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
+
 
 @dataclass(frozen=True, slots=True)
 class Sufficient:
@@ -42,6 +46,9 @@ class Sufficient:
     rule: Rule
     check: Callable[[Side, Side, Representation, int], Finding]
 
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
+
 
 @dataclass(frozen=True, slots=True)
 class Structural:
@@ -49,6 +56,9 @@ class Structural:
 
     rule: Rule
     check: Callable[[Side, Side], Finding]
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
 
 def _renaming(left: Side, right: Side, representation: Representation, count: int) -> Finding:

@@ -11,6 +11,7 @@ from typing import Any
 from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.model.shown import Shown, summary
 
 
 class Signs(StrEnum):
@@ -58,6 +59,10 @@ class Equivalent:
     free_choices: int = 0
     proven: bool = True
 
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.values.items())
+        return summary(self, f"{self.signs}, {values}")
+
     def to_dict(self) -> dict[str, Any]:
         """For JSON: values as text, exact ones as fractions."""
         return {
@@ -85,6 +90,9 @@ class Listing:
     complete: bool
     sentence: str
 
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
+
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
         return {
@@ -98,7 +106,7 @@ class Listing:
 
 
 @dataclass(frozen=True, slots=True)
-class Equivalents:
+class Equivalents(Shown):
     """The given model, its exact values, and a listing for each structure looked at.
 
     `proportional`: all of two or more springs have the same ratio k/d, which makes more structures
@@ -110,6 +118,10 @@ class Equivalents:
     values: dict[str, Fraction]
     listings: tuple[Listing, ...]
     proportional: bool = False
+
+    def __repr__(self) -> str:
+        there = ", ".join(listing.name for listing in self.listings if listing.members)
+        return summary(self, f"{len(self)} of {self.name}" + f" in {there}" * bool(there))
 
     def __iter__(self) -> Iterator[Equivalent]:
         members = [member for listing in self.listings for member in listing.members]

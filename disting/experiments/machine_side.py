@@ -11,6 +11,7 @@ from typing import Any
 
 from disting.algebra.certainty import weakest
 from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.content import written
 from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation, coefficients
@@ -86,7 +87,7 @@ class ComparedMachine:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on it depend on."""
-        return self.name, repr(self.measured)
+        return self.name, written(self.measured)
 
     @property
     def profiled(self) -> MeasuredChain:

@@ -33,6 +33,7 @@ from disting.fit.plant import Real
 from disting.fit.rival import Rival, Trust, fitted_rival
 from disting.model.chain import Chain
 from disting.model.settings import Settings
+from disting.model.shown import Shown, summary
 from disting.questions.identifiability.tangent import proof_tangents
 from disting.questions.inclusion import Inclusion
 from disting.verdict import Engine, Relation, Verdict
@@ -73,7 +74,7 @@ def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> flo
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class Plan(Shown):
     """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`
     where none was asked for.
     """
@@ -84,6 +85,10 @@ class Plan:
     verdict: Verdict | None
     surplus: int
     rival: Rival | None
+
+    def __repr__(self) -> str:
+        size = f", lambda {self.noncentrality:.3g}" * (self.noncentrality > 0)
+        return summary(self, f"{self.names[0]} against {self.names[1]}: {self.answer}{size}")
 
     @property
     def names(self) -> tuple[str, str]:

@@ -14,6 +14,7 @@ from functools import cached_property, partial
 from typing import Any
 
 from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.content import written
 from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
@@ -109,7 +110,7 @@ class ComparedModel:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on this model depend on."""
-        return self.name, repr(self.profiled)
+        return self.name, written(self.profiled)
 
     @property
     def profiled(self) -> Model:

@@ -32,13 +32,14 @@ from disting.general.spelled import text_of
 from disting.model.domain import Domain
 from disting.model.question import Question
 from disting.model.settings import Settings
+from disting.model.shown import Shown, summary
 
 CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
 SETTINGS = Settings()
 
 
 @dataclass(frozen=True, slots=True)
-class GlobalIdentifiability:
+class GlobalIdentifiability(Shown):
     """`count` of complex parameter vectors with one generic transfer function: None if infinite or
     not known.
 
@@ -52,6 +53,9 @@ class GlobalIdentifiability:
     is_infinite: bool
     unique: tuple[str, ...]
     combinations: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     @property
     def sentence(self) -> str:

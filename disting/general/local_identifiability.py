@@ -16,6 +16,7 @@ from disting.behaviour.sample import Representation, Sample
 from disting.general.model import Model
 from disting.general.samples import minor_size, samples
 from disting.model.settings import Settings
+from disting.model.shown import summary
 
 SETTINGS = Settings()
 
@@ -33,6 +34,11 @@ class LocalIdentifiability:
     identifiable: tuple[str, ...]
     certainty: Certainty
     safety: int
+
+    def __repr__(self) -> str:
+        known = f"{self.rank} of {len(self.parameters)} determinable"
+        names = f": {', '.join(self.identifiable)}" if self.identifiable else ""
+        return summary(self, known + names)
 
     @property
     def unidentifiable(self) -> tuple[str, ...]:

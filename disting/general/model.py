@@ -25,6 +25,7 @@ from disting.general.expression import tree
 from disting.general.response import response
 from disting.general.trees import LONGEST_NUMBER, Tree, names
 from disting.model.chain import Chain
+from disting.model.shown import Shown, plural, summary
 
 MOST_SYMBOLS = 300
 Terms = tuple[tuple[tuple[int, ...], int], ...]
@@ -34,7 +35,7 @@ lexicographic order.
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class Model(Shown):
     """A transfer function in lowest terms, made by `from_state_space`, `from_transfer_function` or
     `from_chain`.
 
@@ -50,6 +51,11 @@ class Model:
     numerator_terms: tuple[Terms, ...]
     denominator_terms: tuple[Terms, ...]
     name: str = field(default="model", compare=False)
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.name}, {plural(self.n_states, 'state')}, {', '.join(self.parameters)}"
+        )
 
     @staticmethod
     def from_state_space(

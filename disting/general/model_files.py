@@ -24,6 +24,7 @@ from disting.general.spelled import polynomial_text
 from disting.model.chain import Sensor
 from disting.model.family import Family
 from disting.model.names import chain_of
+from disting.model.shown import Shown, plural, summary
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -50,7 +51,7 @@ class _Number(str):
 
 
 @dataclass(frozen=True, slots=True)
-class ModelList:
+class ModelList(Shown):
     """Models with different names, in order."""
 
     models: tuple[Model, ...]
@@ -68,6 +69,12 @@ class ModelList:
             )
         if self.title:
             _refuse_name(self.title, "the title", LONGEST_TITLE)
+
+    def __repr__(self) -> str:
+        title = f"{self.title}, " if self.title else ""
+        return summary(
+            self, f"{title}{plural(len(self), 'model')}: {', '.join(m.name for m in self)}"
+        )
 
     def __len__(self) -> int:
         return len(self.models)

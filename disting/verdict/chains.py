@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.content import written
 from disting.algebra.sampling import prime
 from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import Profile, profile
@@ -98,7 +99,7 @@ class ComparedChain:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on this chain depend on."""
-        return self.name, repr(self.chain)
+        return self.name, written(self.chain)
 
     @property
     def profiled(self) -> Structure:

@@ -13,6 +13,7 @@ from concurrent.futures import Executor, Future, as_completed
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from disting.algebra.content import written
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
@@ -23,6 +24,7 @@ from disting.general.profiles import profile as general_profile
 from disting.model.chain import Chain
 from disting.model.question import Models, Question
 from disting.model.settings import Settings
+from disting.model.shown import summary
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
@@ -56,6 +58,9 @@ class Engine:
     store: Store = field(default_factory=lambda: Store.open(""))
     memo: dict[str, Profile] = field(default_factory=dict)
     answers: dict[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return summary(self, f"seed {self.settings.seed!r}, {self.store!r}")
 
     def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
@@ -114,7 +119,7 @@ class Engine:
         """
         if audited:
             return audit(left, right, query)
-        content = [*left.content, *right.content, repr(query), self.settings.to_dict()]
+        content = [*left.content, *right.content, written(query), self.settings.to_dict()]
         key = _key("verdict", *map(str, content))
         for text in self.store.get_many([key]).values():
             return Verdict.from_dict(json.loads(text))
@@ -192,7 +197,7 @@ class Engine:
         """Bring the profiles of these models into memory: from the store, the rest computed,
         each batch stored at once.
         """
-        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=repr)}
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=written)}
         self.memo |= self._stored([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
@@ -236,12 +241,12 @@ class Engine:
 
 def profile_key(what: Profiled, r: Representation, count: int, settings: Settings) -> str:
     """Content address of a profile."""
-    return _key("profile", repr(what), r.value, str(count), repr(settings))
+    return _key("profile", written(what), r.value, str(count), written(settings))
 
 
 def question_key(question: Question[Any], models: Models, settings: Settings) -> str:
     """Content address of an answer."""
-    return _key(question.name, *map(repr, models), repr(settings))
+    return _key(question.name, *map(written, models), written(settings))
 
 
 def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:

@@ -9,6 +9,7 @@ from enum import StrEnum
 from disting.errors import InputError
 from disting.experiments import Experiment, Named, Places, moved, named, ways
 from disting.model.chain import Chain
+from disting.model.shown import plural, summary
 from disting.verdict.comparison import NOT_CHAINS, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
@@ -31,6 +32,11 @@ class Everywhere:
     """The verdict of every way to place the experiments, the chains as they are included."""
 
     verdicts: tuple[tuple[Places, Verdict], ...]
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.answer}, {plural(len(self.verdicts), 'way')} to place the experiments"
+        )
 
     @property
     def answer(self) -> Answer:

@@ -37,6 +37,7 @@ from disting.experiments.menu import Gain, Item, Kind, gain, measured
 from disting.model.chain import Chain
 from disting.model.question import Question
 from disting.model.settings import Settings
+from disting.model.shown import plural, summary
 from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
@@ -82,6 +83,9 @@ class Placed:
     links: tuple[str, ...]
     open: frozenset[tuple[int, int]]
     safety: int
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.kind}, {plural(len(self.gains), 'place')}")
 
     @property
     def structures(self) -> int:

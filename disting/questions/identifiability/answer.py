@@ -7,6 +7,7 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.fibres.synthesis.result import Answer
+from disting.model.shown import Shown, summary
 from disting.questions.identifiability.as_json import decoded
 from disting.questions.identifiability.parts import (
     Alternative,
@@ -34,7 +35,7 @@ NUMBERS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Identifiability:
+class Identifiability(Shown):
     """Identifiability of one chain.
 
     `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the
@@ -73,6 +74,9 @@ class Identifiability:
                 "a chain is not identifiable exactly if its rank is smaller than the number of its"
                 " parameters"
             )
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     @property
     def sentence(self) -> str:
