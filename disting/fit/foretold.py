@@ -22,8 +22,7 @@ from math import inf, pi
 
 import numpy as np
 
-from disting.behaviour.transfer import touched
-from disting.experiments.experiment import Entry
+from disting.experiments import MeasuredChain
 from disting.experiments.menu import Gain, Item, Kind, gain, kinds
 from disting.fit.named import Left, Named, Values
 from disting.fit.plan import power, surplus
@@ -88,10 +87,10 @@ def shown(chain: Chain, values: Values, item: Item, bench: Bench) -> Complex | N
     """Response of a chain under an item of the menu, shape (n_f,); None where the sensor does not
     move.
     """
-    entry = Entry(chain.structure, item.experiment)
-    if not touched(entry):
+    machine = MeasuredChain(chain, (item.experiment,))
+    if machine.silent:
         return None
-    structure = replace(chain.structure, ports=entry.ports)
+    structure = replace(chain.structure, ports=machine.entries[0].ports)
     added = ((item.at, bench.inertia),) if item.kind is Kind.INERTIA else ()
     plant = Plant(structure, bench.omega, 1, item.experiment.locked, added)
     return plant.response(np.array([values[name] for name in chain.parameters]))
