@@ -29,10 +29,15 @@ def onward(
             f"{source} names its structures itself: leave other names and --damped away"
         )
     named = named_by(Path(source))
+    if len(named.left) < 2 and not named.explained:
+        raise InputError(
+            f"none of the structures of {source} explains its data, so the fit leaves no set: name"
+            " the structures to tell apart"
+        )
     if len(named.left) < 2:
         raise InputError(
             f"{source} leaves {named.left[0].name} alone: nothing to tell apart; what would exclude"
-            f" a structure that you name is told by 'disting plan'"
+            " a structure that you name is told by 'disting plan'"
         )
     _warn(source, named)
     known = stood(named.left, engine, progress)

@@ -92,6 +92,9 @@ def test_plain_data_says_what_the_numbers_are(path):
 def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):
     done = called("next", fit_file(tmp_path / "one.json", member(FREE, VALUES)))
     assert done.returncode == 2 and "leaves 3:1 alone: nothing to tell apart" in done.stderr
+    none = fit_file(tmp_path / "none.json", member(FREE, VALUES), explained=False, not_excluded=[])
+    done = called("next", none)
+    assert done.returncode == 2 and "explains its data, so the fit leaves no set" in done.stderr
 
 
 def test_several_responses_and_a_fit_that_explains_nothing_are_warned_of(tmp_path):
