@@ -23,7 +23,7 @@ def onward(
     progress: Progress,
 ) -> Onward:
     """All that is known of the structures that the named fit left; raises InputError."""
-    source = options.models[0]
+    source = next(name for name in options.models if name.lower().endswith(".json"))
     if len(options.models) > 1 or options.damped:
         raise InputError(
             f"{source} names its structures itself: leave other names and --damped away"

@@ -31,13 +31,15 @@ class Standing(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Stood:
-    """`classes`: structures, counted from 0, that are EQUAL, singles included; `rules`: what told
-    the first ones of two classes apart, "" where nothing did.
+    """`classes`: structures of one size, counted from 0, that are EQUAL, singles included; `rules`:
+    what told the first ones of two classes apart, "" where nothing did; `across`: pairs of classes
+    that are EQUAL though of two sizes.
     """
 
     left: tuple[Left, ...]
     classes: tuple[tuple[int, ...], ...]
     rules: dict[tuple[int, int], str]
+    across: frozenset[tuple[int, int]] = frozenset()
 
     @property
     def groups(self) -> tuple[tuple[int, ...], ...]:
@@ -47,7 +49,7 @@ class Stood:
     def standing(self, a: int, b: int) -> Standing:
         """Of two different structures."""
         one, other = self.left[a], self.left[b]
-        if self._class(a) == self._class(b):
+        if self._class(a) == self._class(b) or self._classes(a, b) in self.across:
             return Standing.EQUAL
         if one.chain in other.like or other.chain in one.like or set(one.like) & set(other.like):
             return Standing.TWIN
@@ -55,8 +57,11 @@ class Stood:
 
     def rule(self, a: int, b: int) -> str:
         """What tells two structures of different classes apart now; "" where nothing does."""
+        return self.rules[self._classes(a, b)]
+
+    def _classes(self, a: int, b: int) -> tuple[int, int]:
         low, high = sorted((self._class(a), self._class(b)))
-        return self.rules[low, high]
+        return low, high
 
     def _class(self, at: int) -> int:
         return next(k for k, members in enumerate(self.classes) if at in members)
@@ -68,6 +73,7 @@ def stood(left: Sequence[Left], engine: Engine, progress: Progress = silent) -> 
     query = Query(View.EXACT, inclusion=False)
     classes = list[list[int]]()
     rules: dict[tuple[int, int], str] = {}
+    across = set[tuple[int, int]]()
     for at, one in enumerate(left):
         progress("structures", at, len(left))
         found = {}
@@ -85,5 +91,10 @@ def stood(left: Sequence[Left], engine: Engine, progress: Progress = silent) -> 
                 else ""
                 for number, verdict in found.items()
             }
+            across |= {
+                (number, len(classes))
+                for number, verdict in found.items()
+                if verdict.relation is Relation.INDISTINGUISHABLE
+            }
             classes.append([at])
-    return Stood(tuple(left), tuple(map(tuple, classes)), rules)
+    return Stood(tuple(left), tuple(map(tuple, classes)), rules, frozenset(across))

@@ -1,6 +1,7 @@
 """What the structures that a fit left would show under further experiments."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -138,6 +139,8 @@ def test_what_noise_leaves_is_no_twin(left):
     assert found.classes == ((0, 2), (1,)) and found.groups == ((0, 2),)
     assert found.standing(0, 2) is Standing.EQUAL and found.standing(0, 1) is Standing.NOISE
     assert found.rule(1, 2) == found.rule(2, 1) == found.rule(0, 1) != ""
+    across = replace(found, across=frozenset({(0, 1)}))
+    assert across.standing(2, 1) is Standing.EQUAL and across.groups == found.groups
 
 
 def test_what_behaves_the_same_for_its_values_alone_is_a_twin(left):

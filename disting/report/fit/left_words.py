@@ -65,7 +65,7 @@ class Onward:
             if set(names) <= set(group.names):
                 here, there = map(group.names.index, names)
                 return group.answer(here, item, there) is Answer.SURELY
-        return True
+        return self.stood.standing(a, b) is not Standing.EQUAL
 
 
 def set_in_words(found: Onward) -> Iterator[str]:
