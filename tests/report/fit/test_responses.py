@@ -14,8 +14,7 @@ from disting.fit.modes import physical
 from disting.fit.select import select
 from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
-from disting.report.fit import fit_figures
-from disting.report.fit.residuals import missed, misses_of
+from disting.report.fit.residuals import missed, misses_of, residuals
 from disting.report.fit.responses import fits_of, responses, seen_alone, seen_together
 from disting.report.fit.selection_page import fit_page
 from disting.report.fit.words import fit_in_words
@@ -76,11 +75,11 @@ def test_a_range_that_one_response_misses_is_not_marked_in_another(joint):
 def test_the_page_shows_every_response(joint):
     selection, train, test = joint
     results = physical(selection.described, selection.task)
-    figures = fit_figures(selection, results, train, test)
-    first = ["bode", "residuals"]
-    further = [f"{what}-{k}" for k in (2, 3, 4) for what in first]
-    assert [figure.name for figure in figures[:8]] == [*first, *further]
+    further = residuals(selection, selection.task.cost.parts[1].measured, None, 1)
+    assert further.name == "residuals-2" and "sensor 2" in further.title
+    figures = [further] * 9  # two of each response, one beside them
     page = fit_page(selection, results, figures, train, test)
+    assert page.count('<figure class="panel">') == 9
     titles = re.findall(r'<h3 class="response" id="response-\d">(.*?)</h3>', page)
     assert titles == [
         "1: the first response",
