@@ -78,6 +78,8 @@ def _judged(selection: Selection, at: int) -> Scatter | None:
     data of its own for that.
     """
     cost, whole = selection.judging, selection.explanation.scatter
+    if len(selection.task.cost.setups) == 1:
+        return whole
     each = zip(cost.setups, cost.by_line(whole.rho), strict=True)
     setup = selection.task.cost.setups[at]
     return next((Scatter(rho, whole.source) for own, rho in each if own == setup), None)
