@@ -4,6 +4,7 @@ import argparse
 import csv
 import io
 import json
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 from disting.catalogs import catalog
@@ -14,7 +15,7 @@ from disting.cli.arguments import add_damped, add_masses, add_out, add_work
 from disting.cli.common import emitted, reference
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
-from disting.errors import InputError, listed
+from disting.errors import InputError, listed, printable
 from disting.experiments.menu import COSTS, Costs, Item
 from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
@@ -43,9 +44,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = (
         "structures (masses:number, as 'disting models' lists them; +b2, +lag, +delay as for"
         " 'compare') that one measurement cannot tell apart; of one, all those that cannot be told"
-        " from it"
+        " from it; or a file of 'disting fit --json': the structures that the fit left"
     )
-    parser.add_argument("models", nargs="+", metavar="N:I", help=text)
+    parser.add_argument("models", nargs="+", metavar="N:I|FIT.json", help=text)
     defaults = ",".join(f"{name}={cost:g}" for name, cost in COSTS.items())
     text = (
         "what the experiments cost, in any unit: a further sensor, a sensor or the force moved, a"
@@ -67,6 +68,8 @@ def run(options: argparse.Namespace) -> int:
             "one of --csv and --json can be standard output, not both: name a file for the other"
         )
     costs = Costs.read(options.cost)
+    if any(name.lower().endswith(".json") for name in options.models):
+        return _from_fit(options, costs)
     with engine_for(options) as (engine, pool, progress):
         group = _group(options, engine)
         if isinstance(group, str):
@@ -76,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
             group, engine, costs=costs, executor=pool, progress=progress
         )
     if options.csv:
-        emitted(options.csv, _csv(found))
+        emitted(options.csv, _table([CSV_COLUMNS, *rows(found)]))
     if options.json:
         emitted(options.json, json.dumps(to_dict(found), indent=1) + "\n")
     if "-" not in (options.csv, options.json):
@@ -84,8 +87,38 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
+    """Of the structures that a fit left; only here are the libraries of fits loaded."""
+    from disting.cli.next_fit import onward
+    from disting.report.fit.left_words import (
+        MEASURED_COLUMNS,
+        left_rows,
+        left_to_dict,
+        measured_in_words,
+        set_in_words,
+    )
+
+    with engine_for(options) as (engine, pool, progress):
+        found = onward(options, costs, engine, pool, progress)
+    if options.csv:
+        emitted(options.csv, _table([(*CSV_COLUMNS, *MEASURED_COLUMNS), *left_rows(found)]))
+    if options.json:
+        text = json.dumps(left_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False)
+        emitted(options.json, text + "\n")
+    if "-" not in (options.csv, options.json):
+        menus = (line for group in found.groups for line in ("", *_told(group)))
+        domain = ["", DOMAIN] if found.groups else []
+        lines = [*set_in_words(found), "", *measured_in_words(found), *domain, *menus]
+        print(printable("\n".join(lines)))
+    return 0
+
+
 def told(found: Further) -> str:
-    """The menu for each structure, cheapest first."""
+    """The menu for each structure, cheapest first, with what its words mean."""
+    return "\n".join(_told(found, ["", LEGEND, DOMAIN]))
+
+
+def _told(found: Further, words: Sequence[str] = ()) -> list[str]:
     width = max(map(len, found.names))
     drawings = [
         f"  {name:{width}}  {text_drawing(chain)}"
@@ -94,7 +127,7 @@ def told(found: Further) -> str:
     head = f"{len(found.names)} structures that the present force and sensor cannot tell apart:"
     enough = anywhere(found)
     told = [f"what tells all of them apart: {enough}"] if enough else []
-    lines = [head, *drawings, "", LEGEND, DOMAIN, *told]
+    lines = [head, *drawings, *words, *told]
     for structure, name in enumerate(found.names):
         lines += ["", f"if it is {name}:"]
         for kind in found.kinds:
@@ -102,7 +135,7 @@ def told(found: Further) -> str:
             for at in range(1, found.n_masses + 1):
                 lines.append(f"  {cost}  mass {at}: {in_words(found, structure, Item(kind, at))}")
         lines.append(f"  {conclusion(found, structure)}")
-    return "\n".join(lines)
+    return lines
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
@@ -123,9 +156,9 @@ def build(options: argparse.Namespace) -> int:
     return 0
 
 
-def _csv(found: Further) -> str:
+def _table(lines: Iterable[Sequence[str]]) -> str:
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([CSV_COLUMNS, *rows(found)])
+    csv.writer(text, lineterminator="\n").writerows(lines)
     return text.getvalue()
 
 

@@ -22,6 +22,7 @@ from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from math import sqrt
 from typing import Any
 
@@ -43,6 +44,7 @@ from disting.verdict.engine import Progress, silent
 LEVEL = 0.01  # probability of excluding a rival that is true
 POWER = 0.95  # wanted probability of excluding one that is not
 LARGEST = 1e6  # noncentrality that is looked for, at most
+REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
 
 class Answer(StrEnum):
@@ -188,6 +190,7 @@ def joined(model: Chain, rival: Chain) -> Chain | None:
     return found if same == other else None
 
 
+@lru_cache(maxsize=REMEMBERED)
 def _rank(chain: Chain, settings: Settings) -> int:
     tangents = proof_tangents(chain.structure, settings.seed, settings.points)
     return max(t.rank for t in tangents)

@@ -148,7 +148,7 @@ def model_list_page(
         compared=n_pairs,
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
         told=list(_told(found)) if n_pairs <= LISTED_PAIRS else [],
-        payload=payload(found, domains, VIEWS, names=names, next={}),
+        payload=payload(found, domains, VIEWS, names=names, next={}, sketches={}),
         site=site,
         guide=guide,
         plural=plural,
