@@ -153,6 +153,11 @@ def _add_models(groups: Groups) -> None:
         action="store_true",
         help="say for each model which parameters can be determined",
     )
+    text = (
+        "say it of the models as they are and measured also like this: sensor=3, lock=2 or"
+        " inertia=1:0.5; may be repeated"
+    )
+    p.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     _shared(p, damped=True, work=True)
 
 

@@ -14,7 +14,6 @@ from functools import cached_property, partial
 from typing import Any
 
 from disting.algebra.colouring import Colouring, colouring
-from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
@@ -25,10 +24,16 @@ from disting.evidence.general import Constants
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general.admissible import admissible_finding
-from disting.general.exact import exact_finding
+from disting.general.any_model import (
+    AnyModel,
+    columns_of,
+    constants_of,
+    is_renamed,
+    profile_of,
+    same,
+)
+from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
-from disting.general.profiles import profile, proven_constants
-from disting.general.renaming import is_renaming, products
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
@@ -37,11 +42,11 @@ from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 NOT_ASKED = "of general models only equality is asked for"
+SEVERAL = (
+    "of several inputs and outputs it is not known whether equivalents over complex parameters are"
+    " {}"
+)
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
-
-
-def _exactly(left: Model, right: Model, settings: Settings) -> Finding:
-    return exact_finding(left, right, settings.seed)
 
 
 def _over_real(left: Model, right: Model, settings: Settings) -> Finding:
@@ -52,9 +57,7 @@ def _over_positive(left: Model, right: Model, settings: Settings) -> Finding:
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
-EXACTLY = Question(
-    "exact decisions on general models", _exactly, finding_to_json, finding_from_json
-)
+EXACTLY = Question("exact decisions on general models", same, finding_to_json, finding_from_json)
 _admissible_from_json = partial(finding_from_json, rule=ADMISSIBLE)
 ADMISSIBLY = {
     Domain.REAL: Question(
@@ -67,7 +70,7 @@ ADMISSIBLY = {
         _admissible_from_json,
     ),
 }
-Profiles = Callable[[Model, Representation, int, Settings], Profile]
+Profiles = Callable[[AnyModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedModel", "ComparedModel"]
 
 
@@ -76,9 +79,9 @@ class ComparedModel:
     """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both."""
 
     name: str
-    model: Model
+    model: AnyModel
     settings: Settings = field(default_factory=Settings)
-    source: Profiles = profile
+    source: Profiles = profile_of
     answerer: Answerer = computed
     _known: dict[tuple[Representation, int], Profile] = field(
         default_factory=dict, init=False, repr=False, compare=False
@@ -112,7 +115,7 @@ class ComparedModel:
         return self.name, repr(self.profiled)
 
     @property
-    def profiled(self) -> Model:
+    def profiled(self) -> AnyModel:
         """The model without its name."""
         return replace(self.model, name="model")
 
@@ -127,10 +130,8 @@ class ComparedModel:
         return colouring(self.columns, ("",) * len(self.parameters))
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """Values and Jacobian columns of the coefficients times the leading one: no division, and
-        the same whichever sign the transfer function is written with.
-        """
-        return products(self.model, point, prime("renaming"))
+        """Values and Jacobian columns of functions that a renaming carries over."""
+        return columns_of(self.model, point)
 
     def symmetry_with(self, other: "ComparedModel") -> Renaming | None:
         """None: its class has no symmetries that are known beforehand."""
@@ -138,7 +139,7 @@ class ComparedModel:
 
     def is_renamed(self, other: "ComparedModel", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns this transfer function into the other: exact."""
-        return is_renaming(self.model, other.model, renaming)
+        return is_renamed(self.model, other.model, renaming)
 
     def exact(self, other: "ComparedModel") -> Finding:
         """The exact decision, for equal ranks and degrees."""
@@ -162,6 +163,8 @@ class ComparedModel:
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
+        if isinstance(self.model, MatrixModel) or isinstance(other.model, MatrixModel):
+            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=SEVERAL.format(domain))
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
         names = {LEFT: self.name, RIGHT: other.name}
         note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
@@ -191,7 +194,8 @@ class ComparedModel:
     @staticmethod
     def prepare_admissible(pairs: Sequence[Pair], domain: Domain, ask: Callable[..., Any]) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in pairs if not _renamed(a, b)])
+        single = [p for p in pairs if all(isinstance(side.model, Model) for side in p)]
+        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in single if not _renamed(a, b)])
 
     @staticmethod
     def all_inclusions(pairs: Sequence[Pair], ask: Callable[..., Any]) -> list[Inclusions]:
@@ -199,7 +203,7 @@ class ComparedModel:
         return [a.inclusions(b) for a, b in pairs]
 
 
-def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[Model, Model]:
+def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
     return replace(left.model, name=LEFT), replace(right.model, name=RIGHT)
 
 
@@ -212,11 +216,11 @@ def _renamed(left: ComparedModel, right: ComparedModel) -> bool:
     return left.colouring.fingerprint == right.colouring.fingerprint
 
 
-def _constants(left: Model, right: Model) -> Finding:
+def _constants(left: AnyModel, right: AnyModel) -> Finding:
     """Transfer functions without parameters: unequal numbers, known exactly, tell the models
     apart.
     """
-    values = [proven_constants(model, Representation.TF, 0) for model in (left, right)]
+    values = [constants_of(model) for model in (left, right)]
     differing = tuple(
         label for label, x in values[0].items() if label in values[1] and x != values[1][label]
     )

@@ -235,7 +235,8 @@ def test_what_is_shown_is_what_is_said(
 def test_what_is_quoted_of_identifiability_is_what_is_said() -> None:
     quoted = re.findall(r"^A\d+: .*", TEXTS["models.md"], re.MULTILINE)
     said = called("models", "3", "--damped", "--identifiability").stdout.splitlines()
-    assert len(quoted) == 2 and set(quoted) <= set(said)
+    also = called("models", "3", "--damped", "--also", "sensor=1").stdout.splitlines()
+    assert len(quoted) == 4 and set(quoted[:2]) <= set(said) and set(quoted[2:]) <= set(also)
 
 
 @pytest.fixture(scope="module")
