@@ -1,17 +1,21 @@
-"""disting models: the numbered list of one size."""
+"""disting models: the numbered list of one size, or what can be determined of a file's models."""
 
 import argparse
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
+from pathlib import Path
 
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
+from disting.general import read_models
+from disting.general.parameters import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
@@ -22,7 +26,9 @@ Found = Identifiability | ParameterIdentifiability
 
 
 def run(options: argparse.Namespace) -> int:
-    """List the models of one size."""
+    """List the models of one size, or of a file."""
+    if isinstance(options.masses, Path):
+        return _of_file(options.masses, options)
     family = Family(options.masses, options.damped)
     also = [_one_model(text) for text in options.also]
     with engine_for(options) as (engine, pool, progress):
@@ -51,6 +57,20 @@ def run(options: argparse.Namespace) -> int:
     if options.identifiability or also:
         for number, found in enumerate(known, 1):
             print(f"A{number}: {found.sentence}")
+    return 0
+
+
+def _of_file(path: Path, options: argparse.Namespace) -> int:
+    """Tell what can be determined of the models of a file."""
+    if options.also:
+        raise InputError("--also belongs to chains: a model of a file has no masses to name")
+    refuse_chain_options(options)
+    found = read_models(path)
+    asked = [(replace(model, name="model"),) for model in found]
+    with engine_for(options) as (engine, pool, progress):
+        engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
+        for model, question in zip(found, asked, strict=True):
+            print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")
     return 0
 
 

@@ -146,8 +146,10 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_models(groups: Groups) -> None:
-    p = _command(groups, "models", models.run, "the numbered list of all models of one size")
-    p.add_argument("masses", type=MASSES, metavar="N", help="number of masses")
+    text = "the numbered list of all models of one size, or your own models in a file"
+    p = _command(groups, "models", models.run, text)
+    text = "number of masses, or a file of models: what can be determined of each"
+    p.add_argument("masses", type=_size_or_file, metavar="N|FILE.json", help=text)
     p.add_argument(
         "--identifiability",
         action="store_true",

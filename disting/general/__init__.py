@@ -6,7 +6,6 @@ from disting.evidence.general import Witnesses as Witnesses
 from disting.general.admissible import confirms as confirms
 from disting.general.alternatives import Alternatives as Alternatives
 from disting.general.alternatives import alternatives as alternatives
-from disting.general.any_model import AnyModel as AnyModel
 from disting.general.compared import ComparedModel as ComparedModel
 from disting.general.equivalent import Equivalent as Equivalent
 from disting.general.fibre import Extent as Extent
@@ -16,6 +15,7 @@ from disting.general.global_identifiability import GlobalIdentifiability as Glob
 from disting.general.global_identifiability import global_identifiability as global_identifiability
 from disting.general.local_identifiability import LocalIdentifiability as LocalIdentifiability
 from disting.general.local_identifiability import local_identifiability as local_identifiability
+from disting.general.matrix_model import AnyModel as AnyModel
 from disting.general.matrix_model import MatrixModel as MatrixModel
 from disting.general.model import Model as Model
 from disting.general.model_files import ModelList as ModelList

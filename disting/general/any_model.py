@@ -1,27 +1,27 @@
 """What is asked of general models of either kind: with one input and output, or with several."""
 
-from disting.algebra.sampling import prime
+from disting.algebra.sampling import Size, enough, prime
 from disting.behaviour.profile import Profile
-from disting.behaviour.sample import Representation
+from disting.behaviour.sample import Representation, Sample
 from disting.conditions.finding import Finding
-from disting.fibres.ideals import decide_matched
+from disting.fibres.ideals import StackedMap, decide_matched
 from disting.general.exact import LIMITS, exact_finding
-from disting.general.matrix_model import MatrixModel
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.matrix_profiles import (
     Constants,
     matrix_constants,
     matrix_maps,
     matrix_products,
     matrix_profile,
+    matrix_samples,
+    stacked_size,
 )
 from disting.general.model import Model
 from disting.general.profiles import profile, proven_constants
 from disting.general.renaming import is_renaming, products
+from disting.general.samples import minor_size, samples
 from disting.model.settings import Settings
 from disting.questions.same.exact import decided
-
-AnyModel = Model | MatrixModel
-"""A general model."""
 
 
 def profile_of(
@@ -38,6 +38,27 @@ def constants_of(model: AnyModel) -> Constants:
     if isinstance(model, MatrixModel):
         return matrix_constants(model, Representation.TF, 0)
     return proven_constants(model, Representation.TF, 0)
+
+
+def samples_of(model: AnyModel, settings: Settings) -> tuple[list[Sample], Size]:
+    """Coefficients and their Jacobian at so many independent points as a bound needs, and the size
+    of the Jacobian's minors.
+    """
+    if isinstance(model, MatrixModel):
+        size = stacked_size(model, Representation.TF, 0)
+        points = enough(size, settings.points)
+        return list(matrix_samples(model, Representation.TF, 0, points, settings.seed)), size
+    size = minor_size(model, Representation.TF, 0)
+    points = enough(size, settings.points)
+    return list(samples(model, Representation.TF, 0, points, settings.seed)), size
+
+
+def map_of(model: AnyModel) -> StackedMap:
+    """The polynomial map of its coefficients, for its fibre in itself, in p1, p2, .."""
+    if isinstance(model, Model):
+        model = MatrixModel(model.parameters, ((model,),))
+    (found,) = matrix_maps(model)
+    return found
 
 
 def columns_of(model: AnyModel, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:

@@ -25,15 +25,13 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import (
-    AnyModel,
     columns_of,
     constants_of,
     is_renamed,
     profile_of,
     same,
 )
-from disting.general.matrix_model import MatrixModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
@@ -42,18 +40,14 @@ from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 NOT_ASKED = "of general models only equality is asked for"
-SEVERAL = (
-    "of several inputs and outputs it is not known whether equivalents over complex parameters are"
-    " {}"
-)
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
-def _over_real(left: Model, right: Model, settings: Settings) -> Finding:
+def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     return admissible_finding(left, right, Domain.REAL, settings.seed)
 
 
-def _over_positive(left: Model, right: Model, settings: Settings) -> Finding:
+def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
@@ -163,8 +157,6 @@ class ComparedModel:
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
-        if isinstance(self.model, MatrixModel) or isinstance(other.model, MatrixModel):
-            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=SEVERAL.format(domain))
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
         names = {LEFT: self.name, RIGHT: other.name}
         note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
@@ -194,8 +186,7 @@ class ComparedModel:
     @staticmethod
     def prepare_admissible(pairs: Sequence[Pair], domain: Domain, ask: Callable[..., Any]) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        single = [p for p in pairs if all(isinstance(side.model, Model) for side in p)]
-        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in single if not _renamed(a, b)])
+        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in pairs if not _renamed(a, b)])
 
     @staticmethod
     def all_inclusions(pairs: Sequence[Pair], ask: Callable[..., Any]) -> list[Inclusions]:

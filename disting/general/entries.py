@@ -90,7 +90,9 @@ def polynomial(side: object, variable: str) -> Tree:
 def rows_of(entries: object) -> list[list[Any]]:
     """The rows of a matrix of transfer functions as they are given; raises InputError."""
     if not _is_list(entries) or not all(map(_is_list, _listed(entries))):
-        raise InputError("a matrix of transfer functions is a list of rows, one for each output")
+        raise InputError(
+            'a matrix of transfer functions is a list of rows; coefficients are "num" and "den"'
+        )
     rows = [_listed(row) for row in _listed(entries)]
     if not rows or not rows[0] or any(len(row) != len(rows[0]) for row in rows):
         raise InputError("the rows of a matrix of transfer functions have equally many entries")

@@ -9,10 +9,8 @@ j has a smaller rank. With full column rank all are.
 from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, graded
-from disting.algebra.sampling import enough
-from disting.behaviour.sample import Representation
-from disting.general.model import Model
-from disting.general.samples import minor_size, samples
+from disting.general.any_model import samples_of
+from disting.general.matrix_model import AnyModel
 from disting.model.settings import Settings
 from disting.questions.identifiability import local
 
@@ -39,15 +37,15 @@ class LocalIdentifiability:
         return tuple(name for name in self.parameters if name not in self.identifiable)
 
 
-def local_identifiability(model: Model, settings: Settings = SETTINGS) -> LocalIdentifiability:
-    """Local identifiability of each parameter from the transfer function.
+def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> LocalIdentifiability:
+    """Local identifiability of each parameter from the transfer functions.
 
+    >>> from disting.general.model import Model
     >>> m = Model.from_transfer_function(["k"], ["a*b", "c"])
     >>> local_identifiability(m).identifiable, local_identifiability(m).rank
     ((), 2)
     """
-    size = minor_size(model, Representation.TF, 0)
-    seen = list(samples(model, Representation.TF, 0, enough(size, settings.points), settings.seed))
+    seen, size = samples_of(model, settings)
     found = local(model.parameters, seen, size)
     return LocalIdentifiability(
         model.parameters, found.rank, found.names, *graded(not found.safety, found.safety)

@@ -49,8 +49,8 @@ class MatrixModel:
             raise InputError(f"a matrix of transfer functions has {MOST_ENTRIES} entries at most")
         if not self.entries:
             raise InputError(
-                "all transfer functions are zero: no output depends on an input; mend B and C, or"
-                " leave the model away"
+                "the transfer function is zero: no output depends on an input; mend B, C or the"
+                " numerator, or leave the model away"
             )
 
     @staticmethod
@@ -120,6 +120,10 @@ class MatrixModel:
     def __str__(self) -> str:
         rows = (", ".join(_written(row)) for row in self.rows)
         return f"G(s) = [{', '.join(f'[{row}]' for row in rows)}]"
+
+
+AnyModel = Model | MatrixModel
+"""A general model."""
 
 
 def _written(row: tuple[Model | None, ...]) -> Iterator[str]:

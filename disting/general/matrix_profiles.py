@@ -16,6 +16,7 @@ from disting.behaviour.profile import Profile, from_samples, search_labels
 from disting.behaviour.sample import Representation, Sample
 from disting.behaviour.stacked import label, seen_degrees, shared_poles, stacked_rows
 from disting.errors import InputError
+from disting.fibres.ideals import Fraction as Ratio
 from disting.fibres.ideals import StackedMap, Terms, stacked_maps
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
@@ -107,12 +108,14 @@ def matrix_maps(*models: MatrixModel) -> tuple[StackedMap, ...]:
     return stacked_maps(names, [[_monic(f) for f in side] for side in sides])
 
 
-def _monic(sides: tuple[tuple[Terms, ...], tuple[Terms, ...]]) -> tuple[tuple[Terms, ...], ...]:
+def _monic(sides: Ratio) -> Ratio:
     """Both sides with the sign that makes a leading -1 a leading 1."""
     lead = sides[1][-1]
-    if len(lead) != 1 or lead[0][1] != -1:
-        return sides
-    return tuple(tuple(tuple((e, -c) for e, c in t) for t in side) for side in sides)
+    return (_negated(sides[0]), _negated(sides[1])) if lead[0][1] == -1 else sides
+
+
+def _negated(side: tuple[Terms, ...]) -> tuple[Terms, ...]:
+    return tuple(tuple((e, -c) for e, c in terms) for terms in side)
 
 
 def _differences(entry: Model, first: Model) -> Constants:

@@ -129,6 +129,11 @@ class Model:
         return len(self.denominator_terms) - 1
 
     @property
+    def entries(self) -> tuple["Model", ...]:
+        """Its one transfer function: as of a `MatrixModel` with several."""
+        return (self,)
+
+    @property
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
         return self.parameters, self.numerator_terms, self.denominator_terms

@@ -20,8 +20,7 @@ from typing import Any, NoReturn
 
 from disting.errors import InputError, listed, printable, shown
 from disting.files import write_whole
-from disting.general.any_model import AnyModel
-from disting.general.matrix_model import MatrixModel
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.spelled import polynomial_text
 from disting.model.chain import Sensor
@@ -171,7 +170,7 @@ def _model(entry: object, place: int, variable: str) -> AnyModel:
     return found
 
 
-def _of_kind(entry: Plain, name: str, variable: str) -> Model:
+def _of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
     kinds = [kind for kind in KINDS if kind in entry]
     if len(kinds) != 1:
         raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")

@@ -4,11 +4,8 @@ all, for any number of inputs and outputs.
 
 from dataclasses import replace
 
-from disting.algebra.sampling import enough
-from disting.behaviour.sample import Representation
-from disting.general.any_model import AnyModel
-from disting.general.matrix_model import MatrixModel
-from disting.general.matrix_profiles import matrix_maps, matrix_samples, stacked_size
+from disting.general.any_model import map_of, samples_of
+from disting.general.matrix_model import AnyModel
 from disting.model.question import Question
 from disting.model.settings import Settings
 from disting.questions.identifiability import (
@@ -23,17 +20,14 @@ from disting.questions.identifiability import (
 def parameter_identifiability(model: AnyModel, settings: Settings) -> ParameterIdentifiability:
     """Identifiability of each parameter from all transfer functions together.
 
+    >>> from disting.general.matrix_model import MatrixModel
     >>> model = MatrixModel.from_state_space([["-a-b", 0], ["a", "-c"]], [1, 0], [[1, 0], [0, 1]])
     >>> parameter_identifiability(model, Settings()).sentence
     '3 parameters, all globally identifiable.'
     """
-    matrix = model if isinstance(model, MatrixModel) else MatrixModel(model.parameters, ((model,),))
-    size = stacked_size(matrix, Representation.TF, 0)
-    points = enough(size, settings.points)
-    seen = list(matrix_samples(matrix, Representation.TF, 0, points, settings.seed))
-    (searched,) = matrix_maps(matrix)
+    seen, size = samples_of(model, settings)
     own = tuple(f"p{i + 1}" for i in range(len(model.parameters)))
-    found = by_parameter(own, local(own, seen, size), searched, settings)
+    found = by_parameter(own, local(own, seen, size), map_of(model), settings)
     return replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))
 
 

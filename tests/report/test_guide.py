@@ -225,8 +225,9 @@ def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
 def test_what_is_shown_is_what_is_said(
     page: str, command: str, output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for block in re.findall(r"^```json\n(.*?)^```", TEXTS[page], re.MULTILINE | re.DOTALL):
-        (tmp_path / "leaks.json").write_text(block, encoding="utf-8")
+    files = r"This is `(\w+\.json)`[^`]*^```json\n(.*?)^```"
+    for name, block in re.findall(files, TEXTS[page], re.MULTILINE | re.DOTALL):
+        (tmp_path / name).write_text(block, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     said = called(*shlex.split(command)[1:]).stdout
     assert said.rstrip("\n") == output.rstrip("\n"), page

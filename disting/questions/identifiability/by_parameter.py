@@ -58,7 +58,7 @@ class ParameterIdentifiability:
 
     def named(self, level: Level) -> tuple[str, ...]:
         """The parameters of this level."""
-        return tuple(name for name, found in self.levels.items() if found is level)
+        return tuple(name for name, found in self.levels.items() if found == level)
 
     @property
     def sentence(self) -> str:
