@@ -52,6 +52,10 @@ WORDS = [
     ((*CHAIN, "m1=nan,m2=2,m3=3,k12=1,k23=1"), "a number such as"),
     ((*CHAIN, "m1=1,m2=2,m3=3,k12=1e-300,k23=1"), "choose other units"),
     ((*CHAIN, "m1=1,m2=2,m3=3,k12=1,k23=" + "9" * 100), "choose other units"),
+    (
+        ("equivalents", "3:2", "--to", "3:5", "--formulas", "--also", "sensor=2"),
+        "leave one of them away",
+    ),
     (("equivalents", "99:1", "--to", "3:1", "--set", "m1=1"), "at most 40 masses"),
     (("simulate", "--seed", "-1"), "at least 0"),
     (("simulate", "--quantum", "nan"), "finite and not negative"),
