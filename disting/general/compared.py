@@ -99,6 +99,15 @@ class ComparedModel:
         return
 
     @property
+    def n_elements(self) -> None:
+        """It has none."""
+        return
+
+    def part_of(self, other: "ComparedModel") -> None:
+        """No elements can be missing."""
+        return
+
+    @property
     def n_states(self) -> int:
         """Order of the transfer function."""
         return self.model.n_states

@@ -86,6 +86,15 @@ class ComparedChain:
         return self.chain.structure
 
     @property
+    def n_elements(self) -> int:
+        """Number of masses, springs and dampers."""
+        return len(self.chain.structure.elements)
+
+    def part_of(self, other: "ComparedChain") -> dict[int, int] | None:
+        """The numbering under which it is the other one with elements missing."""
+        return next(self.chain.structure.embeddings(other.chain.structure), None)
+
+    @property
     def n_states(self) -> int:
         """Order of the transfer function."""
         return self.chain.structure.n_states

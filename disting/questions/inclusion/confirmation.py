@@ -13,6 +13,7 @@ from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
+    MissingElements,
     Outside,
     RelativeDegrees,
     RowsInside,
@@ -47,6 +48,10 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
         case Counts():
             small, large = ordered(evidence.left, evidence.right, left_is_smaller)
             return degrees_refute(small, large) and fresh.confirms(evidence, "tf", a, b)
+        case MissingElements():
+            part, whole = (a, b) if evidence.left_is_part else (b, a)
+            found = part.structure.embeddings(whole.structure)
+            return evidence.left_is_part == left_is_smaller and dict(evidence.numbering) in found
         case LargerProjection():
             here, there = ordered(evidence.left, evidence.right, left_is_smaller)
             return here > there and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
