@@ -41,6 +41,9 @@ class Side(Protocol):
     def profile(self, representation: Representation, count: int) -> Profile:
         """What it reveals in a representation, with so many Markov parameters."""
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The same, perhaps without its dependences, which are the dear part of it."""
+
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
         """Values and Jacobian columns, at a point, of functions that a renaming carries into those
         of the other side, modulo one prime for all models.

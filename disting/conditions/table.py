@@ -31,6 +31,7 @@ class Necessary:
     grade: Callable[[Profile, Profile], Grade]
     check: Callable[[Profile, Profile], Finding]
     of_degrees: bool = False
+    of_dependences: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +73,9 @@ NECESSARY = (
     ),
     Necessary(_n.FORM, _n.symbolic_form, _n.form_grade, _n.condition_3),
     Necessary(_n.RANK, _n.generic_rank, _n.rank_grade, _n.condition_4),
-    Necessary(_n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5),
+    Necessary(
+        _n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5, of_dependences=True
+    ),
 )
 SUFFICIENT = (
     Sufficient(sufficient.RENAMING, _renaming),

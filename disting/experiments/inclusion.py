@@ -46,8 +46,8 @@ def inclusions_under(
 
 
 def numbering(part: MeasuredChain, whole: MeasuredChain) -> dict[int, int] | None:
-    """Masses of the whole for those of the part, such that all elements and all experiments of the
-    part are there; None if there are none.
+    """Masses of the whole, which has more elements, for those of the part, such that all elements
+    and all experiments of the part are there; None if there are none.
 
     >>> from disting.experiments.experiment import Experiment
     >>> from disting.model.chain import Chain
@@ -61,7 +61,10 @@ def numbering(part: MeasuredChain, whole: MeasuredChain) -> dict[int, int] | Non
 
 def numberings(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, int]]:
     """Yield all such numberings."""
-    found = part.chain.structure.embeddings(whole.chain.structure)
+    mine, theirs = part.chain.structure, whole.chain.structure
+    if len(mine.elements) >= len(theirs.elements):
+        return iter(())
+    found = mine.embeddings(theirs)
     return (places for places in found if _keeps(places, part, whole))
 
 

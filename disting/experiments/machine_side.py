@@ -72,6 +72,19 @@ class ComparedMachine:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """What they reveal but for dependences, unless these are known: a stacked summary has many
+        more rows than parameters, so their search costs more than all else.
+        """
+        if (representation, count) in self._known:
+            return self._known[representation, count]
+        return self._sketch_of(self.measured, representation, count)
+
+    def _sketch_of(
+        self, measured: MeasuredChain, representation: Representation, count: int
+    ) -> Profile:
+        return self.source(measured, representation, count, replace(self.settings, subset_limit=0))
+
     @property
     def parameters(self) -> tuple[str, ...]:
         """Names of the parameters."""
@@ -111,7 +124,7 @@ class ComparedMachine:
     @property
     def rank(self) -> int:
         """Number of parameters that all experiments together determine."""
-        return self.profile(Representation.TF, 0).rank
+        return self.sketch(Representation.TF, 0).rank
 
     @cached_property
     def colouring(self) -> Colouring:
@@ -137,7 +150,7 @@ class ComparedMachine:
 
     def exact(self, other: "ComparedMachine") -> Finding:
         """The exact decision, for equal ranks and degrees."""
-        one, there = (side.profile(Representation.TF, 0) for side in (self, other))
+        one, there = (side.sketch(Representation.TF, 0) for side in (self, other))
         if not _comparable(self, other):
             return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
         found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
@@ -163,8 +176,8 @@ class ComparedMachine:
         """For unequal ranks: limits, where missing elements or one experiment settle it."""
 
         def profile_of(measured: MeasuredChain) -> Profile:
-            """That of the coefficients."""
-            return self.source(measured, Representation.TF, 0, self.settings)
+            """That of the coefficients, without dependences."""
+            return self._sketch_of(measured, Representation.TF, 0)
 
         return inclusions_under(self.measured, other.measured, profile_of)
 
@@ -198,6 +211,6 @@ class ComparedMachine:
 
 
 def _comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
-    one, other = (side.profile(Representation.TF, 0) for side in (left, right))
+    one, other = (side.sketch(Representation.TF, 0) for side in (left, right))
     times = (side.measured.chain.dead_time for side in (left, right))
     return one.rank == other.rank > 0 and one.degrees == other.degrees and len(set(times)) == 1

@@ -7,6 +7,7 @@ itself.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from math import ceil, log2
 
 from disting.algebra.quotient import Quotient
@@ -22,6 +23,7 @@ from disting.model.settings import Settings
 # of one component of the matroid: stacked summaries have many more rows than parameters, and what
 # condition 5 would say after seconds a list of one fibre says in tenths of them
 MOST_SUBSETS = 300_000
+REMEMBERED = 64  # points: of a few verdicts, for a sketch and the profile that may follow it
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +71,7 @@ def _pairs(measured: MeasuredChain) -> list[tuple[int, int]]:
     return [shape(entry).degrees for entry in measured.entries]
 
 
+@lru_cache(maxsize=REMEMBERED)
 def drawn(measured: MeasuredChain, label: str, bits: int) -> Drawn:
     """The point and the prime that the label stands for; points at which a degree is smaller are
     drawn again (see `behaviour.sample`).

@@ -88,6 +88,10 @@ class ComparedModel:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The profile: it costs little."""
+        return self.profile(representation, count)
+
     @property
     def parameters(self) -> tuple[str, ...]:
         """Names of the parameters."""
