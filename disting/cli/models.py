@@ -9,6 +9,7 @@ from pathlib import Path
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.arguments import add_damped, add_work, size_or_file
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError
@@ -23,6 +24,24 @@ from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
 Found = Identifiability | ParameterIdentifiability
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    text = "number of masses, or a file of models: what can be determined of each"
+    parser.add_argument("masses", type=size_or_file, metavar="N|FILE.json", help=text)
+    parser.add_argument(
+        "--identifiability",
+        action="store_true",
+        help="say for each model which parameters can be determined",
+    )
+    text = (
+        "say it of the models as they are and measured also like this: sensor=3, lock=2 or"
+        " inertia=1:0.5; may be repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    add_damped(parser)
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:
