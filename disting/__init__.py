@@ -26,6 +26,7 @@ from disting.errors import InputError as InputError
 from disting.experiments import Experiment as Experiment
 from disting.files import __version__ as __version__
 from disting.general import Alternatives as Alternatives
+from disting.general import MatrixModel as MatrixModel
 from disting.general import Model as Model
 from disting.general import ModelList as ModelList
 from disting.general import alternatives as alternatives
@@ -42,6 +43,8 @@ from disting.model.shown import Presenter as _Presenter
 from disting.model.shown import presented_by as _presented_by
 from disting.model.symmetry import Symmetry as Symmetry
 from disting.questions.identifiability import Identifiability as Identifiability
+from disting.questions.identifiability import Level as Level
+from disting.questions.identifiability import ParameterIdentifiability as ParameterIdentifiability
 from disting.questions.inclusion import Inclusion as Inclusion
 from disting.store import CacheWarning as CacheWarning
 from disting.store import Store as Store
@@ -55,6 +58,7 @@ from disting.verdict import View as View
 from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
 from disting.verdict.everywhere import compare_everywhere as compare_everywhere
+from disting.verdict.identifiable import identifiability as identifiability
 from disting.verdict.proof import prove as prove
 
 

@@ -1,43 +1,64 @@
-"""disting models: the numbered list of one size."""
+"""disting models: the numbered list of one size, or what can be determined of a file's models."""
 
 import argparse
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
+from pathlib import Path
 
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.arguments import MASSES, add_damped, add_work
+from disting.cli.arguments import add_damped, add_work, size_or_file
+from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
+from disting.errors import InputError
+from disting.experiments import Experiment, MeasuredChain, named
+from disting.experiments.identifiable import IDENTIFIABLE
+from disting.general import read_models
+from disting.general.parameters import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
-from disting.questions.identifiability import Identifiability, Level
+from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
 from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
+Found = Identifiability | ParameterIdentifiability
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    parser.add_argument("masses", type=MASSES, metavar="N", help="number of masses")
+    text = "number of masses, or a file of models: what can be determined of each"
+    parser.add_argument("masses", type=size_or_file, metavar="N|FILE.json", help=text)
     parser.add_argument(
         "--identifiability",
         action="store_true",
         help="say for each model which parameters can be determined",
     )
+    text = (
+        "say it of the models as they are and measured also like this: sensor=3, lock=2 or"
+        " inertia=1:0.5; may be repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     add_damped(parser)
     add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:
-    """List the models of one size."""
+    """List the models of one size, or of a file."""
+    if isinstance(options.masses, Path):
+        return _of_file(options.masses, options)
     family = Family(options.masses, options.damped)
+    also = [_one_model(text) for text in options.also]
     with engine_for(options) as (engine, pool, progress):
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
         profiles = plain.profiles_of(family, executor=pool, progress=progress)
-        known = _identifiabilities(family, engine, pool, progress, options.identifiability)
+        known: Sequence[Found] = (
+            _under_experiments(family, also, engine, pool, progress)
+            if also
+            else _identifiabilities(family, engine, pool, progress, options.identifiability)
+        )
     print(_table(family, profiles, known), end="")
     for gap in sorted({chain.gap for chain in family}):
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
@@ -47,15 +68,32 @@ def run(options: argparse.Namespace) -> int:
         "1 identifiable, ∞ not, ? not known"
         + f", {NOT_ASKED} not asked (--identifiability asks)" * (not known)
     )
-    print(f"sets = parameter sets, real or complex, with the same behaviour: {said}")
+    where = " in all experiments" if also else ""
+    print(f"sets = parameter sets, real or complex, with the same behaviour{where}: {said}")
     print(LEGEND)
-    if options.identifiability:
+    for number, experiment in enumerate([Experiment(), *also], 1) if also else ():
+        print(f"experiment {number}  {experiment.text}")
+    if options.identifiability or also:
         for number, found in enumerate(known, 1):
             print(f"A{number}: {found.sentence}")
     return 0
 
 
-def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifiability]) -> str:
+def _of_file(path: Path, options: argparse.Namespace) -> int:
+    """Tell what can be determined of the models of a file."""
+    if options.also:
+        raise InputError("--also belongs to chains: a model of a file has no masses to name")
+    refuse_chain_options(options)
+    found = read_models(path)
+    asked = [(replace(model, name="model"),) for model in found]
+    with engine_for(options) as (engine, pool, progress):
+        engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
+        for model, question in zip(found, asked, strict=True):
+            print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")
+    return 0
+
+
+def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Found]) -> str:
     """A line a model: its number, indices, degrees, ranks and drawing."""
     from rich.console import Console
     from rich.table import Table
@@ -75,8 +113,10 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifi
         "drawing",
     )
     table = Table(*names, box=None)
+    ranks = [found.rank for found in known] or [profile.rank for profile in profiles]
     sets = [_sets(found) for found in known] or [NOT_ASKED] * len(family)
-    for number, (chain, profile, count) in enumerate(zip(family, profiles, sets, strict=True), 1):
+    rows = zip(family, profiles, ranks, sets, strict=True)
+    for number, (chain, profile, rank, count) in enumerate(rows, 1):
         n, m = profile.degrees
         numbers = (
             number,
@@ -84,7 +124,7 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifi
             f"{n}/{m}",
             len(profile.form),
             profile.n_parameters,
-            profile.rank,
+            rank,
         )
         table.add_row(*map(str, numbers), count, text_drawing(chain).replace("[", r"\["))
     console = Console(highlight=False)
@@ -109,7 +149,29 @@ def _identifiabilities(
     )
 
 
-def _sets(found: Identifiability) -> str:
+def _one_model(text: str) -> Experiment:
+    """The experiment of an option that names masses of one model; raises InputError."""
+    found = named(text)
+    if found.places:
+        raise InputError(f"{text} names masses of two models: write {text.partition('/')[0]} alone")
+    return found.experiment
+
+
+def _under_experiments(
+    family: Family,
+    also: Sequence[Experiment],
+    engine: Engine,
+    pool: Executor | None,
+    progress: Progress,
+) -> list[ParameterIdentifiability]:
+    """What the chains as they are and these experiments determine together."""
+    experiments = tuple(dict.fromkeys([Experiment(), *also]))
+    asked = [(MeasuredChain(chain, experiments),) for chain in family]
+    engine.answer_all(IDENTIFIABLE, asked, executor=pool, progress=progress)
+    return [engine.answer(IDENTIFIABLE, measured, engine.settings) for measured in asked]
+
+
+def _sets(found: Found) -> str:
     """How many parameter sets have one behaviour."""
     if found.level is Level.NOT:
         return "∞"

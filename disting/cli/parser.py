@@ -135,7 +135,7 @@ CACHE = Group(
 COMMANDS = (
     Command(
         "models",
-        "the numbered list of all models of one size",
+        "the numbered list of all models of one size, or your own models in a file",
         models.run,
         models.add_arguments,
     ),

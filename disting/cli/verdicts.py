@@ -30,6 +30,7 @@ from disting.model.chain import Chain, Sensor
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.compared import Compared
+from disting.verdict.comparison import refuse_ports
 from disting.verdict.engine import Engine
 from disting.verdict.proof import prove_all
 
@@ -94,7 +95,7 @@ def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
         raise InputError(
             '--damped belongs to numbered chains: write "damped": true at the chains of the file'
         )
-    if options.sensor != Sensor.ACCELERATION:
+    if getattr(options, "sensor", Sensor.ACCELERATION) != Sensor.ACCELERATION:
         raise InputError(
             '--sensor belongs to numbered chains: write "sensor" at the chains of the file'
         )
@@ -108,6 +109,7 @@ def list_of(path: Path) -> ModelList:
     found = read_models(path)
     if len(found) < 2:
         raise InputError(f"{path} has one model: there is nothing to compare; add another one")
+    refuse_ports(found.models)
     return found
 
 

@@ -32,6 +32,7 @@ class Necessary:
     grade: Callable[[Profile, Profile], Grade]
     check: Callable[[Profile, Profile], Finding]
     of_degrees: bool = False
+    of_dependences: bool = False
 
     def __repr__(self) -> str:
         return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
@@ -82,7 +83,9 @@ NECESSARY = (
     ),
     Necessary(_n.FORM, _n.symbolic_form, _n.form_grade, _n.condition_3),
     Necessary(_n.RANK, _n.generic_rank, _n.rank_grade, _n.condition_4),
-    Necessary(_n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5),
+    Necessary(
+        _n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5, of_dependences=True
+    ),
 )
 SUFFICIENT = (
     Sufficient(sufficient.RENAMING, _renaming),

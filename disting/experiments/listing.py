@@ -95,26 +95,35 @@ def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Fi
     return None
 
 
-def lists(given: MeasuredChain, searched: MeasuredChain, seed: str) -> Iterator[Listed]:
-    """Yield lists at random points, one for each experiment that can be listed."""
+def lists(
+    given: MeasuredChain, searched: MeasuredChain, seed: str, *, confirm: bool = False
+) -> Iterator[Listed]:
+    """Yield lists at random points, one for each experiment that can be listed; `confirm` has
+    solutions tested for being simple.
+    """
     for at, _, _ in listable(given, searched):
         for draw in range(DRAWS):
             label = about(f"synthesis:{seed}:{draw}", given, searched)
             values = rational_point(given.chain, label, point_bits(searched.chain))
-            listed = listed_at(given, searched, at, values)
+            listed = listed_at(given, searched, at, values, confirm=confirm)
             if listed is not None:
                 yield listed
                 break
 
 
 def listed_at(
-    given: MeasuredChain, searched: MeasuredChain, at: int, values: dict[str, fmpq]
+    given: MeasuredChain,
+    searched: MeasuredChain,
+    at: int,
+    values: dict[str, fmpq],
+    *,
+    confirm: bool = False,
 ) -> Listed | None:
     """All solutions of one experiment at a point; None for an infinite or an open list."""
     one, other = given.alone(at), searched.alone(at)
     if one is None or other is None:
         return None
-    found = fibre(other, target(one.structure, values), confirm=False)
+    found = fibre(other, target(one.structure, values), confirm=confirm)
     whole = found.status in (Status.COMPLETE, Status.EMPTY)
     if not whole or found.tests.boundary or found.tests.uncovered:
         return None

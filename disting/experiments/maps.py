@@ -1,87 +1,36 @@
 """All transfer functions of a measured chain as one polynomial map, for the ideal of its fibre.
 
 With w_i = 1/m_i, f = 1/T1 and the other parameters as they are, row i of A(s) times w_i is monic
-in s where no inertia is added, and so are the denominators: equal transfer functions have equal
-coefficients. Determinants and minors are linear in each mass, so a polynomial in the new
-unknowns is the old one with the exponents of m_i turned, e -> 1 - e; the map is birational, which
-leaves the closure of the image as it is. A denominator that is not monic takes one more unknown, a
-common factor of all polynomials of its experiments (they are those of one fraction N_1 : N_2 : ..
-: D only up to it). Parameters that occur in no entry are left out.
+in s where no inertia is added, and so are the denominators. Determinants and minors are linear in
+each mass, so a polynomial in the new unknowns is the old one with the exponents of m_i turned, e
+-> 1 - e; the map is birational, which leaves the closure of the image as it is. One map of all
+fractions is made by `fibres.ideals.stacked`.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from itertools import groupby
+from functools import lru_cache
 
 from flint import fmpz_mpoly
 
-from disting.algebra.sampling import digest
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.experiments.polynomials import expanded, shape
-from disting.fibres.ideals import Terms
+from disting.fibres.ideals import Fraction, StackedMap, Terms, stacked_maps
 
 REMEMBERED = 256
-Fraction = tuple[tuple[Terms, ...], tuple[Terms, ...]]
-"""Coefficients of numerator and denominator."""
 
 
-@dataclass(frozen=True)
-class StackedMap:
-    """Parameters -> coefficients of all transfer functions, one after the other."""
-
-    parameters: tuple[str, ...]
-    coordinates: tuple[Terms, ...]
-
-    @cached_property
-    def content(self) -> str:
-        """A digest of all that tells two maps apart."""
-        return digest(self.parameters, self.coordinates)
-
-    def __hash__(self) -> int:
-        return hash(self.content)
+def stacked_map(measured: MeasuredChain) -> StackedMap:
+    """The map of one measured chain, for its fibre in itself."""
+    return matched(measured, measured)[0]
 
 
 def matched(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap]:
     """Both maps, of equal degrees, in a form in which equal transfer functions are equal
-    coordinates: entries share a denominator where they do on both sides.
+    coordinates.
     """
     sides = [[_fraction(e) for e in m.entries if shape(e).numerator] for m in (left, right)]
-    shared = [(a[1], b[1]) for a, b in zip(*sides, strict=True)]
-    order = sorted(range(len(shared)), key=lambda i: shared.index(shared[i]))
-    groups = [list(g) for _, g in groupby(order, key=lambda i: shared.index(shared[i]))]
-    monic = [all(_is_one(side[g[0]][1][-1]) for side in sides) for g in groups]
-    return tuple(  # type: ignore[return-value]
-        _stacked(m, side, groups, monic) for m, side in zip((left, right), sides, strict=True)
-    )
-
-
-def _stacked(
-    measured: MeasuredChain,
-    fractions: Sequence[Fraction],
-    groups: Sequence[Sequence[int]],
-    monic: Sequence[bool],
-) -> StackedMap:
-    names = measured.chain.parameters
-    scales = [f"scale{k + 1}" for k, is_monic in enumerate(monic) if not is_monic]
-    coordinates: list[Terms] = []
-    at = 0
-    for group, is_monic in zip(groups, monic, strict=True):
-        whole = [*(c for i in group for c in fractions[i][0]), *fractions[group[0]][1]]
-        factor = [0] * len(scales)
-        if not is_monic:
-            factor[at], at = 1, at + 1
-        kept = whole[:-1] if is_monic else whole
-        coordinates += [tuple(((*e, *factor), c) for e, c in terms) for terms in kept]
-    used = sorted({j for terms in coordinates for e, _ in terms for j, x in enumerate(e) if x})
-    return StackedMap(
-        tuple([*names, *scales][j] for j in used),
-        tuple(tuple((tuple(e[j] for j in used), c) for e, c in terms) for terms in coordinates),
-    )
-
-
-def _is_one(terms: Terms) -> bool:
-    return len(terms) == 1 and terms[0][1] == 1 and not any(terms[0][0])
+    found = stacked_maps([m.chain.parameters for m in (left, right)], sides)
+    return found[0], found[1]
 
 
 @lru_cache(maxsize=REMEMBERED)

@@ -207,7 +207,12 @@ def _step(
         case Necessary() if representation in SUMMARIES:
             r = Representation(representation)
             n = count if r is Representation.MARKOV else 0
-            yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
+            sides = (
+                (left.profile(r, n), right.profile(r, n))
+                if condition.of_dependences
+                else (left.sketch(r, n), right.sketch(r, n))
+            )
+            yield Step(representation, condition.check(*sides))
         case Sufficient() if representation in SUMMARIES:
             r = Representation(representation)
             yield Step(

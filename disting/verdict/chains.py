@@ -76,6 +76,10 @@ class ComparedChain:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The profile: it costs little."""
+        return self.profile(representation, count)
+
     @property
     def transfer_profile(self) -> Profile:
         """That of the transfer function."""
@@ -90,6 +94,15 @@ class ComparedChain:
     def structure(self) -> Structure:
         """Masses, springs and dampers."""
         return self.chain.structure
+
+    @property
+    def n_elements(self) -> int:
+        """Number of masses, springs and dampers."""
+        return len(self.chain.structure.elements)
+
+    def part_of(self, other: "ComparedChain") -> dict[int, int] | None:
+        """The numbering under which it is the other one with elements missing."""
+        return next(self.chain.structure.embeddings(other.chain.structure), None)
 
     @property
     def n_states(self) -> int:

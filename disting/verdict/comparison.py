@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
-from disting.general import Model
+from disting.general import AnyModel, MatrixModel, Model
 from disting.model.chain import Chain
 from disting.model.family import name_of
 from disting.verdict.cascade import Step, steps
@@ -18,8 +18,8 @@ NOT_CHAINS = "experiments are on chains: a general model has no masses to measur
 
 
 def compare(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
     *,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
     query: Query | None = None,
@@ -29,7 +29,7 @@ def compare(
     """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store
     once it is there).
 
-    General models (`Model`) are compared likewise, with each other or with chains.
+    General models (`Model`, `MatrixModel`) are compared likewise, with each other or with chains.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
@@ -55,8 +55,8 @@ def compare(
 
 
 def findings(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
     *,
     query: Query | None = None,
     engine: Engine | None = None,
@@ -71,15 +71,15 @@ def findings(
 
 
 def _measured(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
     query: Query,
     audit: bool,
     engine: Engine,
 ) -> Verdict:
     """The verdict under experiments, with what is to be known of those that tell nothing."""
-    if isinstance(left, Model) or isinstance(right, Model):
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
         raise InputError(NOT_CHAINS)
     pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
     chains = zip((left, right), zip(*pairs, strict=True), strict=True)
@@ -99,10 +99,13 @@ def _measured(
     return replace(found, notes=(*found.notes, *notes))
 
 
-def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[Compared, Compared]:
+def _sides(
+    left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
+) -> tuple[Compared, Compared]:
     """Two chains as chains, whatever else as two general models; by two names."""
-    if isinstance(left, Model) or isinstance(right, Model):
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
         models = [_model(left), _model(right)]
+        refuse_ports(models)
         names = [m.name for m in models]
         if names[0] == names[1]:
             names = [f"{names[0]} 1", f"{names[1]} 2"]
@@ -115,7 +118,17 @@ def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[C
     return engine.subject(names[0], left), engine.subject(names[1], right)
 
 
-def _model(given: Chain | Model) -> Model:
-    if isinstance(given, Model):
+def refuse_ports(models: Sequence[AnyModel]) -> None:
+    """Raises InputError for models of which not all have the same inputs and outputs."""
+    shapes = {m.shape if isinstance(m, MatrixModel) else (1, 1): m.name for m in models}
+    if len(shapes) > 1:
+        told = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
+        raise InputError(
+            f"models are compared that have the same outputs and inputs: {' and '.join(told)}"
+        )
+
+
+def _model(given: Chain | AnyModel) -> AnyModel:
+    if not isinstance(given, Chain):
         return given
     return Model.from_chain(given, name=name_of(given, short=False))

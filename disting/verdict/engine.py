@@ -19,8 +19,8 @@ from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.stacked_profiles import profile as measured_profile
-from disting.general import ComparedModel, Model
-from disting.general.profiles import profile as general_profile
+from disting.general import AnyModel, ComparedModel, MatrixModel, Model
+from disting.general.any_model import profile_of as general_profile
 from disting.model.chain import Chain
 from disting.model.question import Models, Question
 from disting.model.settings import Settings
@@ -72,7 +72,7 @@ class Engine:
             answerer=self.answer,
         )
 
-    def general_subject(self, name: str, model: Model) -> ComparedModel:
+    def general_subject(self, name: str, model: AnyModel) -> ComparedModel:
         """The same for a general model."""
         return ComparedModel(
             name=name,
@@ -251,7 +251,7 @@ def question_key(question: Question[Any], models: Models, settings: Settings) ->
 
 def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:
     """The profile of a chain's structure, of a general model or of a chain under experiments."""
-    if isinstance(what, Model):
+    if isinstance(what, Model | MatrixModel):
         return general_profile(what, r, count, settings)
     if isinstance(what, MeasuredChain):
         return measured_profile(what, r, count, settings)

@@ -236,7 +236,8 @@ def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
 def test_what_is_quoted_of_identifiability_is_what_is_said() -> None:
     quoted = re.findall(r"^A\d+: .*", TEXTS["models.md"], re.MULTILINE)
     said = called("models", "3", "--damped", "--identifiability").stdout.splitlines()
-    assert len(quoted) == 2 and set(quoted) <= set(said)
+    also = called("models", "3", "--damped", "--also", "sensor=1").stdout.splitlines()
+    assert len(quoted) == 4 and set(quoted[:2]) <= set(said) and set(quoted[2:]) <= set(also)
 
 
 @pytest.fixture(scope="module")

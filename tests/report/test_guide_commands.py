@@ -67,9 +67,9 @@ def test_what_holds() -> None:
 def test_what_is_shown_is_what_is_said(
     page: str, command: str, output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for kind, content in blocks(TEXTS[page]):
-        if kind == "json":
-            (tmp_path / "leaks.json").write_text(content, encoding="utf-8")
+    files = r"This is `(\w+\.json)`[^`]*^```json\n(.*?)^```"
+    for name, content in re.findall(files, TEXTS[page], re.MULTILINE | re.DOTALL):
+        (tmp_path / name).write_text(content, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     said = called(*shlex.split(command)[1:]).stdout
     assert holds(said, output), (page, said)

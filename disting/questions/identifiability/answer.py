@@ -84,6 +84,18 @@ class Identifiability(Shown):
         return _sentence(self)
 
     @property
+    def freedom(self) -> int:
+        """Dimension of a generic fibre: so many parameters may be chosen freely."""
+        return len(self.parameters) - self.rank
+
+    @property
+    def levels(self) -> dict[str, Level]:
+        """By parameter: GLOBAL, LOCAL, NOT, or UNKNOWN where it is local and maybe more."""
+        of = {Answer.YES: Level.GLOBAL, Answer.NO: Level.LOCAL, Answer.UNKNOWN: Level.UNKNOWN}
+        singles = {c.text: of[c.unique] for c in self.singles}
+        return {name: singles.get(name, Level.NOT) for name in self.parameters}
+
+    @property
     def combinations(self) -> tuple[str, ...]:
         """The basis as text: k01/m1."""
         return tuple(c.text for c in self.basis)
