@@ -4,6 +4,9 @@ every mass of every structure against every mass of every other one.
 A spot is a mass of a structure at which the experiment is made. As in `grouping`, no pair is
 looked at where a bucket decides:
 
+0. A spot is looked at as the standard form of its machine (`equal_machines`): a force moved is a
+   sensor moved in the machine with force and sensor exchanged, so both kinds share their work,
+   and spots of one standard form are the same by a renaming.
 1. A spot where the experiment repeats what is known, or where the sensor never moves, needs no
    profile: two such spots are alike because their structures are, and one that repeats is unlike
    one that is proven to show something new.
@@ -22,7 +25,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from math import ceil, log2
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
@@ -31,6 +34,7 @@ from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING, condition_6, condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
+from disting.experiments.equal_machines import standard
 from disting.experiments.exact_under import LIMITS, by_ideals
 from disting.experiments.listing import by_list
 from disting.experiments.menu import Gain, Item, Kind, gain, measured
@@ -45,7 +49,8 @@ from disting.verdict.result import Relation
 Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
-QUICK = replace(LIMITS, entries=300_000)
+SHARED = 10  # bits: a table rests on up to a thousand findings, and says nothing below LEAST_SAFETY
+QUICK = replace(LIMITS, entries=300_000, safety=LEAST_SAFETY + SHARED)
 """A matrix takes less than a second: there are hundreds of pairs."""
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
@@ -197,11 +202,13 @@ class _Work:
         """Only what is gained is known."""
         n = chains[0].n_masses
         sides, gains, firsts = [], [], []
+        known: dict[MeasuredChain, ComparedMachine] = {}
         for number, chain in enumerate(chains):
             for i in range(1, n + 1):
                 item = Item(kind, i)
                 name = f"structure {number}, mass {i}"
-                sides.append(engine.measured_subject(name, measured(chain, item)))
+                form = standard(measured(chain, item))
+                sides.append(known.setdefault(form, engine.measured_subject(name, form)))
                 found = gain(chain, item)
                 gains.append(found or Gain.NEW)
                 firsts.append(NOT_KNOWN if found is None else list(Gain).index(found))
@@ -249,9 +256,12 @@ class _Work:
                     self.unite(bucket[0], s, FREE_CHOICE.name)
                     continue
                 first = prints.setdefault(self.sides[s].colouring.fingerprint, s)
-                found = condition_6(self.sides[first], self.sides[s], True) if first != s else None
-                if found is not None and found.outcome is Outcome.HOLDS:
+                if first != s and self._is_renamed(first, s):
                     self.unite(first, s, RENAMING.name)
+
+    def _is_renamed(self, first: int, s: int) -> bool:
+        here, there = self.sides[first], self.sides[s]
+        return here is there or condition_6(here, there, True).outcome is Outcome.HOLDS
 
     def decide(
         self, profiles: dict[int, Profile], executor: Executor | None, progress: Progress
@@ -260,7 +270,7 @@ class _Work:
         rounds = self.asked(s for s, g in enumerate(self.gains) if g is Gain.NEW)
         while rounds:
             pairs = [(bucket[0], s) for bucket in rounds for s in bucket[1:]]
-            models = {(a, b): (self.sides[a].measured, self.sides[b].measured) for a, b in pairs}
+            models = {(a, b): self._asked(a, b) for a, b in pairs}
             self.engine.answer_all(
                 QUICKLY, list(models.values()), executor=executor, progress=progress
             )
@@ -275,6 +285,11 @@ class _Work:
                     self.safeties.append(found.safety)
             rest = [[s for s in bucket[1:] if self.root(s) == s] for bucket in rounds]
             rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
+
+    def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
+        """Both machines, in an order that does not depend on that of the structures."""
+        here, there = sorted((self.sides[s].measured for s in (a, b)), key=repr)
+        return here, there
 
     def _members(self, roots: Iterable[int]) -> list[int]:
         chosen = set(roots)
