@@ -51,27 +51,27 @@ def _order(measured: MeasuredChain) -> tuple[object, ...]:
 
 
 def _exchanged(measured: MeasuredChain) -> MeasuredChain:
-    chain = measured.chain
-    ports = {
-        "act_minus": chain.meas_minus,
-        "act_plus": chain.meas_plus,
-        "meas_minus": chain.act_minus,
-        "meas_plus": chain.act_plus,
-    }
+    given = measured.chain
+    chain = replace(
+        given,
+        act_minus=given.meas_minus,
+        act_plus=given.meas_plus,
+        meas_minus=given.act_minus,
+        meas_plus=given.act_plus,
+    )
     moved = (replace(e, force=e.sensor, sensor=e.force) for e in measured.experiments)
-    return MeasuredChain(replace(chain, **ports), tuple(moved))
+    return MeasuredChain(chain, tuple(moved))
 
 
 def _reflected(measured: MeasuredChain) -> MeasuredChain:
-    chain = measured.chain
-    ports = {
-        "act_plus": _fold(chain, chain.act_plus),
-        "meas_plus": _fold(chain, chain.meas_plus),
-        "ground_dampers": tuple(_fold(chain, i) for i in chain.ground_dampers),
-    }
-    return MeasuredChain(
-        replace(chain, **ports), tuple(_folded(chain, e) for e in measured.experiments)
+    given = measured.chain
+    chain = replace(
+        given,
+        act_plus=_fold(given, given.act_plus),
+        meas_plus=_fold(given, given.meas_plus),
+        ground_dampers=tuple(_fold(given, i) for i in given.ground_dampers),
     )
+    return MeasuredChain(chain, tuple(_folded(given, e) for e in measured.experiments))
 
 
 def _folded(chain: Chain, experiment: Experiment) -> Experiment:

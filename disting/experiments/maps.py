@@ -38,10 +38,13 @@ Fraction = tuple[tuple[Terms, ...], tuple[Terms, ...]]
 
 @dataclass(frozen=True)
 class StackedMap:
-    """Parameters -> coefficients of all transfer functions, one after the other."""
+    """Parameters -> coefficients of all transfer functions, one after the other; `parts`: how many
+    coordinates each numerator, each denominator has.
+    """
 
     parameters: tuple[str, ...]
     coordinates: tuple[Terms, ...]
+    parts: tuple[int, ...]
 
     @cached_property
     def content(self) -> str:
@@ -77,48 +80,51 @@ def _stacked(
 ) -> StackedMap:
     names = measured.chain.parameters
     scales = [f"scale{k + 1}" for k, is_monic in enumerate(monic) if not is_monic]
-    coordinates: list[Terms] = []
+    parts: list[list[Terms]] = []
     at = 0
     for group, is_monic in zip(groups, monic, strict=True):
-        whole = [*(c for i in group for c in fractions[i][0]), *fractions[group[0]][1]]
+        denominator = fractions[group[0]][1]
+        whole = [*(fractions[i][0] for i in group), denominator[:-1] if is_monic else denominator]
         factor = [0] * len(scales)
         if not is_monic:
             factor[at], at = 1, at + 1
-        kept = whole[:-1] if is_monic else whole
-        coordinates += [tuple(((*e, *factor), c) for e, c in terms) for terms in kept]
-    return _of_used([*names, *scales], coordinates)
+        parts += [[tuple(((*e, *factor), c) for e, c in terms) for terms in each] for each in whole]
+    return _of_parts([*names, *scales], parts)
 
 
 def _by_mass(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap] | None:
     """Both maps as (w, c0, c1), where the second experiment is the first one with an inertia."""
     here, there = _split(left), _split(right)
-    if (
-        here is None
-        or there is None
-        or (here.kind, len(here.parts))
-        != (
-            there.kind,
-            len(there.parts),
-        )
-    ):
+    if here is None or there is None or here.kind != there.kind:
         return None
-    pairs = list(zip(here.parts, there.parts, strict=True))
-    if not any(not (a or c) and b and d for (a, b), (c, d) in pairs):
+    numerators = zip(here.parts[0], here.parts[1], there.parts[0], there.parts[1], strict=True)
+    if not any(b and d and not (a or c) for a, b, c, d in numerators):
         return None
-    seen = [(k, i) for k, (a, b) in enumerate(pairs) for i in (0, 1) if a[i] or b[i]]
+    seen = [
+        [k for k, pair in enumerate(zip(*part, strict=True)) if any(pair)]
+        for part in zip(here.parts, there.parts, strict=True)
+    ]
     return tuple(  # type: ignore[return-value]
-        _of_used(m.chain.parameters, [split.inverse_mass, *(split.parts[k][i] for k, i in seen)])
+        _of_parts(
+            m.chain.parameters,
+            [
+                [split.inverse_mass],
+                *([part[k] for k in kept] for part, kept in zip(split.parts, seen, strict=True)),
+            ],
+        )
         for m, split in ((left, here), (right, there))
     )
 
 
 @dataclass(frozen=True, slots=True)
 class _Split:
-    """w, and (c0, c1) of all coefficients; `kind`: the inertia's size, the numerator's length."""
+    """w, and c0 and c1 of the numerator, c0 and c1 of the denominator; `kind`: the inertia's size
+    and how many coefficients there are.
+    """
 
     kind: tuple[object, ...]
     inverse_mass: Terms
-    parts: tuple[tuple[Terms, Terms], ...]
+    parts: tuple[tuple[Terms, ...], ...]
 
 
 def _split(measured: MeasuredChain) -> _Split | None:
@@ -126,9 +132,7 @@ def _split(measured: MeasuredChain) -> _Split | None:
     if len(measured.experiments) != 2:
         return None
     first, second = measured.experiments
-    if any(first.changes) or len(second.inertias) != 1:
-        return None
-    if replace(second, inertias=()) != first:
+    if any(first.changes) or len(second.inertias) != 1 or replace(second, inertias=()) != first:
         return None
     ((mass, size),) = second.inertias
     num, den = _fraction(measured.entries[0])
@@ -136,24 +140,26 @@ def _split(measured: MeasuredChain) -> _Split | None:
         return None
     names = measured.chain.parameters
     at = names.index(f"m{mass}")
-    parts = tuple(_by_power_of(c, at) for c in (*num, *den[:-1]))
+    parts = tuple(
+        tuple(_factor(c, at, power) for c in side) for side in (num, den[:-1]) for power in (0, 1)
+    )
     one = tuple(int(k == at) for k in range(len(names)))
-    return _Split((size, len(num)), ((one, 1),), parts)
+    return _Split((size, len(num), len(den)), ((one, 1),), parts)
 
 
-def _by_power_of(terms: Terms, at: int) -> tuple[Terms, Terms]:
-    """c0 and c1 of c0 + c1 w, w the unknown at a position."""
-    without = tuple((e, c) for e, c in terms if not e[at])
-    factor = tuple(((*e[:at], 0, *e[at + 1 :]), c) for e, c in terms if e[at])
-    return without, factor
+def _factor(terms: Terms, at: int, power: int) -> Terms:
+    """What stands beside this power of the unknown at a position."""
+    return tuple(((*e[:at], 0, *e[at + 1 :]), c) for e, c in terms if e[at] == power)
 
 
-def _of_used(names: Sequence[str], coordinates: Sequence[Terms]) -> StackedMap:
+def _of_parts(names: Sequence[str], parts: Sequence[Sequence[Terms]]) -> StackedMap:
     """The map in those of the parameters that occur in it."""
+    coordinates = [terms for part in parts for terms in part]
     used = sorted({j for terms in coordinates for e, _ in terms for j, x in enumerate(e) if x})
     return StackedMap(
         tuple(names[j] for j in used),
         tuple(tuple((tuple(e[j] for j in used), c) for e, c in terms) for terms in coordinates),
+        tuple(map(len, parts)),
     )
 
 

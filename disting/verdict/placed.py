@@ -38,6 +38,8 @@ from disting.experiments.equal_machines import standard
 from disting.experiments.exact_under import LIMITS, by_ideals
 from disting.experiments.listing import by_list
 from disting.experiments.menu import Gain, Item, Kind, gain, measured
+from disting.experiments.part_ranks import by_parts
+from disting.experiments.same_rows import same_by_rows
 from disting.model.chain import Chain
 from disting.model.question import Question
 from disting.model.settings import Settings
@@ -50,8 +52,8 @@ Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
 SHARED = 10  # bits: a table rests on up to a thousand findings, and says nothing below LEAST_SAFETY
-QUICK = replace(LIMITS, entries=300_000, safety=LEAST_SAFETY + SHARED)
-"""A matrix takes less than a second: there are hundreds of pairs."""
+QUICK = replace(LIMITS, entries=1_000_000, safety=LEAST_SAFETY + SHARED)
+"""A matrix takes a second or two: there are hundreds of pairs."""
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
 NOT_KNOWN = -1
@@ -59,7 +61,11 @@ NOT_KNOWN = -1
 
 def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
     """The exact decision within limits that are soon reached."""
-    found = by_list(left, right, settings)
+    if same_by_rows(left, right):
+        return Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN)
+    found = by_list(left, right, settings, shared=True)
+    if found is None:
+        found = by_parts(left, right, settings)
     return by_ideals(left, right, settings, QUICK) if found is None else found
 
 
