@@ -1,5 +1,5 @@
 """What to measure next as files, shipped for the groups of indistinguishable structures of 2 to
-4 masses.
+5 masses.
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
 measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
@@ -27,7 +27,7 @@ from disting.verdict.further import Further, further
 from disting.verdict.placed import NOT_KNOWN, TESTS, Placed
 
 SCHEMA = 1
-SHIPPED_SIZES = (2, 3, 4)
+SHIPPED_SIZES = (2, 3, 4, 5)
 COMMAND = "disting catalog next"
 LETTERS = {g.value[0]: g for g in Gain}
 
