@@ -25,24 +25,18 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from math import ceil, log2
 
-from disting.algebra.certainty import LEAST_SAFETY, Certainty
+from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
+from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING, condition_6, condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.equal_machines import standard
-from disting.experiments.exact_under import LIMITS, by_ideals
-from disting.experiments.listing import by_list
+from disting.experiments.exact_under import QUICKLY
 from disting.experiments.menu import Gain, Item, Kind, gain, measured
-from disting.experiments.part_ranks import by_parts
-from disting.experiments.same_rows import same_by_rows
 from disting.model.chain import Chain
-from disting.model.question import Question
-from disting.model.settings import Settings
 from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
@@ -51,27 +45,9 @@ from disting.verdict.result import Relation
 Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
-SHARED = 10  # bits: a table rests on up to a thousand findings, and says nothing below LEAST_SAFETY
-QUICK = replace(LIMITS, entries=1_000_000, safety=LEAST_SAFETY + SHARED)
-"""A matrix takes a second or two: there are hundreds of pairs."""
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
 NOT_KNOWN = -1
-
-
-def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
-    """The exact decision within limits that are soon reached."""
-    if same_by_rows(left, right):
-        return Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN)
-    found = by_list(left, right, settings, shared=True)
-    if found is None:
-        found = by_parts(left, right, settings)
-    return by_ideals(left, right, settings, QUICK) if found is None else found
-
-
-QUICKLY = Question(
-    "exact decisions under experiments, quickly", quick_finding, finding_to_json, finding_from_json
-)
 
 
 @dataclass(frozen=True)
