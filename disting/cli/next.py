@@ -112,7 +112,8 @@ def build(options: argparse.Namespace) -> int:
         for n in options.masses or NEXT_SIZES:
             for damped in (False, True):
                 stored: list[Catalog | DamperFamily] = [catalog(n, damped=damped)]
-                stored += [damper_catalog(n, damped=damped)] * (n in WITH_DAMPERS)
+                if n in WITH_DAMPERS:
+                    stored.append(damper_catalog(n, damped=damped))
                 for one in stored:
                     text = build_next(one, engine, executor=pool, progress=progress)
                     print(write(text, options.out))

@@ -365,7 +365,7 @@ def _add_catalog(groups: Groups) -> None:
     text = "compute what to measure next for all groups that one measurement cannot tell apart"
     q = _command(actions, "next", next.build, text)
     q.add_argument(
-        "masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses (default: 2 3 4)"
+        "masses", type=MASSES, nargs="*", metavar="N", help="numbers of masses (default: 2 to 5)"
     )
     q.add_argument(
         "--out",
