@@ -104,8 +104,9 @@ class NextCatalog:
             return None
         if at not in self._read:
             self._read[at] = _further(self, self.records[at])
-        group = self.groups[at - 1]
-        found = self._read[at].only([group.index(m) for m in numbers])
+        group, found = self.groups[at - 1], self._read[at]
+        if tuple(numbers) != group:
+            found = found.only([group.index(m) for m in numbers])
         return replace(found, costs=costs or Costs())
 
 
