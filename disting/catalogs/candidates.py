@@ -23,8 +23,8 @@ from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
+from disting.model.family import name_of
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
-from disting.verdict.comparison import name_of
 
 SCHEMA = 1
 FILE = "candidates.jsonl"

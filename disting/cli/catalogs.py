@@ -1,11 +1,47 @@
 """disting catalog: compute, settle and verify catalogues."""
 
 import argparse
+from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.files import shipped_folder
+from disting.cli.arguments import add_masses, add_out, add_work
 from disting.cli.workers import engine_for
 from disting.verdict import Engine
+
+
+def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `build`."""
+    add_masses(parser)
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
+def add_candidates_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `candidates`."""
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
+def add_settle_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `settle`."""
+    add_masses(parser)
+    text = "and what is open with dampers to the ground, of 3 to 5 masses"
+    parser.add_argument("--dampers", action="store_true", help=text)
+    _add_read_folder(parser, Path("catalog"), "catalog")
+
+
+def add_verify_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `verify`."""
+    add_masses(parser)
+    _add_read_folder(parser, shipped_folder(), "the shipped one")
+    add_work(parser)
+
+
+def _add_read_folder(parser: argparse.ArgumentParser, default: Path, said: str) -> None:
+    text = f"folder (default: {said})"
+    parser.add_argument("--catalog", type=Path, default=default, metavar="DIR", help=text)
 
 
 def build(options: argparse.Namespace) -> int:

@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from disting.algebra.certainty import USELESS
 from disting.conditions.table import RULES
 from disting.errors import InputError, shown
 from disting.files import write_whole
@@ -90,20 +89,3 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard"
             " output"
         ) from None
-
-
-def joint_in_words(safety: int) -> str:
-    """How surely everything that is said of a family holds together.
-
-    >>> joint_in_words(121)
-    'all of it together is wrong with a probability of at most 2^-121'
-    >>> joint_in_words(USELESS)
-    'no error bound is left for all of it together'
-    """
-    if safety == USELESS:
-        return "no error bound is left for all of it together"
-    return (
-        f"all of it together is wrong with a probability of at most 2^-{safety}"
-        if safety
-        else "nothing is left to chance"
-    )

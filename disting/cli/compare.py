@@ -6,11 +6,17 @@ from collections.abc import Iterator
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.arguments import (
+    add_damped,
+    add_deciding,
+    add_no_cache,
+    add_sensor,
+    exact_range,
+)
 from disting.cli.common import query, reference
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
-from disting.evidence.real import BothWays
 from disting.experiments import Places, named
 from disting.general import Model, read_models
 from disting.model.chain import Chain, Sensor
@@ -23,9 +29,41 @@ from disting.verdict import Query, Relation, Verdict, View
 from disting.verdict.comparison import compare
 from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere
 from disting.verdict.proof import prove
+from disting.verdict.shown import shown
 
 FILE = ".json:"  # between a file and the name of a model in it
 MOST_TERMS = 30  # of a transfer function that is written out
+MODEL = (
+    "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
+    " ground; +lag; +delay; or file.json:name, a model of your own"
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument("left", metavar="N:I", help=MODEL)
+    text = "the other model, of the same or another size"
+    parser.add_argument("right", metavar="M:J", help=text)
+    add_damped(parser)
+    add_sensor(parser)
+    add_deciding(parser)
+    text = "look only at models within this range of a parameter, of both models; may be repeated"
+    parser.add_argument(
+        "--range",
+        type=exact_range,
+        action="append",
+        default=[],
+        metavar="NAME=LOW..HIGH",
+        help=text,
+    )
+    text = (
+        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
+        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    text = "print the verdict with its evidence as JSON"
+    parser.add_argument("--json", action="store_true", help=text)
+    add_no_cache(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -164,7 +202,7 @@ def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
     does not say.
     """
     known = verdict.left_positive is not None or verdict.right_positive is not None
-    return bool(options.range) or (known and not isinstance(verdict.evidence, BothWays))
+    return bool(options.range) or (known and not verdict.proves_shares)
 
 
 def _both_ways(
@@ -206,7 +244,10 @@ def _explained(verdict: Verdict, drawn: list[str]) -> str:
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
     drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
-    lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
+    lines = [verdict.relation.upper(), "", *drawings, ""]
+    if verdict.evidence:
+        lines += [shown(verdict), ""]
+    lines.append(verdict.sentence)
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]

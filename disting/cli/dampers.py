@@ -10,7 +10,8 @@ from itertools import combinations
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
-from disting.cli.common import emitted, emitted_lines, joint_in_words, reference, relations_in_words
+from disting.cli.arguments import add_damped, add_masses, add_out, add_work
+from disting.cli.common import emitted, emitted_lines, reference, relations_in_words
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.conditions.table import RULES
@@ -18,7 +19,7 @@ from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
-from disting.verdict import Relation, classes_safety
+from disting.verdict import Relation, classes_safety, joint_in_words
 
 SIGNS = {
     Relation.DISTINGUISHABLE: ".",
@@ -41,7 +42,7 @@ SETS = "0 no damper to the ground, 1+3 dampers at masses 1 and 3"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command but those that many share."""
+    """Arguments of the command."""
     text = (
         "a model (masses:number, as 'disting models' lists it), or a number of masses: all its"
         " models, all against all"
@@ -64,6 +65,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write all pairs as CSV; - is standard output",
     )
+    add_damped(parser)
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -88,6 +91,18 @@ def run(options: argparse.Namespace) -> int:
         shown = f"{matrix(table, over_complex)}\n{legend(domain)}\n\n{summary(table, over_complex)}"
         sys.stdout.write(f"{options.model}  {text_drawing(chain)}\n\n{shown}\n")
     return 0
+
+
+def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `disting catalog dampers`."""
+    add_masses(parser, default="3 4 5")
+    add_out(parser, "catalog")
+    text = (
+        "ask the dearest method of what is left for 5 masses and more too: an hour instead of"
+        " minutes"
+    )
+    parser.add_argument("--patient", action="store_true", help=text)
+    add_work(parser)
 
 
 def build(options: argparse.Namespace) -> int:

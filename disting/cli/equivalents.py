@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from disting.cli.arguments import add_damped
 from disting.equivalence import (
     NONE,
     Equivalent,
@@ -24,9 +25,8 @@ from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
-from disting.model.family import Family
+from disting.model.family import Family, name_of
 from disting.model.names import chain_of
-from disting.verdict.comparison import name_of
 
 ABREAST = 3  # parameter sets beside each other
 FEW = 12  # names of structures that are told one by one
@@ -40,7 +40,7 @@ SOURCES = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Everything but --damped, which other commands have too."""
+    """Arguments of the command."""
     named = (
         "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to"
         " the ground; +lag; +delay"
@@ -66,6 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form.add_argument(
         "--sympy", action="store_true", help="print formulas as Python source for SymPy"
     )
+    add_damped(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.arguments import MASSES, add_damped, add_work
 from disting.cli.workers import engine_for
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
@@ -15,6 +16,18 @@ from disting.questions.identifiability import Identifiability, Level
 from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument("masses", type=MASSES, metavar="N", help="number of masses")
+    parser.add_argument(
+        "--identifiability",
+        action="store_true",
+        help="say for each model which parameters can be determined",
+    )
+    add_damped(parser)
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -14,6 +14,7 @@ from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
 from disting.catalogs.next_files import WITH_DAMPERS, build_next, next_catalog, write
+from disting.cli.arguments import add_damped, add_masses, add_out, add_work
 from disting.cli.common import emitted, reference
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
@@ -42,7 +43,7 @@ DOMAIN = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of the command but those that many share."""
+    """Arguments of the command."""
     text = (
         "structures (masses:number, as 'disting models' lists them; +b2, +lag, +delay as for"
         " 'compare') that one measurement cannot tell apart; of one, all those that cannot be told"
@@ -59,6 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
     text = "write the menu with its answers as JSON; - is standard output"
     parser.add_argument("--json", type=written_file, metavar="FILE", help=text)
+    add_damped(parser)
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -104,6 +107,13 @@ def told(found: Further) -> str:
                 lines.append(f"  {cost}  mass {at}: {in_words(found, structure, Item(kind, at))}")
         lines.append(f"  {conclusion(found, structure)}")
     return "\n".join(lines)
+
+
+def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `disting catalog next`."""
+    add_masses(parser, default="2 3 4 5")
+    add_out(parser, "catalog")
+    add_work(parser)
 
 
 def build(options: argparse.Namespace) -> int:

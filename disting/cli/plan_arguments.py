@@ -2,12 +2,12 @@
 
 import argparse
 
-from disting.cli.fit_arguments import frequency_range
+from disting.cli.arguments import add_damped, add_work, frequency_range
 from disting.cli.paths import written_file, written_folder
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
-    """Everything but --damped and what concerns the work."""
+    """Arguments of the command."""
     text = (
         "the true structure, such as 2:1+b1, or a file of 'disting fit --json': its selected"
         " structure"
@@ -44,3 +44,5 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write the plan as JSON; - is standard output",
     )
+    add_damped(p)
+    add_work(p)

@@ -10,6 +10,7 @@ from disting.catalogs.combined import answers_in, combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.arguments import add_out, add_work, size_or_file
 from disting.cli.common import relations_in_words
 from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
@@ -18,6 +19,25 @@ from disting.general import ModelList
 from disting.verdict import Engine, Progress, View
 
 MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    text = "numbers of masses, or files of models"
+    parser.add_argument("masses", type=size_or_file, nargs="*", metavar="N|FILE.json", help=text)
+    text = (
+        "the paper's figures and tables from our own data, and its claims one by one, into the"
+        " folder paper below DIR"
+    )
+    parser.add_argument("--paper", action="store_true", help=text)
+    choice = parser.add_mutually_exclusive_group()
+    for name in ("damped", "undamped", "both"):
+        choice.add_argument(
+            f"--{name}", dest="damping", action="store_const", const=name, help=f"{name} models"
+        )
+    parser.set_defaults(damping="both")
+    add_out(parser, "reports")
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from disting.cli.arguments import add_damped
 from disting.cli.common import emitted
 from disting.cli.paths import written_file
 from disting.errors import InputError, shown
@@ -14,8 +15,38 @@ KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
 
 
+NUMBERS = (
+    ("low", 10.0, "lowest excited frequency [Hz]"),
+    ("high", 250.0, "highest excited frequency [Hz]"),
+    ("rms", 1.0, "root mean square of the input"),
+    ("rate", 2500.0, "sampling rate [Hz]"),
+    ("input-noise", 0.0, "standard deviation of noise on the recorded input"),
+    ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
+    ("quantum", 0.0, "step of the sensor"),
+)
+COUNTS = (
+    ("samples", 2500, "samples of a period"),
+    ("periods", 20, "periods"),
+    ("seed", 0, "seed of noise and phases"),
+)
+
+
 def add_arguments(p: argparse.ArgumentParser) -> None:
-    """Everything but --damped."""
+    """Arguments of the command."""
+    _drive(p)
+    _bench(p)
+    p.add_argument(
+        "--csv",
+        type=written_file,
+        metavar="FILE",
+        default="-",
+        help="where the response goes (default: standard output)",
+    )
+    add_damped(p)
+
+
+def _drive(p: argparse.ArgumentParser) -> None:
+    """The model, its parameters, and what of it is seen."""
     text = (
         "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the"
         " ground; +lag; +delay"
@@ -27,59 +58,36 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
-    p.add_argument(
-        "--sensor",
-        choices=QUANTITIES,
-        default="position",
-        help="what the sensor shows (default: position)",
-    )
-    p.add_argument(
-        "--to",
-        choices=QUANTITIES,
-        default="acceleration",
-        help="what the response shows (default: acceleration)",
-    )
-    p.add_argument(
-        "--excitation",
-        choices=KINDS,
-        default="schroeder",
-        help="test signal (default: a Schroeder multisine)",
-    )
+    for name, quantity, what in (
+        ("sensor", "position", "sensor"),
+        ("to", "acceleration", "response"),
+    ):
+        p.add_argument(
+            f"--{name}",
+            choices=QUANTITIES,
+            default=quantity,
+            help=f"what the {what} shows (default: {quantity})",
+        )
+
+
+def _bench(p: argparse.ArgumentParser) -> None:
+    """Excitation, record, noise, friction."""
+    text = "test signal (default: a Schroeder multisine)"
+    p.add_argument("--excitation", choices=KINDS, default="schroeder", help=text)
     text = (
         "CSV with the columns frequency_hz and amplitude, as 'disting plan' writes it: the lines of"
         " the multisine, instead of --low and --high"
     )
     p.add_argument("--spectrum", type=Path, metavar="FILE", help=text)
-    for name, value, text in (
-        ("low", 10.0, "lowest excited frequency [Hz]"),
-        ("high", 250.0, "highest excited frequency [Hz]"),
-        ("rms", 1.0, "root mean square of the input"),
-        ("rate", 2500.0, "sampling rate [Hz]"),
-        ("input-noise", 0.0, "standard deviation of noise on the recorded input"),
-        ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
-        ("quantum", 0.0, "step of the sensor"),
-    ):
-        p.add_argument(
-            f"--{name}", type=float, default=value, metavar="X", help=f"{text} (default: {value:g})"
-        )
-    for name, whole, text in (
-        ("samples", 2500, "samples of a period"),
-        ("periods", 20, "periods"),
-        ("seed", 0, "seed of noise and phases"),
-    ):
-        p.add_argument(
-            f"--{name}", type=int, default=whole, metavar="K", help=f"{text} (default: {whole})"
-        )
+    for name, value, text in NUMBERS:
+        text = f"{text} (default: {value:g})"
+        p.add_argument(f"--{name}", type=float, default=value, metavar="X", help=text)
+    for name, count, text in COUNTS:
+        text = f"{text} (default: {count})"
+        p.add_argument(f"--{name}", type=int, default=count, metavar="K", help=text)
     text = "Coulomb friction of a mass, such as 1=0.3; may be repeated (default: none)"
     p.add_argument(
         "--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text
-    )
-    p.add_argument(
-        "--csv",
-        type=written_file,
-        metavar="FILE",
-        default="-",
-        help="where the response goes (default: standard output)",
     )
 
 

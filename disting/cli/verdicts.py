@@ -7,25 +7,55 @@ from pathlib import Path
 
 from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
+from disting.cli.arguments import (
+    add_damped,
+    add_deciding,
+    add_sensor,
+    add_work,
+    sizes_or_file,
+    whole,
+)
 from disting.cli.common import (
     VIEWS,
     emitted,
-    joint_in_words,
     query,
     relations_in_words,
     rules_in_words,
 )
+from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
 from disting.model.chain import Chain, Sensor
 from disting.questions.inclusion import ONE_SIDED, Sense
-from disting.verdict import Decisions, Relation, family_safety
+from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.compared import Compared
 from disting.verdict.engine import Engine
 from disting.verdict.proof import prove_all
 
 MOST_TOLD = 20  # pairs that are told one by one
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument(
+        "masses",
+        type=sizes_or_file,
+        metavar="N|N-M|FILE.json",
+        help="number of masses, or several sizes such as 1-4 in one matrix, or a file of models",
+    )
+    add_damped(parser)
+    add_sensor(parser)
+    add_work(parser)
+    add_deciding(parser)
+    text = "which may decide (default: all)"
+    parser.add_argument("--representation", choices=VIEWS, default="all", help=text)
+    text = "use G_0 and G_1..G_K (default: all that are needed)"
+    parser.add_argument("--markov", type=whole(1), default=0, metavar="K", help=text)
+    text = "write the verdicts as CSV; - is standard output"
+    parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
+    text = "write the verdicts with evidence as JSON; - is standard output"
+    parser.add_argument("--json", type=written_file, metavar="FILE", help=text)
 
 
 def run(options: argparse.Namespace) -> int:

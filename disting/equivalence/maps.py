@@ -21,7 +21,7 @@ from disting.equivalence.identity import holds_at_random, is_identity, safety
 from disting.equivalence.images import Image, images
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
-from disting.verdict.comparison import name_of
+from disting.model.family import name_of
 
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
 CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters

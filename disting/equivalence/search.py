@@ -25,9 +25,8 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
-from disting.model.family import Family
+from disting.model.family import Family, name_of
 from disting.model.names import chain_of
-from disting.verdict.comparison import name_of
 
 Point = Mapping[str, fmpq]
 

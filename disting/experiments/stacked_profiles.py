@@ -13,12 +13,12 @@ Condition 7 needs no more: whatever the summary is, of as many free entries as i
 values of all of them are reached.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, log2
 
-from disting.algebra.quotient import Quotient, series_rows
+from disting.algebra.quotient import Quotient, matrix, series_rows
 from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, about, enough, prime, residues
 from disting.behaviour.profile import Profile, from_samples, search_labels
 from disting.behaviour.sample import DRAWS, Representation, Sample, coefficients, quotient
@@ -116,6 +116,17 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
         labels.append("Td")
     values, jacobian = tuple(v for v, _ in rows), tuple(tuple(row) for _, row in rows)
     return Sample(tuple(labels), values, jacobian, len(where.point), where.modulus)
+
+
+def rank_by(measured: MeasuredChain, names: Sequence[str], label: str) -> int:
+    """Rank of the Jacobian of all coefficients by these parameters, at a random point modulo a
+    random prime: never above that at generic parameters.
+    """
+    parameters, modulus = measured.chain.parameters, prime(label)
+    point = residues(f"{label}:point", len(parameters), modulus)
+    seen = seen_at(drawn_at(measured, point, modulus), Representation.TF, 0)
+    at = [parameters.index(name) for name in names]
+    return int(matrix([[row[i] for i in at] for row in seen.rows], len(at), modulus).rank())
 
 
 def minor_size(measured: MeasuredChain, representation: Representation, count: int) -> Size:

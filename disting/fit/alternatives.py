@@ -22,7 +22,6 @@ from math import inf
 
 from disting.catalogs import candidates as stored
 from disting.errors import CatalogError
-from disting.evidence.positive import Share
 from disting.model.chain import Chain
 from disting.questions.positive import renamings
 from disting.verdict import Engine, Query, Relation, View
@@ -81,7 +80,7 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
             for pair in ((chain, other), (other, chain))
         )
     here, there = (engine.subject(str(c), c) for c in (chain, other))
-    return here.positive(there).share is there.positive(here).share is Share.ALWAYS
+    return here.has_same_positive(there)
 
 
 def alternatives(

@@ -7,9 +7,8 @@ from itertools import combinations, product
 from disting.errors import ConstraintViolation, InputError
 from disting.fit.setup import port
 from disting.model.chain import Chain, Sensor
-from disting.model.family import Family
+from disting.model.family import Family, name_of
 from disting.model.symmetry import Form, forms
-from disting.verdict.comparison import name_of
 
 
 def figure_1(

@@ -13,7 +13,7 @@ from typing import Any
 
 from disting.errors import InputError
 from disting.fit.candidates import reference
-from disting.fit.export import chain_from_dict, model_from_dict
+from disting.fit.plain import chain_from_dict, model_from_dict
 from disting.model.chain import Chain
 from disting.verdict import Relation
 

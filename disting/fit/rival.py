@@ -35,7 +35,8 @@ import numpy as np
 from disting.errors import InputError
 from disting.fit.cost import Case, Cost
 from disting.fit.descent import fine
-from disting.fit.estimate import Estimate, Task, estimates
+from disting.fit.estimate import Estimate, Task
+from disting.fit.exchange import estimates
 from disting.fit.export import predicted
 from disting.fit.neighbours import carried
 from disting.fit.noise import VANISHING

@@ -96,45 +96,26 @@ class TimeSeries:
         period is found, periods are missing, too few lines are left, or `period` and `segment` are
         both given.
         """
-        if segment is not None and (period is not None or lines is not None):
-            raise InputError(
-                "period and lines belong to a periodic excitation, segment to any other: give one"
-                " of them"
-            )
-        if segment is None and least_coherence is not None:
-            raise InputError(
-                "least_coherence belongs to Welch's method: give segment= [samples] too"
-            )
+        given = (self.u, self.y, self.sampling_rate)
         # what is not finite then is refused below
         with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
+                if least_coherence is not None:
+                    raise InputError(
+                        "least_coherence belongs to Welch's method: give segment= [samples] too"
+                    )
                 excitation = self.u if self.reference is None else self.reference
-                found = periodic.estimate(
-                    self.u, self.y, self.sampling_rate, period, transient, lines, band, excitation
-                )
+                found = periodic.estimate(*given, period, transient, lines, band, excitation)
             else:
-                found = welch.estimate(
-                    self.u,
-                    self.y,
-                    self.sampling_rate,
-                    segment,
-                    band,
-                    self.reference,
-                    least_coherence,
-                )
-        if len(found.omega) < checks.FEWEST:
-            said = "; ".join(
-                (*found.notes, *([f"band {band[0]:g}..{band[1]:g} Hz"] if band else []))
-            )
-            raise InputError(
-                f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed:"
-                f" {said}"
-            )
-        doubt = (
-            follows_output(self.u, self.y)
-            if segment is not None and self.reference is None
-            else None
-        )
+                if period is not None or lines is not None:
+                    raise InputError(
+                        "period and lines belong to a periodic excitation, segment to any other:"
+                        " give one of them"
+                    )
+                found = welch.estimate(*given, segment, band, self.reference, least_coherence)
+        _refuse_few(found, band)
+        in_doubt = segment is not None and self.reference is None
+        doubt = follows_output(self.u, self.y) if in_doubt else None
         response = FrequencyResponse(
             omega=found.omega,
             G=found.G,
@@ -159,6 +140,15 @@ def said(sensor: Sensor | str | None) -> tuple[Sensor, tuple[str, ...]]:
     return Sensor.POSITION, (
         'output taken as a position; if not, give sensor="velocity" or sensor="acceleration"',
     )
+
+
+def _refuse_few(found: periodic.Estimated, band: tuple[float, float] | None) -> None:
+    if len(found.omega) < checks.FEWEST:
+        within = [f"band {band[0]:g}..{band[1]:g} Hz"] if band else []
+        raise InputError(
+            f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed:"
+            f" {'; '.join((*found.notes, *within))}"
+        )
 
 
 def _samples(values: Any, name: str) -> Real:

@@ -12,6 +12,8 @@ from disting.model.constraints import Indices, violated
 # of a family that a command or a text may ask for: it has 1.4 million models, listed in half a
 # minute
 MOST_MASSES = 40
+# masses; larger families are long to list, so their chains are named by their indices
+NUMBERED_UP_TO = 8
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,30 @@ class Family:
             raise InputError(
                 f"the chain with {chain} is not in the {self.n_masses}-mass family"
             ) from None
+
+
+def name_of(chain: Chain, *, short: bool) -> str:
+    """A4 (short) or 3:4, with ground dampers, lag and dead time added; the indices for chains
+    without a number.
+
+    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)), short=False)
+    '3:4+b1'
+    """
+    plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
+    family = Family(chain.n_masses, chain.damped, chain.sensor)
+    try:
+        number = family.number(plain) if chain.n_masses <= NUMBERED_UP_TO else 0
+    except InputError:
+        number = 0
+    head = (f"A{number}" if short else f"{chain.n_masses}:{number}") if number else f"({plain})"
+    return "+".join(
+        [
+            head,
+            *(f"b{i}" for i in chain.ground_dampers),
+            *["lag"] * chain.lag,
+            *["delay"] * chain.dead_time,
+        ]
+    )
 
 
 def _admissible(n: int) -> Iterator[Indices]:

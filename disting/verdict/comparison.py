@@ -7,15 +7,13 @@ from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
 from disting.general import Model
 from disting.model.chain import Chain
-from disting.model.family import Family
+from disting.model.family import name_of
 from disting.verdict.cascade import Step, steps
 from disting.verdict.compared import Compared
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
 
-# masses; larger families are long to list, so their chains are named by their indices
-NUMBERED_UP_TO = 8
 NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
@@ -121,27 +119,3 @@ def _model(given: Chain | Model) -> Model:
     if isinstance(given, Model):
         return given
     return Model.from_chain(given, name=name_of(given, short=False))
-
-
-def name_of(chain: Chain, *, short: bool) -> str:
-    """A4 (short) or 3:4, with ground dampers, lag and dead time added; the indices for chains
-    without a number.
-
-    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)), short=False)
-    '3:4+b1'
-    """
-    plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
-    family = Family(chain.n_masses, chain.damped, chain.sensor)
-    try:
-        number = family.number(plain) if chain.n_masses <= NUMBERED_UP_TO else 0
-    except InputError:
-        number = 0
-    head = (f"A{number}" if short else f"{chain.n_masses}:{number}") if number else f"({plain})"
-    return "+".join(
-        [
-            head,
-            *(f"b{i}" for i in chain.ground_dampers),
-            *["lag"] * chain.lag,
-            *["delay"] * chain.dead_time,
-        ]
-    )

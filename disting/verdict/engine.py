@@ -148,14 +148,18 @@ class Engine:
         self,
         chains: Iterable[Chain],
         *,
+        markov: int = 0,
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> list[Profile]:
-        """Transfer-function profiles of chains, in order."""
+        """Profiles of chains, in order: of the transfer functions, or of the `markov` Markov
+        parameters after G_0.
+        """
+        r = Representation.MARKOV if markov else Representation.TF
         subjects = [self.subject("", chain) for chain in chains]
         profiled: set[Profiled] = {s.profiled for s in subjects}
-        self.prefetch(profiled, Representation.TF, 0, executor, progress)
-        return [s.profile(Representation.TF, 0) for s in subjects]
+        self.prefetch(profiled, r, markov, executor, progress)
+        return [s.profile(r, markov) for s in subjects]
 
     def identifiabilities(
         self,

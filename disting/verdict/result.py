@@ -10,6 +10,7 @@ from disting.evidence.kinds import GROUNDS, Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
+from disting.evidence.real import BothWays
 from disting.model.domain import Domain
 from disting.questions.inclusion import (
     Inclusion,
@@ -119,6 +120,11 @@ class Verdict:
             return f"{rule.in_words()}, {where}"
         grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence and rule is EXACT else ""
         return ", ".join(filter(None, [rule.in_words(self.domain).removeprefix("the "), grounds]))
+
+    @property
+    def proves_shares(self) -> bool:
+        """Whether the evidence itself tells which positive models have positive equivalents."""
+        return isinstance(self.evidence, BothWays)
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""

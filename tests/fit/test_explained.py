@@ -10,7 +10,7 @@ import pytest
 from disting.fit.candidates import figure_1
 from disting.fit.cost import Cost
 from disting.fit.explained import chi2, explanation, yardstick
-from disting.fit.export import selection_to_dict
+from disting.fit.plain import selection_to_dict
 from disting.fit.scatter import between, scatter
 from disting.fit.select import select
 from disting.fit.telling import first_lines, suspicions

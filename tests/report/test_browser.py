@@ -11,6 +11,7 @@ import pytest
 from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict import View
+from disting.verdict.shown import shown
 from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
@@ -67,6 +68,9 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
     verdict = catalog(3, damped=True).verdict(1, 4)
     assert verdict.evidence is not None
     assert tab.inner_text("#detail h3") == "A1 and A4"
+    assert tab.inner_text("#detail .shown") == shown(verdict)
+    assert not tab.is_visible("#detail .why")
+    tab.click("#detail summary")
     assert tab.inner_text("#detail .why") == verdict.evidence.sentence("A1", "A4")
     assert tab.inner_text("#detail .formula") == verdict.evidence.formula
     for side, number in (("left", 1), ("right", 4)):
@@ -195,7 +199,7 @@ def test_other_fragments_select_nothing(visit) -> None:  # type: ignore[no-untyp
 def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A5")
     assert tab.inner_text("#detail h3") == "A5"
-    assert "indistinguishable from 1 (A2)" in tab.inner_text("#detail .why")
+    assert "indistinguishable from 1 (A2)" in tab.inner_text("#detail .shown")
     follow_link(tab, '#detail [data-slot="link"] a')
     assert tab.inner_text("h1").startswith("Model A5")
     follow_link(tab, "text=Verdict and evidence")

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from disting.files import write_whole
-from disting.fit.export import candidate_to_dict, selection_to_dict
 from disting.fit.modes import Result, physical
+from disting.fit.plain import candidate_to_dict, selection_to_dict
 from disting.fit.select import Selection
 from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
