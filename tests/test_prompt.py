@@ -18,6 +18,7 @@ from disting import (
     Engine,
     Experiment,
     Family,
+    MatrixModel,
     Model,
     ModelList,
     Query,
@@ -33,6 +34,7 @@ from disting import (
     explicit_map,
     findings,
     global_identifiability,
+    identifiability,
     local_identifiability,
 )
 from disting.catalogs.next_files import next_catalog
@@ -76,6 +78,8 @@ def shown() -> list[object]:
         Experiment(sensor=(3, 1), inertias={1: "0.5"}, springs={2: 3}, locked=2),
         poles,
         long_name,
+        MatrixModel.from_transfer_functions([["1/(s + a)", 0], ["b/(s + a)", "1/(s + b)"]]),
+        identifiability(family[3], experiments=[Experiment(), Experiment(locked=2)]),
         ModelList((poles, Model.from_chain(Chain(1), name="mass")), title="two <poles>"),
         alternatives(poles, {"a": 1, "b": 2, "c": 1}, long_name),
         global_identifiability(poles),

@@ -4,13 +4,16 @@ import argparse
 import csv
 import io
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
-from disting.catalogs import catalog
+from disting.catalogs import Catalog, catalog
+from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
+from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-from disting.catalogs.next_files import build_next, next_catalog, write
+from disting.catalogs.next_files import WITH_DAMPERS, build_next, next_catalog, write
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work
 from disting.cli.common import emitted, reference
 from disting.cli.paths import written_file
@@ -140,7 +143,7 @@ def _told(found: Further, words: Sequence[str] = ()) -> list[str]:
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `disting catalog next`."""
-    add_masses(parser, default="2 3 4")
+    add_masses(parser, default="2 3 4 5")
     add_out(parser, "catalog")
     add_work(parser)
 
@@ -150,9 +153,12 @@ def build(options: argparse.Namespace) -> int:
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses or NEXT_SIZES:
             for damped in (False, True):
-                stored = catalog(n, damped=damped)
-                text = build_next(stored, engine, executor=pool, progress=progress)
-                print(write(text, n, damped, options.out))
+                stored: list[Catalog | DamperFamily] = [catalog(n, damped=damped)]
+                if n in WITH_DAMPERS:
+                    stored.append(damper_catalog(n, damped=damped))
+                for one in stored:
+                    text = build_next(one, engine, executor=pool, progress=progress)
+                    print(write(text, options.out))
     return 0
 
 
@@ -163,12 +169,21 @@ def _table(lines: Iterable[Sequence[str]]) -> str:
 
 
 def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further | None:
-    """The look-up of a shipped catalogue, where all structures are plain ones of it."""
-    names = [name for name, _ in group]
-    if "+" in "".join(names) or group[0][1].n_masses not in NEXT_SIZES:
+    """The look-up of a shipped catalogue, where all structures are of it."""
+    n = group[0][1].n_masses
+    if any(chain.lag or chain.dead_time for _, chain in group):
         return None
-    stored = next_catalog(group[0][1].n_masses, damped=damped)
-    return stored.further([reference(name)[1] for name in names], costs)
+    dampers = any(chain.ground_dampers for _, chain in group)
+    if n not in (WITH_DAMPERS if dampers else NEXT_SIZES):
+        return None
+    stored = next_catalog(n, damped=damped, dampers=dampers)
+    numbers = [stored.number(_model(name), chain.ground_dampers) for name, chain in group]
+    return stored.further(numbers, costs)
+
+
+def _model(name: str) -> int:
+    """Its number in the family, whatever is added to it."""
+    return reference(name.partition("+")[0])[1]
 
 
 def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
@@ -180,6 +195,10 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
         return _all_like(names[0], options.damped)
     if len({chain.n_masses for chain in chains}) > 1:
         raise InputError("the structures have different numbers of masses: name some of one size")
+    found = dict(zip(chains, names, strict=True))
+    if len(found) < len(names):
+        again = next(n for n, c in zip(names, chains, strict=True) if found[c] != n)
+        raise InputError(f"{again} and {found[chain_of(again, family)]} are the same structure")
     named = list(zip(names, chains, strict=True))
     for (left, a), (right, b) in combinations(named, 2):
         sides = engine.subject(left, a), engine.subject(right, b)
@@ -193,16 +212,30 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
 
 def _all_like(name: str, damped: bool) -> list[Named] | str:
     """The group of a shipped catalogue."""
-    n, number = reference(name.partition("+")[0])
-    if "+" in name or n not in SHIPPED_SIZES:
-        sizes = f"{SHIPPED_SIZES[0]} to {SHIPPED_SIZES[-1]}"
+    chain = chain_of(name, Family(1, damped))
+    n, dampers = chain.n_masses, bool(chain.ground_dampers)
+    sizes = DAMPER_SIZES if dampers else SHIPPED_SIZES
+    if n not in sizes or chain.lag or chain.dead_time:
         raise InputError(
-            f"groups are known of the catalogues of {sizes} masses, not for {listed([name])}: name"
-            " all structures that are to be told apart"
+            f"groups are known of the catalogues of {SHIPPED_SIZES[0]} to {SHIPPED_SIZES[-1]}"
+            f" masses, with dampers to the ground of {DAMPER_SIZES[0]} to {DAMPER_SIZES[-1]}, not"
+            f" for {listed([name])}: name all structures that are to be told apart"
         )
+    groups = _damper_groups(n, damped) if dampers else _groups(n, damped)
+    for members in groups:
+        if chain in [other for _, other in members]:
+            rest = [m for m in members if m[1] != chain]
+            return [(name, chain), *rest]
+    return f"{name} is told from all other structures of {n} masses by its force and sensor already"
+
+
+def _groups(n: int, damped: bool) -> Iterator[list[Named]]:
     stored = catalog(n, damped=damped)
     for members in stored.classes(View.EXACT):
-        if number in members:
-            rest = [m for m in members if m != number]
-            return [(f"{n}:{m}", stored.family[m]) for m in (number, *rest)]
-    return f"{name} is told from all other structures of {n} masses by its force and sensor already"
+        yield [(f"{n}:{m}", stored.family[m]) for m in members]
+
+
+def _damper_groups(n: int, damped: bool) -> Iterator[list[Named]]:
+    stored = damper_catalog(n, damped=damped)
+    for places in stored.found.classes():
+        yield [(stored.text(i), stored.found.chains[i]) for i in places]

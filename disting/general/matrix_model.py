@@ -21,12 +21,13 @@ from disting.general.model import (
     parameters_of,
     transfer_functions,
 )
+from disting.model.shown import Shown, plural, summary
 
 MOST_ENTRIES = 100
 
 
 @dataclass(frozen=True, slots=True)
-class MatrixModel:
+class MatrixModel(Shown):
     """A matrix of transfer functions, made by `from_state_space` or `from_transfer_functions`.
 
     `rows`: a row for each output, an entry for each input; each is a `Model` in all `parameters`,
@@ -41,6 +42,11 @@ class MatrixModel:
     parameters: tuple[str, ...]
     rows: tuple[tuple[Model | None, ...], ...]
     name: str = field(default="model", compare=False)
+
+    def __repr__(self) -> str:
+        outputs, inputs = self.shape
+        size = f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
+        return summary(self, f"{self.name}, {size}, {', '.join(self.parameters)}")
 
     def __post_init__(self) -> None:
         if not self.parameters:

@@ -17,7 +17,8 @@ from disting.model.chain import Chain
 from disting.model.shown import Shown, plural, summary
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
-from disting.verdict.placed import Placed, placed
+from disting.verdict.placed import Placed
+from disting.verdict.placing import placed
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,10 +20,13 @@ Fraction = tuple[tuple[Terms, ...], tuple[Terms, ...]]
 
 @dataclass(frozen=True)
 class StackedMap:
-    """Parameters -> coefficients of all transfer functions, one after the other."""
+    """Parameters -> coefficients of all transfer functions, one after the other; `parts`: how many
+    coordinates each numerator, each denominator has.
+    """
 
     parameters: tuple[str, ...]
     coordinates: tuple[Terms, ...]
+    parts: tuple[int, ...]
 
     @cached_property
     def content(self) -> str:
@@ -43,7 +46,7 @@ def stacked_maps(
     shared = [tuple(f[1] for f in each) for each in zip(*sides, strict=True)]
     order = sorted(range(len(shared)), key=lambda i: shared.index(shared[i]))
     groups = [list(g) for _, g in groupby(order, key=lambda i: shared.index(shared[i]))]
-    monic = [all(_is_one(side[g[0]][1][-1]) for side in sides) for g in groups]
+    monic = [all(is_one(side[g[0]][1][-1]) for side in sides) for g in groups]
     return tuple(
         _stacked(each, side, groups, monic) for each, side in zip(names, sides, strict=True)
     )
@@ -56,21 +59,29 @@ def _stacked(
     monic: Sequence[bool],
 ) -> StackedMap:
     scales = [f"{SCALE}{k + 1}" for k, is_monic in enumerate(monic) if not is_monic]
-    coordinates: list[Terms] = []
+    parts: list[list[Terms]] = []
     at = 0
     for group, is_monic in zip(groups, monic, strict=True):
-        whole = [*(c for i in group for c in fractions[i][0]), *fractions[group[0]][1]]
+        denominator = fractions[group[0]][1]
+        whole = [*(fractions[i][0] for i in group), denominator[:-1] if is_monic else denominator]
         factor = [0] * len(scales)
         if not is_monic:
             factor[at], at = 1, at + 1
-        kept = whole[:-1] if is_monic else whole
-        coordinates += [tuple(((*e, *factor), c) for e, c in terms) for terms in kept]
+        parts += [[tuple(((*e, *factor), c) for e, c in terms) for terms in each] for each in whole]
+    return map_of([*names, *scales], parts)
+
+
+def map_of(names: Sequence[str], parts: Sequence[Sequence[Terms]]) -> StackedMap:
+    """The map of these coordinates, in those of the parameters that occur in it."""
+    coordinates = [terms for part in parts for terms in part]
     used = sorted({j for terms in coordinates for e, _ in terms for j, x in enumerate(e) if x})
     return StackedMap(
-        tuple([*names, *scales][j] for j in used),
+        tuple(names[j] for j in used),
         tuple(tuple((tuple(e[j] for j in used), c) for e, c in terms) for terms in coordinates),
+        tuple(map(len, parts)),
     )
 
 
-def _is_one(terms: Terms) -> bool:
+def is_one(terms: Terms) -> bool:
+    """Whether a polynomial is the constant 1."""
     return len(terms) == 1 and terms[0][1] == 1 and not any(terms[0][0])

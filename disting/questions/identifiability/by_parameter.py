@@ -18,6 +18,7 @@ from disting.algebra.sampling import Size, safety
 from disting.behaviour.sample import Sample
 from disting.fibres.ideals import PolynomialMap, one_value
 from disting.model.settings import Settings
+from disting.model.shown import summary
 from disting.questions.identifiability.parts import Level
 
 
@@ -39,6 +40,9 @@ class ParameterIdentifiability:
     certainty: Certainty
     safety: int
     reason: str = ""
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     @property
     def freedom(self) -> int:

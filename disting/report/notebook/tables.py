@@ -14,7 +14,7 @@ from disting.fit.candidates import reference
 from disting.fit.judged import Candidate
 from disting.fit.plan import Plan, is_trusted
 from disting.fit.select import Selection
-from disting.general import Model, ModelList
+from disting.general import MatrixModel, Model, ModelList
 from disting.general.global_identifiability import GlobalIdentifiability
 from disting.measurement import FrequencyResponse
 from disting.model.family import Family
@@ -236,8 +236,9 @@ def _equivalents(shown: Equivalents) -> str:
     )
 
 
-@table_of.register
-def _model(shown: Model) -> str:
+@table_of.register(Model)
+@table_of.register(MatrixModel)
+def _model(shown: Model | MatrixModel) -> str:
     return block(line(shown.name, bold=True), line(_formula(shown)))
 
 
@@ -251,8 +252,11 @@ def _models(shown: ModelList) -> str:
     )
 
 
-def _formula(shown: Model) -> str:
+def _formula(shown: Model | MatrixModel) -> str:
     """G(s), where it is short enough to be read."""
+    if isinstance(shown, MatrixModel):
+        outputs, inputs = shown.shape
+        return f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
     terms = sum(map(len, (*shown.numerator_terms, *shown.denominator_terms)))
     return str(shown) if terms <= 30 else f"{plural(shown.n_states, 'state')}, {terms} terms"
 
