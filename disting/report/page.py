@@ -14,7 +14,7 @@ from disting.model.chain import Chain
 from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.model import Drawing, folder_of, model_of
+from disting.report.model import Drawing, folder_of, model_of, motion_of
 from disting.report.next_steps import for_pairs, found_for, page_of
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
@@ -86,6 +86,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         models=models,
         sample=example(catalog),
         dampers=dampers,
+        motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
         payload=payload(
             catalog,
@@ -93,6 +94,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
             masses=catalog.n_masses,
             damped=catalog.damped,
             dampers=bool(dampers),
+            motion=motion_of(catalog),
             next=for_pairs(further),
         ),
         plural=plural,
