@@ -246,7 +246,7 @@ def standing(number: int, other: int, verdict: Verdict) -> Relation:
 def ways(
     number: int, other: int, verdict: Verdict
 ) -> tuple[PositiveFinding | None, PositiveFinding | None]:
-    """Which positive models have positive equivalents: from this model to the other one, and back."""
+    """Which positive models have positive equivalents: from this one to the other one, and back."""
     ways = (verdict.left_positive, verdict.right_positive)
     return ways if number < other else ways[::-1]
 

@@ -21,7 +21,7 @@ def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
     plain = [f"{c.name}{ending}" for c in catalogs for ending in ENDINGS]
     found = [name for name in names if "/" not in name]
     outside = [name for name in ours if "/" not in name]
-    assert found == [*plain, "next-2-damped.html", *outside, "index.html"]
+    assert found == [*plain, "next-2-damped.html", "motion-2-damped.html", *outside, "index.html"]
     models = ["models/1-undamped/1.html", *(f"models/2-damped/{i}.html" for i in range(1, 4))]
     guide = [name for name in names if name.startswith("guide/")]
     assert [name for name in names if "/" in name] == [*models, *guide, "models/style.css"]
