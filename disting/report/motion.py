@@ -15,7 +15,7 @@ from disting.model.chain import Chain
 from disting.report.damper_drawing import definitions
 from disting.report.describe_machine import parts_of
 from disting.report.domains import one_sided
-from disting.report.drawing import draw
+from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw
 from disting.report.environment import render
 from disting.report.model import folder_of, motion_of, ways
 from disting.report.payload import script_json
@@ -80,7 +80,13 @@ def _payload(catalog: Catalog, first: tuple[int, int]) -> Markup:
             "masses": catalog.n_masses,
             "damped": catalog.damped,
             "order": catalog.family[1].sensor.order,
-            "size": [scene.width, scene.height],
+            "drawing": {
+                "size": [scene.width, scene.height],
+                "wall": WALL,
+                "pitch": PITCH,
+                "joint": JOINT,
+                "mass": MASS,
+            },
             "models": [chain.indices[1:] for chain in catalog.family],
             "values": [start_values(chain) for chain in catalog.family],
             "first": first,

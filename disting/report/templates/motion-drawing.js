@@ -1,7 +1,7 @@
 // The drawing of a chain whose parts move: every point of a part goes where the masses that hold it take it. The parts are those of
 // the still drawings, held once by the page.
 const ROOM = 34; // by which every joint is longer than in a still drawing, for the motion
-const drawMoving = (svg, chain, size) => {
+const drawMoving = (svg, chain, { size, wall, pitch, joint: length, mass }) => {
   const [gap, actMinus, actPlus, measMinus, measPlus] = chain.ports, n = chain.masses;
   const named = [`ground-${gap ? 1 : 0}`, ...chain.names.map((name) => name + (chain.damped && name[0] === "k" ? "-damped" : ""))];
   named.push(`gap-${gap}`, `force-${actMinus}-${actPlus}`, `sensor-${measMinus}-${measPlus}`);
@@ -13,13 +13,13 @@ const drawMoving = (svg, chain, size) => {
   svg.replaceChildren(...parts.filter(Boolean));
   svg.setAttribute("viewBox", `0 0 ${size[0] + ROOM * (n + 0.8)} ${size[1]}`);
   // where a point is between two nodes: u(x) is linear, or all of the one or of the other
-  const middle = (node) => (node ? 15 + 68 * node - 16 : 15); // as in the still drawing
+  const middle = (node) => (node ? wall + pitch * node - mass / 2 : wall);
   const linear = (from, to) => (x) => { // a shaft ends a little before its arrow's tip
     const share = clamped((x - middle(from) - 12) / (middle(to) - middle(from) - 24), 0, 1);
     return (u) => u[from] * (1 - share) + u[to] * share;
   };
   const joint = (i) => (x) => {
-    const start = 15 + 68 * i, share = clamped((x - start) / 36, 0, 1);
+    const start = wall + pitch * i, share = clamped((x - start) / length, 0, 1);
     return (u) => u[i] * (1 - share) + u[i + 1] * share;
   };
   const fieldOf = (at, path) => {
@@ -29,9 +29,9 @@ const drawMoving = (svg, chain, size) => {
       const place = chain.places[which], kind = chain.kinds[which];
       if (kind === "m") return () => (u) => u[place + 1];
       if (kind === "k") return joint(place);
-      const start = 15 + 68 * place; // the cup stays whole on its rod, and so does the piston
+      const start = wall + pitch * place; // the cup stays whole on its rod, and so does the piston
       if (path < 2) return (x) => (u) => u[place] + (x > start + 1 ? ROOM / 2 : 0);
-      return (x) => (u) => u[place + 1] - (x < start + 35 ? ROOM / 2 : 0);
+      return (x) => (u) => u[place + 1] - (x < start + length - 1 ? ROOM / 2 : 0);
     }
     return [joint(gap), linear(actMinus, actPlus), linear(measMinus, measPlus)][which - chain.names.length];
   };

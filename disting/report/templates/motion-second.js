@@ -24,20 +24,21 @@ const createSecond = (onFound) => {
   };
   const nearby = (task) => { // from what was found last, and from what did the same last
     const starts = [last.values, last.real].filter((values) => values?.every((x) => x > 0));
-    return starts.map((values) => descended(task, values.map(Math.log), { rounds: 30, least: 1e-6 })).sort((a, b) => a.cost - b.cost)[0];
+    return starts.map((values) => descended(task, values.map(Math.log), { rounds: 15, least: 1e-4 })).sort((a, b) => a.cost - b.cost)[0];
   };
   const search = (mine, task, usual, kind) => {
-    const coarse = createTask(task.given, task.values, task.other, task.low, task.high, COARSE);
-    const starts = startsOf(task, usual, STARTS), found = [];
-    let best = { cost: last.cost, values: last.values };
+    const starts = startsOf(task, usual, STARTS), found = [], refined = [];
     const step = () => {
       if (mine !== turn) return;
-      if (starts.length) found.push(descended(coarse, starts.shift(), { rounds: 40, least: 1e-4 }));
+      if (starts.length) found.push(descended(task, starts.shift(), { rounds: 40, least: 1e-4 }));
       else {
-        found.sort((a, b) => a.cost - b.cost);
-        const next = descended(task, found.shift().unknowns);
-        if (next.cost < best.cost) best = next;
-        if (isSame(task, best) || found.length <= STARTS - REFINED) return onFound({ ...judged(task, best, kind), searching: false });
+        if (!refined.length) {
+          task = createTask(task.given, task.values, task.other, task.low, task.high);
+          found.sort((a, b) => a.cost - b.cost).splice(REFINED, Infinity, { unknowns: last.values.map(Math.log) });
+        }
+        refined.push(descended(task, found.shift().unknowns));
+        const best = refined.reduce((a, b) => (b.cost < a.cost ? b : a));
+        if (isSame(task, best) || !found.length) return onFound({ ...judged(task, best, kind), searching: false });
       }
       setTimeout(step);
     };
@@ -48,7 +49,7 @@ const createSecond = (onFound) => {
     // the values now; a search for better ones begins, and what it finds is told. `usual`: of machine 2, where to begin;
     // `kind`: how many positive values of machine 1 have an equivalent there
     follow: ({ given, other, values, usual, kind, pair }) => {
-      const mine = ++turn, [low, high] = band(given, values), task = createTask(given, values, other, low, high);
+      const mine = ++turn, [low, high] = band(given, values), task = createTask(given, values, other, low, high, COARSE);
       const explicit = mapped(given, other, values);
       if (explicit) return told(task, { values: explicit, cost: 0 }, "formula");
       if (last?.pair !== pair) last = { pair, values: startOf(task, usual).map(Math.exp), cost: Infinity, real: null };

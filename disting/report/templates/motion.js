@@ -1,7 +1,7 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id), root = document.documentElement;
-  const SECONDS = 20, SAMPLES = 24; // of a run; samples of the fastest oscillation
+  const SECONDS = 20, SAMPLES = 16; // of a run; samples of the fastest oscillation
   const UNITS = { m: "kg", k: "N/m", d: "N s/m" };
   const chains = data.models.map((ports) => chainOf(data.masses, data.damped, ports, data.order));
   const nameOf = (i) => `A${i}`, numbers = chains.map((_, i) => i + 1);
@@ -99,7 +99,7 @@
   const compute = () => {
     const [one, two] = parts(), [from, to] = second.band(given(), values).map((omega) => omega / (2 * Math.PI));
     const fastest = Math.max(frequencyOf(given(), one, data.masses), found.values.every((x) => x > 0) ? frequencyOf(other(), two, data.masses) : 0, 2 * Math.PI * to * (forceKind() === "sweep"));
-    const steps = Math.round(clamped((SECONDS * SAMPLES * fastest) / (2 * Math.PI), 1500, 20000));
+    const steps = Math.round(clamped((SECONDS * SAMPLES * fastest) / (2 * Math.PI), 1500, 12000));
     const asked = { steps, duration: SECONDS, frequency: sineFrequency(), from, to };
     const force = forceOf(forceKind(), asked), motions = [[given(), one], [other(), two]].map(([chain, of]) => moved(chain, of, force, SECONDS / steps));
     const [first, next] = motions.map(({ places }, which) => widest(places, chains[pair[which] - 1].ports[0], data.masses));
@@ -174,7 +174,7 @@
     [values, base, usual] = [[...first], [...first], second];
     offer();
     [["one", given()], ["two", other()]].forEach(([id, chain], which) => {
-      move[which] = drawMoving(byId(id), chain, data.size);
+      move[which] = drawMoving(byId(id), chain, data.drawing);
       byId(id).setAttribute("aria-label", `${nameOf(pair[which])}, moving`);
       byId(`${id}-name`).textContent = nameOf(pair[which]);
       byId(`${id}-name`).href = `${data.folder}/${pair[which]}.html`;
