@@ -14,7 +14,7 @@ from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
 from disting.report.matrix import thumbnail
-from disting.report.model import Drawing, folder_of, model_of
+from disting.report.model import Drawing, folder_of, model_of, motion_of
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
@@ -47,9 +47,10 @@ class Card:
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """An indistinguishable pair, drawn."""
+    """An indistinguishable pair, drawn, and where it moves."""
 
     address: str
+    motion: str
     family: str
     left: Drawing
     right: Drawing
@@ -123,7 +124,8 @@ def example(catalogs: Sequence[Catalog]) -> Example | None:
     chosen = min(found, key=lambda c: (abs(c.n_masses - 3), not c.damped))
     low, high = chosen.classes()[0][:2]
     drawings = (model_of(chosen, low).drawing, model_of(chosen, high).drawing)
-    return Example(f"{chosen.name}.html#{low}-{high}", short_title(chosen), *drawings)
+    motion = f"{motion_of(chosen)}#A{low}-A{high}"
+    return Example(f"{chosen.name}.html#{low}-{high}", motion, short_title(chosen), *drawings)
 
 
 def _card(

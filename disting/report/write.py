@@ -20,7 +20,8 @@ from disting.report.environment import source
 from disting.report.guide import guide, guide_files
 from disting.report.index import Link, index, sizes
 from disting.report.matrix import figure, figure_png
-from disting.report.model import folder_of, model_page
+from disting.report.model import folder_of, model_page, motion_of
+from disting.report.motion import motion_page
 from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
 from disting.report.page import page
@@ -155,5 +156,7 @@ def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, byte
     found = found_for(c)
     if found is not None:
         yield page_of(c), next_page(c, found).encode()
+    if motion_of(c):
+        yield motion_of(c), motion_page(c).encode()
     for row in c.rows:
         yield f"{folder_of(c)}/{row.number}.html", model_page(c, row.number).encode()

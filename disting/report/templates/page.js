@@ -41,6 +41,7 @@
     link.textContent = nameOf(number);
     link.href = pageOf(number);
   };
+  const linkTo = (href, textContent) => Object.assign(document.createElement("a"), { href, textContent });
   const further = (low, high) => {
     const said = data.next[`${low}-${high}`];
     return said ? `To measure next: ${said}` : "";
@@ -76,6 +77,7 @@
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
     slot("certainty").textContent = v.by ? v.certainty : "";
+    if (data.motion) slot("link").replaceChildren(linkTo(`${data.motion}#A${low}-A${high}`, "Both machines in motion"));
     draw("left", low);
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
@@ -91,10 +93,7 @@
     slot("badge").className = "badge";
     draw("left", model);
     slot("right-figure").hidden = slot("views").hidden = slot("algebra").hidden = true;
-    const link = document.createElement("a");
-    link.href = pageOf(model);
-    link.textContent = `Formulas and identifiability of ${nameOf(model)}`;
-    slot("link").replaceChildren(link);
+    slot("link").replaceChildren(linkTo(pageOf(model), `Formulas and identifiability of ${nameOf(model)}`));
     byId("status").textContent = `${nameOf(model)}. ${slot("shown").textContent}`;
   };
   const fill = ({ models, view }) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
