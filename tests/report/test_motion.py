@@ -321,7 +321,7 @@ def test_values_that_are_not_positive_are_said_at_once(visit) -> None:  # type: 
         tab.evaluate(NEXT_FRAME)
         if tab.locator("#values tr.fails").count():
             break
-    assert "not positive: no such machine" in tab.inner_text("#how")
+    assert "not positive, which no machine has" in tab.inner_text("#how")
     failing = tab.locator("#values tr.fails").all_inner_texts()
     assert failing and all("−" in row and "not positive" in row for row in failing)
     for row in failing:

@@ -22,23 +22,28 @@ const createSecond = (onFound) => {
     last = { ...last, values: found.values, cost: found.cost, real: real ? real.values : last.real };
     return real ? told(task, real, real === found ? "same" : "impossible") : told(task, found, "nearest");
   };
-  const nearby = (task) => { // from what was found last, and from what did the same last
-    const starts = [last.values, last.real].filter((values) => values?.every((x) => x > 0));
-    return starts.map((values) => descended(task, values.map(Math.log), { rounds: 15, least: 1e-4 })).sort((a, b) => a.cost - b.cost)[0];
+  // from what did the same last, and from what was found last; an exact answer is worth more rounds than a near one
+  const nearby = (task, kind) => {
+    const rounds = kind === "never" ? { rounds: 15, least: 1e-4 } : { rounds: 30, least: 1e-6 };
+    let best = null;
+    for (const values of [last.real, last.values])
+      if (values?.every((x) => x > 0) && !(best && isSame(task, best))) {
+        const found = descended(task, values.map(Math.log), rounds);
+        if (!best || found.cost < best.cost) best = found;
+      }
+    return best;
   };
   const search = (mine, task, usual, kind) => {
+    const [coarse, fine] = [COARSE, LINES].map((lines) => createTask(task.given, task.values, task.other, task.low, task.high, lines));
     const starts = startsOf(task, usual, STARTS), found = [], refined = [];
     const step = () => {
       if (mine !== turn) return;
-      if (starts.length) found.push(descended(task, starts.shift(), { rounds: 40, least: 1e-4 }));
+      if (starts.length) found.push(descended(coarse, starts.shift(), { rounds: 40, least: 1e-4 }));
       else {
-        if (!refined.length) {
-          task = createTask(task.given, task.values, task.other, task.low, task.high);
-          found.sort((a, b) => a.cost - b.cost).splice(REFINED, Infinity, { unknowns: last.values.map(Math.log) });
-        }
-        refined.push(descended(task, found.shift().unknowns));
+        if (!refined.length) found.sort((a, b) => a.cost - b.cost).splice(REFINED, Infinity, { unknowns: last.values.map(Math.log) });
+        refined.push(descended(fine, found.shift().unknowns));
         const best = refined.reduce((a, b) => (b.cost < a.cost ? b : a));
-        if (isSame(task, best) || !found.length) return onFound({ ...judged(task, best, kind), searching: false });
+        if (isSame(fine, best) || !found.length) return onFound({ ...judged(fine, best, kind), searching: false });
       }
       setTimeout(step);
     };
@@ -49,11 +54,11 @@ const createSecond = (onFound) => {
     // the values now; a search for better ones begins, and what it finds is told. `usual`: of machine 2, where to begin;
     // `kind`: how many positive values of machine 1 have an equivalent there
     follow: ({ given, other, values, usual, kind, pair }) => {
-      const mine = ++turn, [low, high] = band(given, values), task = createTask(given, values, other, low, high, COARSE);
+      const mine = ++turn, [low, high] = band(given, values), task = createTask(given, values, other, low, high, kind === "never" ? COARSE : LINES);
       const explicit = mapped(given, other, values);
       if (explicit) return told(task, { values: explicit, cost: 0 }, "formula");
       if (last?.pair !== pair) last = { pair, values: startOf(task, usual).map(Math.exp), cost: Infinity, real: null };
-      const now = judged(task, nearby(task), kind);
+      const now = judged(task, nearby(task, kind), kind);
       if (now.how !== "same") search(mine, task, usual, kind);
       return { ...now, searching: now.how !== "same" };
     },

@@ -37,9 +37,10 @@
     const [a, b] = names();
     if (found.how === "formula") return `The values of ${b} follow from those of ${a} by formulas.`;
     if (found.how === "same") return `No formulas are used here: these values of ${b}, found in this page, do the same to within rounding.`;
-    if (found.how === "impossible") return `With these values of ${a}, ${b} would need ${failing().join(" and ")} that ${failing().length > 1 ? "are" : "is"} not positive: no such machine.`;
+    if (found.how === "impossible") return `With these values of ${a}, ${b} would need ${failing().join(" and ")} that ${failing().length > 1 ? "are" : "is"} not positive, which no machine has; positive values that do the same ${found.searching ? "are looked for" : "were not found"}.`;
     const lent = data.damped ? "" : ` (both seen as if damped by ${100 * LENT} %)`;
-    return `${found.searching ? "Searching; best so far" : "Best found in this page"}: ${b} parts from ${a} by up to ${apart(found.most)}${lent}.`;
+    const exist = kindOf(...pair).startsWith("always") && !found.searching ? "The values that do the same were not found here. " : "";
+    return `${exist}${found.searching ? "Searching; best so far" : "Best found in this page"}: ${b} parts from ${a} by up to ${apart(found.most)}${lent}.`;
   };
   const say = () => {
     const [a, b] = names(), fails = found.how === "impossible";
