@@ -13,6 +13,7 @@ from disting.errors import shown
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
+from disting.model.names import DAMPED
 
 NAMES = [c.rule.name for c in CONDITIONS]
 
@@ -96,8 +97,20 @@ def conditions(text: str) -> tuple[str, ...]:
 
 
 def add_damped(parser: argparse.ArgumentParser) -> None:
-    """--damped."""
-    parser.add_argument("--damped", action="store_true", help="a damper beside every spring")
+    """--damped and --undamped; None where nothing is said."""
+    choice = parser.add_mutually_exclusive_group()
+    for name, said in (
+        ("damped", "a damper beside every spring (default)"),
+        ("undamped", "springs without dampers"),
+    ):
+        choice.add_argument(
+            f"--{name}", dest="damped", action="store_const", const=name == "damped", help=said
+        )
+
+
+def is_damped(options: argparse.Namespace) -> bool:
+    """Whether the springs of numbered chains have dampers, which they have if nothing is said."""
+    return DAMPED if options.damped is None else bool(options.damped)
 
 
 def add_sensor(parser: argparse.ArgumentParser) -> None:

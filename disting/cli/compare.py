@@ -2,7 +2,8 @@
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
@@ -13,7 +14,7 @@ from disting.cli.arguments import (
     add_sensor,
     exact_range,
 )
-from disting.cli.common import query, reference
+from disting.cli.common import query
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
@@ -22,8 +23,7 @@ from disting.general import Model, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named, name_of, read
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Query, Relation, Verdict, View
 from disting.verdict.comparison import compare
@@ -77,19 +77,16 @@ def run(options: argparse.Namespace) -> int:
         if options.also:
             raise InputError("--also belongs to chains: a model of a file has no masses to name")
         return _of_files(options, texts)
-    sensor = Sensor(options.sensor)
-    references = [reference(text.partition("+")[0]) for text in texts]
-    chains = [chain_of(text, Family(1, options.damped, sensor)) for text in texts]
+    chains = chains_named(texts, damped=options.damped, sensor=options.sensor)
     asked = query(options.conditions, View.EXACT, options.domain)
     if options.also:
         return _under_experiments(chains, asked, options)
-    plain = sensor is Sensor.ACCELERATION and "+" not in "".join(texts)
-    verdict = _shipped(references, options.damped, asked) if plain else None
-    if verdict is not None and references[0] > references[1]:
-        chains.reverse()  # a stored verdict names the model of the lower number first
+    verdict = shipped(chains, asked)
     if verdict is None:
         with engine_for(options) as (engine, _, _progress):
             verdict = compare(*chains, query=asked, engine=engine)
+    elif verdict.left != name_of(chains[0]):
+        chains.reverse()  # a stored verdict names the model of the lower number first
     if options.prove:
         verdict = prove(verdict, chains[0], chains[1])
     if options.json:
@@ -106,8 +103,12 @@ def _of_files(options: argparse.Namespace, texts: tuple[str, str]) -> int:
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):
         refuse_chain_options(options)
-    family = Family(1, options.damped, Sensor(options.sensor))
-    sides = [_of_file(text) if FILE in text else chain_of(text, family) for text in texts]
+    named = chains_named(
+        [text for text in texts if FILE not in text],
+        damped=options.damped,
+        sensor=options.sensor,
+    )
+    sides = [_of_file(text) if FILE in text else named[0] for text in texts]
     asked = query(options.conditions, View.EXACT, options.domain)
     with engine_for(options) as (engine, _, _progress):
         verdict = compare(*sides, query=asked, engine=engine)
@@ -190,11 +191,25 @@ def _placed(places: Places, verdict: Verdict) -> str:
     return f"masses {pairs} of {verdict.left}/{verdict.right}"
 
 
-def _shipped(references: list[tuple[int, int]], damped: bool, asked: Query) -> Verdict | None:
-    """The stored verdict of a shipped pair, if all conditions may decide."""
-    (n, left), (m, right) = references
-    stored = n == m in SHIPPED_SIZES and left != right and asked == Query(asked.view)
-    return catalog(n, damped=damped).verdict(left, right, asked.view) if stored else None
+def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
+    """The stored verdict on two chains of a shipped catalogue, if all conditions may decide, under
+    their whole names.
+    """
+    left, right = sorted((read(name_of(chain)) for chain in chains), key=lambda n: n.number)
+    a, b = chains
+    stored = (
+        a.n_masses == b.n_masses in SHIPPED_SIZES
+        and a.damped == b.damped
+        and a.sensor is b.sensor is Sensor.ACCELERATION
+        and left.is_plain
+        and right.is_plain
+        and left != right
+        and asked == Query(asked.view)
+    )
+    if not stored:
+        return None
+    found = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
+    return replace(found, left=str(left), right=str(right))
 
 
 def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:

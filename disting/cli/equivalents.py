@@ -25,8 +25,7 @@ from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
-from disting.model.family import Family, name_of
-from disting.model.names import chain_of
+from disting.model.names import chains_named, name_of
 
 ABREAST = 3  # parameter sets beside each other
 FEW = 12  # names of structures that are told one by one
@@ -72,7 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the equivalents of a model, or formulas for them."""
     if options.formulas or options.latex or options.sympy:
-        given = chain_of(options.model, Family(1, options.damped))
+        (given,) = chains_named([options.model], damped=options.damped)
         print("\n".join(_formulas(given, chains_of(options.to, given), options)))
         return 0
     if not options.values:
@@ -224,10 +223,10 @@ def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace
     for other in others:
         found = explicit_map(given, other)
         if found is None:
-            none.append(name_of(other, short=False))
+            none.append(name_of(other))
             continue
-        yield f"{mark}{name_of(given, short=False)}  {text_drawing(given)}"
-        yield f"{mark}{name_of(other, short=False)}  {text_drawing(other)}   (primed)"
+        yield f"{mark}{name_of(given)}  {text_drawing(given)}"
+        yield f"{mark}{name_of(other)}  {text_drawing(other)}   (primed)"
         yield f"{mark}by {', then '.join(found.steps) or 'identity'}; {_checked(found)}"
         yield found.latex if options.latex else found.python if options.sympy else found.text
         yield ""

@@ -8,7 +8,7 @@ from dataclasses import replace
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.arguments import MASSES, add_damped, add_work
+from disting.cli.arguments import MASSES, add_damped, add_work, is_damped
 from disting.cli.workers import engine_for
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the models of one size."""
-    family = Family(options.masses, options.damped)
+    family = Family(options.masses, is_damped(options))
     with engine_for(options) as (engine, pool, progress):
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)

@@ -10,16 +10,15 @@ from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
 from disting.catalogs.next_files import build_next, next_catalog, write
-from disting.cli.arguments import add_damped, add_masses, add_out, add_work
-from disting.cli.common import emitted, reference
+from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
+from disting.cli.common import emitted
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
 from disting.experiments.menu import COSTS, Costs, Item
 from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named, name_of, read
 from disting.verdict import Engine, Query, Relation, View
 from disting.verdict.further import Further, further
 from disting.verdict.further_words import (
@@ -72,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         if isinstance(group, str):
             print(group)
             return 0
-        found = _shipped(group, options.damped, costs) or further(
+        found = _shipped(group, is_damped(options), costs) or further(
             group, engine, costs=costs, executor=pool, progress=progress
         )
     if options.csv:
@@ -135,16 +134,15 @@ def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further | None:
     if "+" in "".join(names) or group[0][1].n_masses not in NEXT_SIZES:
         return None
     stored = next_catalog(group[0][1].n_masses, damped=damped)
-    return stored.further([reference(name)[1] for name in names], costs)
+    return stored.further([read(name).number for name in names], costs)
 
 
 def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
     """The structures to tell apart, or the sentence that says that there is nothing to do."""
-    names = list(dict.fromkeys(options.models))
-    family = Family(1, options.damped)
-    chains = [chain_of(name, family) for name in names]
+    chains = list(dict.fromkeys(chains_named(options.models, damped=is_damped(options))))
+    names = [name_of(chain) for chain in chains]
     if len(names) == 1:
-        return _all_like(names[0], options.damped)
+        return _all_like(names[0], is_damped(options))
     if len({chain.n_masses for chain in chains}) > 1:
         raise InputError("the structures have different numbers of masses: name some of one size")
     named = list(zip(names, chains, strict=True))
@@ -160,8 +158,9 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
 
 def _all_like(name: str, damped: bool) -> list[Named] | str:
     """The group of a shipped catalogue."""
-    n, number = reference(name.partition("+")[0])
-    if "+" in name or n not in SHIPPED_SIZES:
+    asked = read(name)
+    n, number = asked.masses, asked.number
+    if not asked.is_plain or n not in SHIPPED_SIZES:
         sizes = f"{SHIPPED_SIZES[0]} to {SHIPPED_SIZES[-1]}"
         raise InputError(
             f"groups are known of the catalogues of {sizes} masses, not for {listed([name])}: name"

@@ -8,8 +8,7 @@ from disting.cli.common import emitted
 from disting.cli.paths import written_file
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named
 
 KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
@@ -134,10 +133,10 @@ def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
     from disting.simulation import DEMO_MODEL
 
     if options.model is None:
-        if options.values or options.damped:
+        if options.values or options.damped is not None:
             raise InputError("parameters belong to a model: name it, such as 2:1")
         return DEMO_MODEL, {}
-    chain = chain_of(options.model, Family(1, options.damped, Sensor(options.sensor)))
+    (chain,) = chains_named([options.model], damped=options.damped, sensor=options.sensor)
     exact = point_of(chain, assignments(options.values))
     return chain, {name: int(value.p) / int(value.q) for name, value in exact.items()}
 

@@ -12,6 +12,7 @@ from disting.cli.arguments import (
     add_deciding,
     add_sensor,
     add_work,
+    is_damped,
     sizes_or_file,
     whole,
 )
@@ -27,6 +28,7 @@ from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
 from disting.model.chain import Chain, Sensor
+from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.compared import Compared
@@ -90,9 +92,10 @@ def run(options: argparse.Namespace) -> int:
 
 def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
     """Raises InputError for options that speak of numbered chains, where models are a file's."""
-    if options.damped:
+    if options.damped is not None:
         raise InputError(
-            '--damped belongs to numbered chains: write "damped": true at the chains of the file'
+            f'{damping_option(options.damped)} belongs to numbered chains: write "damped": true or'
+            " false at the chains of the file"
         )
     if options.sensor != Sensor.ACCELERATION:
         raise InputError(
@@ -114,7 +117,7 @@ def list_of(path: Path) -> ModelList:
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:
     """Numbered chains: A1, A2, .. of one size, N:I of several."""
     named: Sequence[tuple[str, Chain]] = combined_family(
-        options.masses, damped=options.damped, sensor=Sensor(options.sensor)
+        options.masses, damped=is_damped(options), sensor=Sensor(options.sensor)
     )
     if len(options.masses) == 1:
         named = [(f"A{number}", chain) for number, (_, chain) in enumerate(named, 1)]

@@ -23,7 +23,7 @@ from disting.general.model import Model
 from disting.general.spelled import polynomial_text
 from disting.model.chain import Sensor
 from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import DAMPED, chain_of
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -191,7 +191,7 @@ def _of_kind(entry: Plain, name: str, variable: str) -> Model:
 
 
 def _of_chain(given: Plain, name: str) -> Model:
-    damped = given.get("damped", False)
+    damped = given.get("damped", DAMPED)
     if not isinstance(damped, bool):
         raise InputError('"damped" is true or false')
     quantity = _text(given, "sensor", Sensor.ACCELERATION.value)
