@@ -52,3 +52,6 @@ from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
 from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.proof import prove as prove
+from disting.verdict.verdict_file import verdict_file as verdict_file
+from disting.verdict.verification import Verification as Verification
+from disting.verdict.verification import verify as verify

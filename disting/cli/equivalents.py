@@ -7,7 +7,8 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from disting.cli.arguments import add_damped
+from disting.cli.arguments import add_damped, add_json
+from disting.cli.common import emitted
 from disting.equivalence import (
     NONE,
     Equivalent,
@@ -55,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
     form = parser.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="print the result as JSON")
+    add_json(form, "the result", alone=True)
     form.add_argument(
         "--formulas",
         action="store_true",
@@ -78,11 +79,10 @@ def run(options: argparse.Namespace) -> int:
         example = "--set m1=1,m2=2,.. (or --formulas for formulas)"
         raise InputError(f"values of the given model are needed: {example}")
     found = find(options.model, assignments(options.values), options.to, damped=options.damped)
-    print(
-        json.dumps(found.to_dict(), indent=1, ensure_ascii=False)
-        if options.json
-        else "\n".join(_lines(found))
-    )
+    if options.json:
+        emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
+    else:
+        print("\n".join(_lines(found)))
     return 0
 
 

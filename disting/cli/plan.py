@@ -136,9 +136,9 @@ def _effort(
         return _measured(options, model, values)
     if number is None and named is None:
         raise InputError("say how much a line scatters: --noise 0.02, or --noise FRF.csv")
-    low, high = options.range or ((named.low, named.high) if named else (0.0, 0.0))
+    low, high = options.band or ((named.low, named.high) if named else (0.0, 0.0))
     if not 0 < low < high:
-        raise InputError("say which lines are measured [Hz]: --range 5..300")
+        raise InputError("say which lines are measured [Hz]: --band 5..300")
     size = number if number is not None else named.scatter if named else 0.0
     count = options.lines or (named.lines if named else 0) or LINES
     source = "given" if number is not None else "of the fitted data"
@@ -159,7 +159,7 @@ def _measured(options: argparse.Namespace, model: Chain, values: dict[str, float
     found = read(Path(options.noise)).to_quantity(model.sensor)
     for note in (*found.notes, *found.suspicions):
         complain(f"{found.origin or 'data'}: {note}")
-    found = found.masked(*options.range) if options.range else found
+    found = found.masked(*options.band) if options.band else found
     seen = scatter(found, [predicted(model, values, found.omega)])
     return Effort(found.omega, seen.rho, f"of {options.noise}, known from {seen.source}")
 

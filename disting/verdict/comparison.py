@@ -133,10 +133,18 @@ def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[C
         return engine.general_subject(names[0], models[0]), engine.general_subject(
             names[1], models[1]
         )
-    names = [name_of(chain) for chain in (left, right)]
-    if names[0] == names[1] and left != right:
-        names = [f"the model with {chain}" for chain in (left, right)]
+    names = names_of(left, right)
     return engine.subject(names[0], left), engine.subject(names[1], right)
+
+
+def names_of(left: Chain, right: Chain) -> tuple[str, str]:
+    """What two chains are called beside each other: by their names, those that have one name, of
+    which one is damped, in full.
+    """
+    names = name_of(left), name_of(right)
+    if names[0] == names[1] and left != right:
+        return f"the model with {left}", f"the model with {right}"
+    return names
 
 
 def _model(given: Chain | Model) -> Model:

@@ -115,7 +115,7 @@ def plan_command(found: Plan) -> str:
     lines = ""
     if found.rival:
         hertz = found.rival.hertz
-        lines = f" --range {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
+        lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
     damped = f" {damping_option(found.model.damped)}"
     return f"disting plan {model} {rival}{damped} --set {values} --noise {size:.3g}{lines}"
 
