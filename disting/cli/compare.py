@@ -59,7 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
-    add_json(parser, "the verdict with its evidence, for 'disting verify'", alone=True)
+    add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
     add_no_cache(parser)
 
 

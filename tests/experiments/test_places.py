@@ -126,7 +126,7 @@ def test_command_line_as_json(capsys):
         (("--also", "sensor=7"), "there is no mass 7 in a chain with masses 1 to 3"),
         (("--also", "lock=1+2+3"), "leave one that moves"),
         (("--also", "inertia=1:-2"), "a known inertia is positive"),
-        (("--also", "sensor=1", "--prove"), "leave --prove and --range away"),
+        (("--also", "sensor=1", "--prove"), "leave --prove and --bound away"),
     ],
 )
 def test_command_line_errors_are_one_sentence(capsys, also, said):
