@@ -192,7 +192,7 @@ def decided(
             found = compare(*chains, query=asked, engine=engine)
     turned = found.left != names_of(chains[0], chains[1])[0]
     ordered = list(reversed(chains)) if turned else list(chains)
-    return ordered, prove(found, *ordered) if options.prove else found
+    return ordered, prove(found, ordered[0], ordered[1]) if options.prove else found
 
 
 def file_of(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> dict[str, Any]:

@@ -238,7 +238,7 @@ def _add_group(to: Subparsers, group: Group) -> None:
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one sentence, which says what may have been meant."""
 
-    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def,override]
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         """A command refuses itself what it does not know, so that its own help is named."""
         found, rest = super().parse_known_args(args, namespace)
         if rest:

@@ -133,8 +133,8 @@ def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[C
         return engine.general_subject(names[0], models[0]), engine.general_subject(
             names[1], models[1]
         )
-    names = names_of(left, right)
-    return engine.subject(names[0], left), engine.subject(names[1], right)
+    here, there = names_of(left, right)
+    return engine.subject(here, left), engine.subject(there, right)
 
 
 def names_of(left: Chain, right: Chain) -> tuple[str, str]:

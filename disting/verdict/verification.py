@@ -210,8 +210,9 @@ def _follows(v: Verdict, evidence: Evidence) -> bool:
         return False
     match evidence:
         case BothWays():
-            told = PROVES[rule.role].get(positive_ways(evidence.left, evidence.right).outcome)
-            return v.domain is Domain.POSITIVE and v.relation is told
+            outcome = positive_ways(evidence.left, evidence.right).outcome
+            shown = PROVES[rule.role].get(outcome, Relation.UNDECIDED)
+            return v.domain is Domain.POSITIVE and v.relation is shown
         case Theorem():
             real = v.domain is Domain.REAL and evidence.name in RATIONAL
             return real and v.relation is Relation.INDISTINGUISHABLE

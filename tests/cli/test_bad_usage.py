@@ -9,7 +9,7 @@ import pytest
 from disting.cli import main
 from tests.cli.process import disting
 
-CHAIN = ("equivalents", "3:1", "--to", "3:11", "--set")
+CHAIN = ("equivalents", "3:1", "--undamped", "--to", "3:11", "--set")
 REPORTS = Path(__file__).parents[2] / "reports"
 DEMO = ("fit", "--demo", "--masses", "1")
 WORDS = [
@@ -35,7 +35,7 @@ WORDS = [
     (("verdicts", "3", "--conditions", "5-3"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "5-"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "exact"), "conditions are written like"),
-    (("verdicts", "3", "--sensor", "force"), "invalid choice"),
+    (("verdicts", "3", "--quantity", "force"), "is none of"),
     (("verdicts", "3", "--csv", "-", "--json", "-"), "not both"),
     (("verdicts", "3", "--markov", "-4"), "at least 1"),
     (("verdicts", "3", "--jobs", "0"), "at least 1"),

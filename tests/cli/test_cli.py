@@ -22,7 +22,7 @@ def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
     rows = [
         line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line
     ]
-    assert len(rows) == 157 and {row[10] for row in rows} == {"·"}
+    assert len(rows) == 157 and {row[8] for row in rows} == {"·"}
 
 
 def test_compare_explains_one_pair():
