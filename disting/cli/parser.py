@@ -7,7 +7,6 @@ what runs them, which loads libraries that no other command needs.
 import argparse
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 from disting.cli import (
@@ -265,6 +264,8 @@ def _offered(action: argparse.Action) -> list[str]:
 
 def near(word: str, known: Sequence[str]) -> str:
     """The end of a sentence on a word that is not known: what it may have been meant for."""
+    from difflib import get_close_matches  # where something is wrong, and nowhere else
+
     found = get_close_matches(word[:LONGEST_ECHO], known, 1)
     return f"; did you mean {found[0]}?" if found else ""
 

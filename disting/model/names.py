@@ -8,7 +8,6 @@ no part of a name; they are said once for all models that are named together.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
@@ -167,6 +166,8 @@ def _meant(text: str) -> str:
 
 def _word(word: str) -> str:
     """The extra that a word is near to."""
+    from difflib import get_close_matches  # where something is wrong, and nowhere else
+
     damper = re.fullmatch(r"[bd]?0*([1-9]\d?)", word)
     near = get_close_matches(word, (*WORDS, "deadtime", "dead-time"), 1, 0.6)
     found = f"b{damper[1]}" if damper else near[0] if near else word
