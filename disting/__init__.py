@@ -60,6 +60,9 @@ from disting.verdict.comparison import findings as findings
 from disting.verdict.everywhere import compare_everywhere as compare_everywhere
 from disting.verdict.identifiable import identifiability as identifiability
 from disting.verdict.proof import prove as prove
+from disting.verdict.verdict_file import verdict_file as verdict_file
+from disting.verdict.verification import Verification as Verification
+from disting.verdict.verification import verify as verify
 
 
 def _presenter() -> _Presenter:

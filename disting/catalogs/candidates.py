@@ -23,7 +23,7 @@ from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
-from disting.model.family import name_of
+from disting.model.names import name_of
 from disting.model.shown import plural, summary
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
 
@@ -131,7 +131,7 @@ def matrix(
     if len({c.sensor for c in chains}) != 1:
         raise InputError("a matrix of verdicts holds models of one sensor quantity")
     engine = engine or Engine()
-    subjects = [engine.subject(name_of(c, short=False), c) for c in chains]
+    subjects = [engine.subject(name_of(c), c) for c in chains]
     decided = engine.decisions(
         subjects, Query(View.EXACT, inclusion=False), executor=executor, progress=progress
     )

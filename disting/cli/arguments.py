@@ -6,13 +6,15 @@ import argparse
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-from disting.cli.paths import written_folder
+from disting.cli.paths import written_file, written_folder
 from disting.conditions.table import CONDITIONS
 from disting.errors import shown
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
+from disting.model.names import DAMPED
 
 NAMES = [c.rule.name for c in CONDITIONS]
 
@@ -96,18 +98,71 @@ def conditions(text: str) -> tuple[str, ...]:
 
 
 def add_damped(parser: argparse.ArgumentParser) -> None:
-    """--damped."""
-    parser.add_argument("--damped", action="store_true", help="a damper beside every spring")
+    """--damped and --undamped; None where nothing is said."""
+    choice = parser.add_mutually_exclusive_group()
+    for name, said in (
+        ("damped", "a damper beside every spring (default)"),
+        ("undamped", "springs without dampers"),
+    ):
+        choice.add_argument(
+            f"--{name}", dest="damped", action="store_const", const=name == "damped", help=said
+        )
 
 
-def add_sensor(parser: argparse.ArgumentParser) -> None:
-    """--sensor of two commands that compare."""
+def is_damped(options: argparse.Namespace) -> bool:
+    """Whether the springs of numbered chains have dampers, which they have if nothing is said."""
+    return DAMPED if options.damped is None else bool(options.damped)
+
+
+def add_quantity(parser: argparse.ArgumentParser, default: Sensor = Sensor.ACCELERATION) -> None:
+    """--quantity: what the sensor shows; --sensor is everywhere the mass at which it sits."""
     parser.add_argument(
-        "--sensor",
+        "--quantity",
         choices=[s.value for s in Sensor],
-        default="acceleration",
-        help="measured quantity (default: acceleration)",
+        default=default.value,
+        help=f"what the sensor shows (default: {default})",
     )
+    refuse(parser, "--sensor", "a sensor is a mass; what it shows is --quantity, such as velocity")
+
+
+def add_bounds(parser: argparse.ArgumentParser, text: str) -> None:
+    """--bound: ranges of parameters, exactly as they are written."""
+    parser.add_argument(
+        "--bound",
+        type=exact_range,
+        action="append",
+        default=[],
+        metavar="NAME=LOW..HIGH",
+        help=text,
+    )
+    refuse(parser, "--range", "the range of a parameter is --bound, such as --bound k12=0..1000")
+
+
+def add_json(
+    parser: argparse.ArgumentParser | argparse._ArgumentGroup, what: str, *, alone: bool = False
+) -> None:
+    """--json FILE; `alone`: without a name, it is standard output."""
+    rest = "; - is standard output" + ", and so is no name" * alone
+    optional: dict[str, Any] = {"nargs": "?", "const": "-"} if alone else {}
+    help_ = f"write {what} as JSON{rest}"
+    parser.add_argument("--json", type=written_file, metavar="FILE", help=help_, **optional)
+
+
+def refuse(parser: argparse.ArgumentParser, option: str, remedy: str) -> None:
+    """An option of another meaning elsewhere, or of before, is refused with what to write."""
+    parser.add_argument(option, action=_Refused, remedy=remedy)
+
+
+class _Refused(argparse.Action):
+    """An option that ends in a sentence."""
+
+    def __init__(self, option_strings: list[str], dest: str, remedy: str) -> None:
+        super().__init__(option_strings, argparse.SUPPRESS, nargs="?", help=argparse.SUPPRESS)
+        self.remedy = remedy
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Say it."""
+        parser.error(f"{self.option_strings[0]}: {self.remedy}")
 
 
 def add_deciding(parser: argparse.ArgumentParser) -> None:

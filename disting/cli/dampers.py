@@ -10,15 +10,16 @@ from itertools import combinations
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
-from disting.cli.arguments import add_damped, add_masses, add_out, add_work
-from disting.cli.common import emitted, emitted_lines, reference, relations_in_words
+from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
+from disting.cli.common import emitted, emitted_lines, relations_in_words
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.conditions.table import RULES
 from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
-from disting.model.family import MOST_MASSES, Family
+from disting.model.family import MOST_MASSES
+from disting.model.names import chains_named, extras_of, name_of
 from disting.verdict import Relation, classes_safety, joint_in_words
 
 SIGNS = {
@@ -73,8 +74,12 @@ def run(options: argparse.Namespace) -> int:
     """Print the table, or write it as CSV."""
     if options.model.isdecimal():
         return _whole_family(options)
-    n, number = reference(options.model)
-    chain, domain = Family(n, options.damped)[number], Domain(options.domain or Domain.POSITIVE)
+    (chain,) = chains_named([options.model], damped=is_damped(options))
+    if extras_of(chain):
+        raise InputError(
+            f"every set of dampers is asked: name the model without {extras_of(chain)}"
+        )
+    domain = Domain(options.domain or Domain.POSITIVE)
     with engine_for(options) as (engine, pool, progress):
         asked = partial(
             dampers,
@@ -89,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
         emitted(options.csv, table.to_csv())
     if options.csv != "-":
         shown = f"{matrix(table, over_complex)}\n{legend(domain)}\n\n{summary(table, over_complex)}"
-        sys.stdout.write(f"{options.model}  {text_drawing(chain)}\n\n{shown}\n")
+        sys.stdout.write(f"{name_of(chain)}  {text_drawing(chain)}\n\n{shown}\n")
     return 0
 
 
@@ -160,10 +165,15 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
         raise InputError(f"families of 1 to {MOST_MASSES} masses are listed, not of {n}")
     which = DamperSets(options.sets)
     if n in SHIPPED_SIZES and which is DamperSets.ALL:
-        return damper_catalog(n, damped=options.damped)
+        return damper_catalog(n, damped=is_damped(options))
     with engine_for(options) as (engine, pool, progress):
         return damper_family(
-            n, damped=options.damped, which=which, engine=engine, executor=pool, progress=progress
+            n,
+            damped=is_damped(options),
+            which=which,
+            engine=engine,
+            executor=pool,
+            progress=progress,
         )
 
 

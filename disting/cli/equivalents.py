@@ -7,7 +7,8 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from disting.cli.arguments import add_damped
+from disting.cli.arguments import add_damped, add_json
+from disting.cli.common import emitted
 from disting.equivalence import (
     NONE,
     Equivalent,
@@ -25,8 +26,7 @@ from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
-from disting.model.family import Family, name_of
-from disting.model.names import chain_of
+from disting.model.names import chains_named, name_of
 
 ABREAST = 3  # parameter sets beside each other
 NONE_HERE = "No experiment with this force and sensor"
@@ -63,7 +63,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     form = parser.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="print the result as JSON")
+    add_json(form, "the result", alone=True)
     form.add_argument(
         "--formulas",
         action="store_true",
@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
     if options.formulas or options.latex or options.sympy:
         if options.also:
             raise InputError("--also asks for values, not for formulas: leave one of them away")
-        given = chain_of(options.model, Family(1, options.damped))
+        (given,) = chains_named([options.model], damped=options.damped)
         print("\n".join(_formulas(given, chains_of(options.to, given), options)))
         return 0
     if not options.values:
@@ -89,11 +89,10 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"values of the given model are needed: {example}")
     values = assignments(options.values)
     found = find(options.model, values, options.to, damped=options.damped, also=options.also)
-    print(
-        json.dumps(found.to_dict(), indent=1, ensure_ascii=False)
-        if options.json
-        else "\n".join(_lines(found))
-    )
+    if options.json:
+        emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
+    else:
+        print("\n".join(_lines(found)))
     return 0
 
 
@@ -239,10 +238,10 @@ def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace
     for other in others:
         found = explicit_map(given, other)
         if found is None:
-            none.append(name_of(other, short=False))
+            none.append(name_of(other))
             continue
-        yield f"{mark}{name_of(given, short=False)}  {text_drawing(given)}"
-        yield f"{mark}{name_of(other, short=False)}  {text_drawing(other)}   (primed)"
+        yield f"{mark}{name_of(given)}  {text_drawing(given)}"
+        yield f"{mark}{name_of(other)}  {text_drawing(other)}   (primed)"
         yield f"{mark}by {', then '.join(found.steps) or 'identity'}; {_checked(found)}"
         yield found.latex if options.latex else found.python if options.sympy else found.text
         yield ""

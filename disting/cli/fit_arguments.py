@@ -5,8 +5,8 @@ import re
 from pathlib import Path
 from typing import Any
 
-from disting.cli.arguments import add_work, frequency_range
-from disting.cli.paths import written_file, written_folder
+from disting.cli.arguments import add_json, add_work, frequency_range
+from disting.cli.paths import written_folder
 from disting.errors import shown
 
 WEIGHTS = ("auto", "none", "std", "coherence")
@@ -208,12 +208,7 @@ def _output(group: argparse._ArgumentGroup) -> None:
         " (default: if it lies beside)"
     )
     group.add_argument("--site", type=_site, metavar="DIR", help=text)
-    group.add_argument(
-        "--json",
-        type=written_file,
-        metavar="FILE",
-        help="write the selection as JSON; - is standard output",
-    )
+    add_json(group, "the selection")
 
 
 def _site(text: str) -> Path:

@@ -14,16 +14,15 @@ from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
 from disting.catalogs.next_files import WITH_DAMPERS, build_next, next_catalog, write
-from disting.cli.arguments import add_damped, add_masses, add_out, add_work
-from disting.cli.common import emitted, reference
+from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
+from disting.cli.common import emitted
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed, printable
 from disting.experiments.menu import COSTS, Costs, Item
 from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named, name_of, read
 from disting.verdict import Engine, Query, Relation, View
 from disting.verdict.further import Further, further
 from disting.verdict.further_words import (
@@ -78,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
         if isinstance(group, str):
             print(group)
             return 0
-        found = _shipped(group, options.damped, costs) or further(
+        found = _shipped(group, is_damped(options), costs) or further(
             group, engine, costs=costs, executor=pool, progress=progress
         )
     if options.csv:
@@ -177,28 +176,23 @@ def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further | None:
     if n not in (WITH_DAMPERS if dampers else NEXT_SIZES):
         return None
     stored = next_catalog(n, damped=damped, dampers=dampers)
-    numbers = [stored.number(_model(name), chain.ground_dampers) for name, chain in group]
+    numbers = [stored.number(read(name).number, chain.ground_dampers) for name, chain in group]
     return stored.further(numbers, costs)
-
-
-def _model(name: str) -> int:
-    """Its number in the family, whatever is added to it."""
-    return reference(name.partition("+")[0])[1]
 
 
 def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
     """The structures to tell apart, or the sentence that says that there is nothing to do."""
-    names = list(dict.fromkeys(options.models))
-    family = Family(1, options.damped)
-    chains = [chain_of(name, family) for name in names]
+    texts = list(dict.fromkeys(options.models))
+    chains = chains_named(texts, damped=is_damped(options))
+    again = next((i for i, chain in enumerate(chains) if chain in chains[:i]), None)
+    if again is not None:
+        first = texts[chains.index(chains[again])]
+        raise InputError(f"{texts[again]} and {first} are the same structure")
+    names = [name_of(chain) for chain in chains]
     if len(names) == 1:
-        return _all_like(names[0], options.damped)
+        return _all_like(names[0], is_damped(options))
     if len({chain.n_masses for chain in chains}) > 1:
         raise InputError("the structures have different numbers of masses: name some of one size")
-    found = dict(zip(chains, names, strict=True))
-    if len(found) < len(names):
-        again = next(n for n, c in zip(names, chains, strict=True) if found[c] != n)
-        raise InputError(f"{again} and {found[chain_of(again, family)]} are the same structure")
     named = list(zip(names, chains, strict=True))
     for (left, a), (right, b) in combinations(named, 2):
         sides = engine.subject(left, a), engine.subject(right, b)
@@ -212,7 +206,7 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
 
 def _all_like(name: str, damped: bool) -> list[Named] | str:
     """The group of a shipped catalogue."""
-    chain = chain_of(name, Family(1, damped))
+    (chain,) = chains_named([name], damped=damped)
     n, dampers = chain.n_masses, bool(chain.ground_dampers)
     sizes = DAMPER_SIZES if dampers else SHIPPED_SIZES
     if n not in sizes or chain.lag or chain.dead_time:

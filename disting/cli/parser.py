@@ -5,7 +5,7 @@ what runs them, which loads libraries that no other command needs.
 """
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,10 +22,11 @@ from disting.cli import (
     simulate,
     upkeep,
     verdicts,
+    verify,
 )
 from disting.cli.plain import complain
 from disting.conditions.table import CONDITIONS
-from disting.errors import LONGEST_ECHO
+from disting.errors import LONGEST_ECHO, shown
 from disting.files import __version__
 
 DESCRIPTION = (
@@ -35,7 +36,8 @@ DESCRIPTION = (
 EPILOG = (
     "conditions:\n"
     + "\n".join(f"  {c.rule.name}  {c.rule.title}: {c.rule.text}" for c in CONDITIONS)
-    + "\n\nexit status: 0 fine, 1 a failed verification, 2 bad usage or bad input"
+    + "\n\nexit status: 0 fine, 1 a failed verification, 2 bad usage or bad input,"
+    " 3 a verdict that cannot be checked alone"
 )
 Subparsers = Any  # the object that argparse gives for sub-commands has no public type
 
@@ -141,6 +143,12 @@ COMMANDS = (
     ),
     Command("compare", "one verdict, explained", compare.run, compare.add_arguments),
     Command(
+        "verify",
+        "whether one verdict holds, checked anew from its evidence alone",
+        verify.run,
+        verify.add_arguments,
+    ),
+    Command(
         "verdicts",
         "all pairs of one size, of several sizes together, or of your own models in a file",
         verdicts.run,
@@ -228,12 +236,39 @@ def _add_group(to: Subparsers, group: Group) -> None:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one sentence."""
+    """A parser whose errors are one sentence, which says what may have been meant."""
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
+        """A command refuses itself what it does not know, so that its own help is named."""
+        found, rest = super().parse_known_args(args, namespace)
+        if rest:
+            options = [name for action in self._actions for name in _offered(action)]
+            meant = [near(word.partition("=")[0], options) for word in rest if word[0:1] == "-"]
+            self.error(f"unrecognized arguments: {' '.join(rest)}{''.join(meant)}")
+        return found, rest
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is not None and value not in action.choices:
+            known = list(map(str, action.choices))
+            said = f"{shown(value)} is none of {', '.join(known)}{near(str(value), known)}"
+            raise argparse.ArgumentError(action, said)
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        complain(f"{_short(message)}; see '{self.prog} --help'")
+        complain(f"{_short(message).rstrip('.')} (see '{self.prog} --help')")
         self.exit(2)
+
+
+def _offered(action: argparse.Action) -> list[str]:
+    return [] if action.help == argparse.SUPPRESS else list(action.option_strings)
+
+
+def near(word: str, known: Sequence[str]) -> str:
+    """The end of a sentence on a word that is not known: what it may have been meant for."""
+    from difflib import get_close_matches  # where something is wrong, and nowhere else
+
+    found = get_close_matches(word[:LONGEST_ECHO], known, 1)
+    return f"; did you mean {found[0]}?" if found else ""
 
 
 def _short(message: str) -> str:

@@ -3,13 +3,12 @@
 import argparse
 from pathlib import Path
 
-from disting.cli.arguments import add_damped
+from disting.cli.arguments import add_damped, add_quantity, refuse
 from disting.cli.common import emitted
 from disting.cli.paths import written_file
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named
 
 KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
@@ -58,16 +57,10 @@ def _drive(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
-    for name, quantity, what in (
-        ("sensor", "position", "sensor"),
-        ("to", "acceleration", "response"),
-    ):
-        p.add_argument(
-            f"--{name}",
-            choices=QUANTITIES,
-            default=quantity,
-            help=f"what the {what} shows (default: {quantity})",
-        )
+    add_quantity(p, Sensor.POSITION)
+    text = "quantity of the response that is written (default: acceleration)"
+    p.add_argument("--response", choices=QUANTITIES, default="acceleration", help=text)
+    refuse(p, "--to", "the quantity of the response is --response, such as --response position")
 
 
 def _bench(p: argparse.ArgumentParser) -> None:
@@ -115,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
     series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
     lines = excitation.lines(options.samples, options.rate) * options.rate / options.samples
     response = series.response(
-        options.to, period=options.samples, lines=lines if spectrum else None
+        options.response, period=options.samples, lines=lines if spectrum else None
     )
     text = csv_text(response)
     emitted(options.csv, text)
@@ -134,10 +127,10 @@ def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
     from disting.simulation import DEMO_MODEL
 
     if options.model is None:
-        if options.values or options.damped:
+        if options.values or options.damped is not None:
             raise InputError("parameters belong to a model: name it, such as 2:1")
         return DEMO_MODEL, {}
-    chain = chain_of(options.model, Family(1, options.damped, Sensor(options.sensor)))
+    (chain,) = chains_named([options.model], damped=options.damped, sensor=options.quantity)
     exact = point_of(chain, assignments(options.values))
     return chain, {name: int(value.p) / int(value.q) for name, value in exact.items()}
 

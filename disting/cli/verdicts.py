@@ -10,8 +10,10 @@ from disting.catalogs.export import decisions_csv, decisions_json
 from disting.cli.arguments import (
     add_damped,
     add_deciding,
-    add_sensor,
+    add_json,
+    add_quantity,
     add_work,
+    is_damped,
     sizes_or_file,
     whole,
 )
@@ -27,6 +29,7 @@ from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
 from disting.model.chain import Chain, Sensor
+from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.compared import Compared
@@ -46,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="number of masses, or several sizes such as 1-4 in one matrix, or a file of models",
     )
     add_damped(parser)
-    add_sensor(parser)
+    add_quantity(parser)
     add_work(parser)
     add_deciding(parser)
     text = "which may decide (default: all)"
@@ -55,8 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--markov", type=whole(1), default=0, metavar="K", help=text)
     text = "write the verdicts as CSV; - is standard output"
     parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
-    text = "write the verdicts with evidence as JSON; - is standard output"
-    parser.add_argument("--json", type=written_file, metavar="FILE", help=text)
+    add_json(parser, "the verdicts with evidence")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -91,13 +93,14 @@ def run(options: argparse.Namespace) -> int:
 
 def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
     """Raises InputError for options that speak of numbered chains, where models are a file's."""
-    if options.damped:
+    if options.damped is not None:
         raise InputError(
-            '--damped belongs to numbered chains: write "damped": true at the chains of the file'
+            f'{damping_option(options.damped)} belongs to numbered chains: write "damped": true or'
+            " false at the chains of the file"
         )
-    if getattr(options, "sensor", Sensor.ACCELERATION) != Sensor.ACCELERATION:
+    if getattr(options, "quantity", Sensor.ACCELERATION) != Sensor.ACCELERATION:
         raise InputError(
-            '--sensor belongs to numbered chains: write "sensor" at the chains of the file'
+            '--quantity belongs to numbered chains: write "sensor" at the chains of the file'
         )
     for name in names:
         if getattr(options, name):
@@ -116,7 +119,7 @@ def list_of(path: Path) -> ModelList:
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:
     """Numbered chains: A1, A2, .. of one size, N:I of several."""
     named: Sequence[tuple[str, Chain]] = combined_family(
-        options.masses, damped=options.damped, sensor=Sensor(options.sensor)
+        options.masses, damped=is_damped(options), sensor=Sensor(options.quantity)
     )
     if len(options.masses) == 1:
         named = [(f"A{number}", chain) for number, (_, chain) in enumerate(named, 1)]

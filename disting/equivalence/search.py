@@ -27,8 +27,8 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
-from disting.model.family import Family, name_of
-from disting.model.names import chain_of
+from disting.model.family import Family
+from disting.model.names import chains_named, name_of
 
 Point = Mapping[str, fmpq]
 
@@ -38,7 +38,7 @@ def equivalents(
     values: Mapping[str, Value],
     to: Chain | Family | str,
     *,
-    damped: bool = False,
+    damped: bool | None = None,
     also: Sequence[str | Experiment] = (),
 ) -> Equivalents:
     """All models of the structure `to`, or of all structures of a family, with the transfer
@@ -62,7 +62,7 @@ def equivalents(
     >>> found.listings[0].sentence
     'all there are'
     """
-    given = chain_of(model, Family(1, damped))
+    (given,) = chains_named([model], damped=damped)
     point = point_of(given, values)
     others = chains_of(to, given)
     if others[0].sensor is not given.sensor:
@@ -296,4 +296,4 @@ def _order(member: Equivalent) -> tuple[int, bool, list[tuple[float, float]]]:
 
 
 def _name(chain: Chain) -> str:
-    return name_of(chain, short=False)
+    return name_of(chain)

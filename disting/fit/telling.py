@@ -17,6 +17,7 @@ from disting.fit.joint import AnyCost
 from disting.fit.members import Disagreement
 from disting.fit.scatter import between, scatter
 from disting.fit.select import Selection
+from disting.model.names import damping_option
 
 FEW = 8  # names in one line
 CHANGED = 2.0  # training and test differ by this multiple of what either scatters
@@ -68,7 +69,7 @@ def commands(found: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps."""
     first, rest = found.described, [m.name for m in found.members[1:]]
     given, form = reference(first.chain), as_listed(first.chain)
-    damped = " --damped" if first.chain.damped else ""
+    damped = f" {damping_option(first.chain.damped)}"
     fitted = first.estimate.parameters
     values = ",".join(f"{form.renaming[n]}={fitted[n]:.6g}" for n in first.chain.parameters)
     steps = [f"disting compare {given} {rest[0]}{damped}"] if rest else []

@@ -25,7 +25,7 @@ from disting.general.model import Model
 from disting.general.spelled import polynomial_text
 from disting.model.chain import Sensor
 from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import DAMPED, chain_of
 from disting.model.shown import Shown, plural, summary
 
 LARGEST = 5_000_000  # bytes of a file
@@ -206,7 +206,7 @@ def _single(model: MatrixModel) -> AnyModel:
 
 
 def _of_chain(given: Plain, name: str) -> Model:
-    damped = given.get("damped", False)
+    damped = given.get("damped", DAMPED)
     if not isinstance(damped, bool):
         raise InputError('"damped" is true or false')
     quantity = _text(given, "sensor", Sensor.ACCELERATION.value)

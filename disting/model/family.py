@@ -74,30 +74,6 @@ class Family(Shown):
             ) from None
 
 
-def name_of(chain: Chain, *, short: bool) -> str:
-    """A4 (short) or 3:4, with ground dampers, lag and dead time added; the indices for chains
-    without a number.
-
-    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)), short=False)
-    '3:4+b1'
-    """
-    plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
-    family = Family(chain.n_masses, chain.damped, chain.sensor)
-    try:
-        number = family.number(plain) if chain.n_masses <= NUMBERED_UP_TO else 0
-    except InputError:
-        number = 0
-    head = (f"A{number}" if short else f"{chain.n_masses}:{number}") if number else f"({plain})"
-    return "+".join(
-        [
-            head,
-            *(f"b{i}" for i in chain.ground_dampers),
-            *["lag"] * chain.lag,
-            *["delay"] * chain.dead_time,
-        ]
-    )
-
-
 def _admissible(n: int) -> Iterator[Indices]:
     for gap in range(n):
         low, high = range(gap + 1), range(gap + 1, n + 1)

@@ -6,8 +6,8 @@ from dataclasses import replace
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
 from disting.general import AnyModel, MatrixModel, Model
-from disting.model.chain import Chain
-from disting.model.family import name_of
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named, name_of
 from disting.verdict.cascade import Step, steps
 from disting.verdict.compared import Compared
 from disting.verdict.engine import Engine
@@ -18,9 +18,11 @@ NOT_CHAINS = "experiments are on chains: a general model has no masses to measur
 
 
 def compare(
-    left: Chain | AnyModel,
-    right: Chain | AnyModel,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
     query: Query | None = None,
     audit: bool = False,
@@ -29,7 +31,10 @@ def compare(
     """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store
     once it is there).
 
-    General models (`Model`, `MatrixModel`) are compared likewise, with each other or with chains.
+    Chains are also named: "3:1+b2", "A4" of as many masses as the other one has; `damped` and
+    `sensor` say how names are meant, else they are taken from the chain beside them (see
+    `model.names`). General models (`Model`, `MatrixModel`) are compared likewise, with each other
+    or with chains.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
@@ -45,29 +50,49 @@ def compare(
     ('indistinguishable', 'distinguishable')
     >>> compare(a[1], a[11]).relation.value
     'indistinguishable'
+    >>> compare("3:1", "A11", damped=True).sentence[:31]
+    '3:1 and 3:11 are indistinguisha'
     >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
     'distinguishable'
     """
     engine = engine or Engine()
+    a, b = _read(left, right, damped, sensor)
     if experiments:
-        return _measured(left, right, experiments, query or Query(), audit, engine)
-    return engine.verdict(*_sides(left, right, engine), query or Query(), audited=audit)
+        return _measured(a, b, experiments, query or Query(), audit, engine)
+    return engine.verdict(*_sides(a, b, engine), query or Query(), audited=audit)
 
 
 def findings(
-    left: Chain | AnyModel,
-    right: Chain | AnyModel,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> tuple[Step, ...]:
-    """What every condition finds in every representation, in order, whether it decides or not.
+    """What every condition finds in every representation, in order, whether it decides or not; of
+    models as `compare` takes them.
 
     >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
-    return tuple(steps(*_sides(left, right, engine or Engine()), query or Query()))
+    a, b = _read(left, right, damped, sensor)
+    return tuple(steps(*_sides(a, b, engine or Engine()), query or Query()))
+
+
+def _read(
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
+    damped: bool | None,
+    sensor: Sensor | str | None,
+) -> tuple[Chain | AnyModel, Chain | AnyModel]:
+    """Names as the chains that they mean."""
+    given = [m for m in (left, right) if isinstance(m, Chain | str)]
+    chains = iter(chains_named(given, damped=damped, sensor=sensor))
+    a, b = (next(chains) if isinstance(m, Chain | str) else m for m in (left, right))
+    return a, b
 
 
 def _measured(
@@ -112,10 +137,18 @@ def _sides(
         return engine.general_subject(names[0], models[0]), engine.general_subject(
             names[1], models[1]
         )
-    names = [name_of(chain, short=left.n_masses == right.n_masses) for chain in (left, right)]
+    here, there = names_of(left, right)
+    return engine.subject(here, left), engine.subject(there, right)
+
+
+def names_of(left: Chain, right: Chain) -> tuple[str, str]:
+    """What two chains are called beside each other: by their names, those that have one name, of
+    which one is damped, in full.
+    """
+    names = name_of(left), name_of(right)
     if names[0] == names[1] and left != right:
-        names = [f"the model with {chain}" for chain in (left, right)]
-    return engine.subject(names[0], left), engine.subject(names[1], right)
+        return f"the model with {left}", f"the model with {right}"
+    return names
 
 
 def refuse_ports(models: Sequence[AnyModel]) -> None:
@@ -131,4 +164,4 @@ def refuse_ports(models: Sequence[AnyModel]) -> None:
 def _model(given: Chain | AnyModel) -> AnyModel:
     if not isinstance(given, Chain):
         return given
-    return Model.from_chain(given, name=name_of(given, short=False))
+    return Model.from_chain(given, name=name_of(given))

@@ -215,6 +215,7 @@ def test_the_search_finds_models_and_pairs(visit) -> None:  # type: ignore[no-un
         ("3:2 3:5", pair),
         ("7 3", "A3 and A7"),
         ("2-5", pair),
+        ("3:2 A5", pair),
     ):
         tab.fill("#find", typed)
         tab.press("#find", "Enter")
@@ -227,6 +228,19 @@ def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[n
         tab.fill("#find", typed)
         tab.press("#find", "Enter")
         assert tab.inner_text("#trouble") and not tab.is_visible("#detail"), typed
+
+
+def test_the_search_says_where_what_no_page_shows_is_answered(visit) -> None:  # type: ignore[no-untyped-def]
+    for address, field, said in ((SMALL, "#find", "#trouble"), (START, "#models", "#said")):
+        tab = visit(address)
+        for typed, command in (
+            ("3:1 4:5", "disting compare 3:1 4:5 --damped"),
+            ("3:1+lag+b2 3:4+delay", "disting compare 3:1+b2+lag 3:4+delay --damped"),
+            ("3:1+delay", "disting compare 3:1+delay 3:.. --damped"),
+        ):
+            tab.fill(field, typed)
+            tab.press(field, "Enter")
+            assert tab.inner_text(said).endswith(f"a command answers: {command}"), typed
 
 
 def test_the_search_leads_to_other_catalogues(visit) -> None:  # type: ignore[no-untyped-def]

@@ -96,8 +96,8 @@ def test_a_law_in_numbers():
 @pytest.mark.parametrize(
     ("left", "right", "said"),
     [
-        ("2:1+delay", "2:1", "the phase of A1+delay falls without an end"),
-        ("2:1", "2:1+delay", "the phase of A1+delay falls without an end"),
+        ("2:1+delay", "2:1", "the phase of 2:1+delay falls without an end"),
+        ("2:1", "2:1+delay", "the phase of 2:1+delay falls without an end"),
         ("3:1", "2:1", "The curve of 3:1 has 2 poles more."),
     ],
 )

@@ -11,6 +11,7 @@ from disting.fit.candidates import as_listed
 from disting.fit.designed import Designed, designed_to_dict
 from disting.fit.plan import Plan, typical
 from disting.fit.plant import Real
+from disting.model.names import damping_option
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 
@@ -43,7 +44,7 @@ def simulation(found: Plan, best: Designed, path: Path) -> str:
     names = as_listed(found.model).renaming
     values = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in found.values.items())
     return (
-        f"disting simulate {found.names[0]}{' --damped' * found.model.damped} --set {values}"
+        f"disting simulate {found.names[0]} {damping_option(found.model.damped)} --set {values}"
         f" --spectrum {path} --rate {best.rate:g} --samples {best.samples}"
     )
 

@@ -176,7 +176,8 @@
     const models = parseModels(text);
     if (!models) return `Type a model such as ${data.masses}:2, or two numbers for a pair.`;
     const masses = models.map((m) => m.masses || models[0].masses || data.masses);
-    if (masses.length === 2 && masses[0] !== masses[1]) return "A catalogue compares models of one size.";
+    const elsewhere = answeredBy(models, masses[0], kind);
+    if (elsewhere) return elsewhere;
     const numbers = [...new Set(models.map((m) => m.number))].sort((a, b) => a - b);
     if (models.some((m) => m.dampers)) {
       if (!data.dampers) return "This catalogue has no dampers to the ground.";
