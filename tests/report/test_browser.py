@@ -275,7 +275,7 @@ def test_the_start_page_says_what_it_does_not_find(visit) -> None:  # type: igno
 
 def test_one_click_leads_from_the_start_to_the_reason(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(START)
-    follow_link(tab, ".example figcaption a")
+    follow_link(tab, ".example figcaption a >> nth=0")
     assert tab.inner_text("#detail .badge") == "indistinguishable"
 
 

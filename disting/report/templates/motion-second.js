@@ -2,6 +2,7 @@
 // what was found before, and better ones from further starts while nothing else is to do.
 const SAME = 1e-20; // of the cost a line: what rounding leaves where the responses agree
 const STARTS = 24, COARSE = 80, REFINED = 3;
+const EXACT = { refined: 12, rounds: 500, least: 1e-13 }; // an exact answer may lie at the end of a long valley
 const createSecond = (onFound) => {
   let turn = 0, last = null; // what was found last, and for which pair
   const band = (given, values) => { // [rad/s], and as round numbers in Hz
@@ -35,13 +36,13 @@ const createSecond = (onFound) => {
   };
   const search = (mine, task, usual, kind) => {
     const [coarse, fine] = [COARSE, LINES].map((lines) => createTask(task.given, task.values, task.other, task.low, task.high, lines));
-    const starts = startsOf(task, usual, STARTS), found = [], refined = [];
+    const starts = startsOf(task, usual, STARTS), found = [], refined = [], exact = kind !== "never";
     const step = () => {
       if (mine !== turn) return;
       if (starts.length) found.push(descended(coarse, starts.shift(), { rounds: 40, least: 1e-4 }));
       else {
-        if (!refined.length) found.sort((a, b) => a.cost - b.cost).splice(REFINED, Infinity, { unknowns: last.values.map(Math.log) });
-        refined.push(descended(fine, found.shift().unknowns));
+        if (!refined.length) found.sort((a, b) => a.cost - b.cost).splice(exact ? EXACT.refined : REFINED, Infinity, { unknowns: last.values.map(Math.log) });
+        refined.push(descended(fine, found.shift().unknowns, exact ? EXACT : {}));
         const best = refined.reduce((a, b) => (b.cost < a.cost ? b : a));
         if (isSame(fine, best) || !found.length) return onFound({ ...judged(fine, best, kind), searching: false });
       }
