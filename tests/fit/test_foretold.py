@@ -8,7 +8,8 @@ import pytest
 
 from disting.equivalence import equivalents
 from disting.experiments.menu import Item, Kind
-from disting.fit.export import _named, predicted
+from disting.fit.export import predicted
+from disting.fit.plain import _named
 from disting.fit.foretold import MOVES, STILL, Bench, bench_of, foretold, shown, step
 from disting.fit.named import named_by
 from disting.fit.plan import power
