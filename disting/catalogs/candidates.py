@@ -24,6 +24,7 @@ from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
 from disting.model.names import name_of
+from disting.model.shown import plural, summary
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
 
 SCHEMA = 1
@@ -53,6 +54,9 @@ class Matrix:
     """The verdicts on all pairs of `chains`; `records` is the file's content."""
 
     records: tuple[Record, ...]
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.records[0]['catalog']}, {plural(len(self.chains), 'model')}")
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:

@@ -22,7 +22,7 @@ from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
 from disting.experiments import Places, named
-from disting.general import Model, read_models
+from disting.general import AnyModel, MatrixModel, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
@@ -108,17 +108,21 @@ def _of_files(options: argparse.Namespace, texts: tuple[str, str]) -> int:
     return 0
 
 
-def _of_file(text: str) -> Model:
+def _of_file(text: str) -> AnyModel:
     path, name = text.split(FILE, 1)
     return read_models(f"{path}{FILE[:-1]}")[name]
 
 
-def _in_letters(side: Chain | Model) -> str:
+def _in_letters(side: Chain | AnyModel) -> str:
     """A chain's drawing, or a transfer function that fits a few lines."""
     if isinstance(side, Chain):
         return text_drawing(side)
-    if sum(map(len, (*side.numerator_terms, *side.denominator_terms))) <= MOST_TERMS:
+    entries = side.entries if isinstance(side, MatrixModel) else (side,)
+    parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
+    if sum(map(len, parts)) <= MOST_TERMS:
         return str(side)
+    if isinstance(side, MatrixModel):
+        return "G(s) with {} outputs and {} inputs".format(*side.shape)
     return "G(s) of degree {} over {}".format(*side.degrees)
 
 

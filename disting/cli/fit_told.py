@@ -14,6 +14,7 @@ from disting.fit.telling import commands, first_lines, learned, renamed, suspici
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.report.fit.responses import fits_of
 from disting.report.fit.words import UNDETERMINED, fit_in_words, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
 from disting.verdict import Relation
@@ -79,13 +80,16 @@ def _lines(found: Selection) -> str:
 def _each(found: Selection) -> Iterator[str]:
     """What the judged data of each of several responses say, and what says nothing."""
     judging, c = found.judging, found.described
-    if len(judging.parts) > 1:
-        said = explanations(judging, c.residual, c.missed, found.explanation.scatter)
-        for setup, one in zip(judging.setups, said, strict=True):
-            yield (
-                f"{setup.text}: chi2 per line {one.chi2:.3g}, its lines scatter by"
-                f" {percent(one.scatter.typical)}"
-            )
+    said = explanations(judging, c.residual, c.missed, found.explanation.scatter)
+    known = dict(zip((setup.text for setup in judging.setups), said, strict=True))
+    for name, fit in fits_of(found, c):
+        one = known.get(name)
+        judged = (
+            f"chi2 per line {one.chi2:.3g}, its lines scatter by {percent(one.scatter.typical)}; "
+            if one
+            else ""
+        )
+        yield f"{name}: {judged}fit {fit} of its training data"
     yield from learned(found)
 
 

@@ -137,7 +137,7 @@ CACHE = Group(
 COMMANDS = (
     Command(
         "models",
-        "the numbered list of all models of one size",
+        "the numbered list of all models of one size, or your own models in a file",
         models.run,
         models.add_arguments,
     ),
@@ -211,6 +211,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action="version", version=f"disting {__version__}")
+    top.set_defaults(grammar=top)  # a report has a reference of it
     commands = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     for one in COMMANDS:
         if isinstance(one, Command):

@@ -42,13 +42,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write pages, figures and tables."""
-    from disting.report.model_list import page_name
+    from disting.report.model_list import page_name, refuse_matrices
 
     if not (options.masses or options.paper):
         raise InputError("name at least one number of masses, a file of models, or --paper")
     files = [x for x in options.masses if isinstance(x, Path)]
     options.masses = [x for x in options.masses if not isinstance(x, Path)]
     lists = [(page_name(path), path, list_of(path)) for path in files]
+    for _, path, found in lists:
+        refuse_matrices(found, str(path))
     if files and not options.masses and options.damping != "both":
         raise InputError(f"--{options.damping} belongs to numbered chains: leave it away")
     names = [name for name, *_ in lists]
@@ -90,7 +92,7 @@ def _catalogues(options: argparse.Namespace) -> None:
     with_dampers = [
         damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices
     ]
-    paths += write_report(catalogs, options.out, with_dampers)
+    paths += write_report(catalogs, options.out, with_dampers, options.grammar)
     for c in catalogs:
         relations = relations_in_words(v.relation for *_, v in c.pairs())
         print(

@@ -33,6 +33,7 @@ from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.compared import Compared
+from disting.verdict.comparison import refuse_ports
 from disting.verdict.engine import Engine
 from disting.verdict.proof import prove_all
 
@@ -97,7 +98,7 @@ def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
             f'{damping_option(options.damped)} belongs to numbered chains: write "damped": true or'
             " false at the chains of the file"
         )
-    if options.quantity != Sensor.ACCELERATION:
+    if getattr(options, "quantity", Sensor.ACCELERATION) != Sensor.ACCELERATION:
         raise InputError(
             '--quantity belongs to numbered chains: write "sensor" at the chains of the file'
         )
@@ -111,6 +112,7 @@ def list_of(path: Path) -> ModelList:
     found = read_models(path)
     if len(found) < 2:
         raise InputError(f"{path} has one model: there is nothing to compare; add another one")
+    refuse_ports(found.models)
     return found
 
 

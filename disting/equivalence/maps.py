@@ -22,6 +22,7 @@ from disting.equivalence.images import Image, images
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
 from disting.model.names import chains_named, name_of
+from disting.model.shown import summary
 
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
 CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters
@@ -45,12 +46,19 @@ class Map:
     certainty: Certainty
     safety: int
 
+    def __repr__(self) -> str:
+        given = ", ".join(self.given.parameters)
+        return summary(self, f"{', '.join(self.formulas)} from {given} ({self.certainty})")
+
     def at(self, values: Mapping[str, Value]) -> dict[str, Any]:
         """Parameters of `other`, exact fractions, at values of the given ones. Raises
         InputError as `point_of` does.
         """
         point: dict[str, fmpq] = point_of(self.given, values)
         return {name: formula.value(point) for name, formula in self.formulas.items()}
+
+    def _repr_latex_(self) -> str:
+        return self.latex  # an environment of its own: no dollar signs
 
     @property
     def python(self) -> str:

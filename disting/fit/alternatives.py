@@ -23,6 +23,7 @@ from math import inf
 from disting.catalogs import candidates as stored
 from disting.errors import CatalogError
 from disting.model.chain import Chain
+from disting.model.shown import summary
 from disting.questions.positive import renamings
 from disting.verdict import Engine, Query, Relation, View
 from disting.verdict.chains import ComparedChain
@@ -41,6 +42,9 @@ class Alternative:
     chain: Chain
     relation: Relation
     sentence: str
+
+    def __repr__(self) -> str:
+        return summary(self, str(self.chain))
 
 
 def limits_of(bounds: Mapping[str, tuple[float, float]], fixed: Mapping[str, float]) -> Limits:

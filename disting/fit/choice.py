@@ -1,8 +1,9 @@
 """Which of the fitted candidates is selected, and what stands beside it.
 
-The candidate with the lowest cost on test is left for one with fewer parameters that loses to it by
-no more than noise explains (`repeatability.margin`); those that are as near form the set of which
-one is selected.
+Where some admissible candidates explain the data, the others are excluded by it. Of those left, the
+one with the lowest cost on test is left for one with fewer parameters that loses to it by no more
+than noise explains (`repeatability.margin`); those that are as near form the set of which one is
+selected.
 """
 
 from collections.abc import Sequence
@@ -76,7 +77,7 @@ def choice(
     test, `train` and `judging` the costs on training data and on test.
     """
     typical = repeatabilities(train, judging, _best(fitted).residual)
-    kept = [c for c in fitted if c.admissible]
+    kept = _explaining([c for c in fitted if c.admissible])
     if not kept:
         return Choice(tuple(fitted), typical, _explained(fitted[0], judging, seen))
     sigma = judging.scatter(seen.rho)
@@ -100,6 +101,13 @@ def choice(
 
 def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
     return explained(judging, described.residual, described.missed, seen)
+
+
+def _explaining(kept: list[Candidate]) -> list[Candidate]:
+    """Those that explain the data, where any does. The costs do not see what a candidate misses at
+    quiet lines when loud ones make the most of them; the standard deviations do.
+    """
+    return [c for c in kept if c.chi2 <= LARGEST] or kept
 
 
 def _best(fitted: Sequence[Candidate]) -> Candidate:

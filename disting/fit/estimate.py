@@ -33,6 +33,7 @@ from disting.fit.starts import (
     stacked,
 )
 from disting.model.chain import Chain
+from disting.model.shown import summary
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
 FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
@@ -66,6 +67,9 @@ class Task:
         for name, value in self.fixed.items():
             if not 0 < value < inf:
                 raise InputError(f"{name} is fixed to a positive number, not {value:g}")
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.cost!r}, sign {self.sign}")
 
     def plant(self, chain: Chain) -> AnyPlant:
         """The chain at the frequencies of the data."""
@@ -104,6 +108,10 @@ class Estimate:
     parameters: dict[str, float]
     j: float
     costs: tuple[float, ...] = ()
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.parameters.items())
+        return summary(self, f"J = {self.j:.4g}, {values}")
 
     @property
     def hit_rate(self) -> float:

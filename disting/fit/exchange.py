@@ -16,6 +16,7 @@ from itertools import groupby
 
 import numpy as np
 
+from disting.algebra.content import written
 from disting.fit.estimate import Estimate, Method, Task, estimate, evaluated, improved
 from disting.fit.neighbours import neighbours
 from disting.fit.starts import merged, shortened
@@ -143,13 +144,16 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
     texts = [
         digest(__name__),
         method,
-        repr(chain),
+        written(chain),
         *(part.measured.sensor.value for part in cost.parts),
-        *(repr((setup, len(p.measured))) for setup, p in zip(cost.setups, cost.parts, strict=True)),
-        repr((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
+        *(
+            written((setup, len(p.measured)))
+            for setup, p in zip(cost.setups, cost.parts, strict=True)
+        ),
+        written((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
     ]
-    texts += [repr(sorted(task.bounds.items())), repr(sorted(task.fixed.items()))]
-    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=repr)]
+    texts += [written(sorted(task.bounds.items())), written(sorted(task.fixed.items()))]
+    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=written)]
     return sha256(
         b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])
     ).hexdigest()
@@ -177,7 +181,7 @@ def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estim
 
 def _body(chain: Chain) -> tuple[int, str]:
     """Masses, springs and ports: what candidates that exchange their fits have in common."""
-    return chain.n_masses, repr(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+    return chain.n_masses, written(replace(chain, ground_dampers=(), lag=False, dead_time=False))
 
 
 def _stage(chain: Chain) -> tuple[int, str, int]:

@@ -14,6 +14,7 @@ from disting.files import write_whole
 from disting.fit.modes import poles, zeros
 from disting.fit.plant import Plant, Real
 from disting.model.chain import Chain, Sensor
+from disting.model.shown import plural, summary
 from disting.simulation import matrices, port_vectors
 
 if TYPE_CHECKING:
@@ -35,6 +36,11 @@ class StateSpace:
     C: Real
     D: Real
     delay: float
+
+    def __repr__(self) -> str:
+        return summary(
+            self, plural(len(self.A), "state") + f", dead time {self.delay:g} s" * bool(self.delay)
+        )
 
 
 def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:

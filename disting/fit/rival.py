@@ -33,6 +33,7 @@ from math import log
 import numpy as np
 
 from disting.errors import InputError
+from disting.fit.candidates import reference
 from disting.fit.cost import Case, Cost
 from disting.fit.descent import fine
 from disting.fit.estimate import Estimate, Task
@@ -44,6 +45,7 @@ from disting.fit.plant import Real
 from disting.fit.starts import natural, scale, stacked
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.shown import summary
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
@@ -87,6 +89,11 @@ class Rival:
     recovered: bool
     task: Task = field(repr=False)
     known: Mapping[Chain, Estimate] = field(repr=False)
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{reference(self.chain)}, lambda {self.noncentrality:.4g}, {self.trust}"
+        )
 
     @property
     def chain(self) -> Chain:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from disting.fit.alternatives import (
     limits_of,
     representatives,
 )
+from disting.fit.candidates import reference
 from disting.fit.choice import akaike_weighted, choice
 from disting.fit.cost import Case, Cost
 from disting.fit.estimate import Method, Task
@@ -40,8 +42,12 @@ from disting.fit.signs import pilot, signed
 from disting.fit.together import alternatives_under_all, learning, representatives_under_all
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
+from disting.model.shown import Shown, plural, summary
 from disting.store import Store
 from disting.verdict import Engine
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 CROSS_VALIDATION = f"{FOLDS}-fold cross-validation over the frequency lines"
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
@@ -54,7 +60,7 @@ def silent(what: str, done: int, total: int) -> None:
 
 
 @dataclass(frozen=True)
-class Selection:
+class Selection(Shown):
     """What a selection found. `selected` is None where no candidate is admissible; candidates in
     the order of the cost on test.
 
@@ -85,6 +91,17 @@ class Selection:
     task: Task = field(repr=False)
     test: FrequencyResponse = field(repr=False)
     judging: AnyCost = field(repr=False)
+
+    def __repr__(self) -> str:
+        found = "none is admissible" if self.selected is None else reference(self.selected.chain)
+        members = f", {len(self.members)} not excluded" if self.members else ""
+        return summary(self, f"{found} of {plural(len(self.candidates), 'candidate')}{members}")
+
+    def plot(self, ax: "Axes | Sequence[Axes] | None" = None) -> tuple["Axes", ...]:
+        """Bode diagram with matplotlib: the data on test, and the structures that they do not
+        exclude, else the best one. `ax` and what is returned as in `FrequencyResponse.plot`.
+        """
+        return tuple(self._presenter.plot(self, ax, {}))
 
     @property
     def described(self) -> Candidate:

@@ -12,6 +12,7 @@ import numpy as np
 from disting.fit.admissible import KNOWN
 from disting.fit.candidates import as_listed, reference
 from disting.fit.each import correlations, partners
+from disting.fit.explained import LARGEST
 from disting.fit.joint import AnyCost
 from disting.fit.members import Disagreement
 from disting.fit.scatter import between, scatter
@@ -115,7 +116,10 @@ def _verdict(found: Selection) -> str:
             f"none of the candidates explains this data: it is mostly noise ({scattered}); the best"
             f" one is {best}"
         )
-    return f"none of the candidates explains this data; the best one is {best} ({size})"
+    which = "none of the candidates"
+    if any(c.chi2 <= LARGEST for c in found.candidates):
+        which = "none of the candidates whose parameters this data determines"
+    return f"{which} explains this data; the best one is {best} ({size})"
 
 
 def _explained(found: Selection) -> Iterator[str]:

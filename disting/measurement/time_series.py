@@ -11,6 +11,7 @@ from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.closed_loop import follows_output
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.model.chain import Sensor, as_sensor
+from disting.model.shown import plural, summary
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +51,11 @@ class TimeSeries:
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
+
+    def __repr__(self) -> str:
+        samples = f"{plural(len(self), 'sample')} at {self.sampling_rate:.6g} Hz"
+        seconds = len(self) / self.sampling_rate
+        return summary(self, f"{samples}, {seconds:.4g} s, {self.sensor.value}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         # arrays stay read-only in a copy

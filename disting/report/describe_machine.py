@@ -40,7 +40,11 @@ def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:
 
 def parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
     """The layers of all descriptions' drawings, each once."""
-    chains = (chain for c in catalogs for chain in descriptions(c.n_masses, damped=c.damped))
+    return parts_of(chain for c in catalogs for chain in descriptions(c.n_masses, damped=c.damped))
+
+
+def parts_of(chains: Iterable[Chain]) -> tuple[Part, ...]:
+    """The layers of some chains' drawings, each once."""
     named = {part_name(chain, layer): layer for chain in chains for layer in draw(chain).layers}
     return tuple(Part(name, layer) for name, layer in named.items())
 

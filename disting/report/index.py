@@ -14,7 +14,7 @@ from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
 from disting.report.matrix import thumbnail
-from disting.report.model import Drawing, folder_of, model_of
+from disting.report.model import Drawing, folder_of, model_of, motion_of
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
@@ -47,9 +47,10 @@ class Card:
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """An indistinguishable pair, drawn."""
+    """An indistinguishable pair, drawn, and where it moves."""
 
     address: str
+    motion: str
     family: str
     left: Drawing
     right: Drawing
@@ -61,12 +62,6 @@ def index(
     """HTML of the index: the catalogues in the order given, families with ground dampers, and
     further pages.
     """
-    sizes: dict[str, dict[str, object]] = {
-        c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
-    }
-    with_dampers: dict[str, dict[str, object]] = {
-        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
-    }
     masses = sorted({c.n_masses for c in catalogs})
     return render(
         "index.html",
@@ -74,13 +69,27 @@ def index(
         damper_cards=[damper_card(f) for f in dampers],
         example=example(catalogs),
         links=links,
-        sizes=script_json(sizes | with_dampers),
+        sizes=script_json(sizes(catalogs, dampers)),
         machines=script_json(machines(catalogs)),
         machine_parts=definitions(parts(catalogs)),
         machine_sizes=masses,
         machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,
     )
+
+
+def sizes(
+    catalogs: Sequence[Catalog], dampers: Sequence[DamperFamily]
+) -> dict[str, dict[str, object]]:
+    """What a search needs of each page of pairs, by its name: how many models there are, and the
+    folder of their pages where they have any.
+    """
+    with_dampers: dict[str, dict[str, object]] = {
+        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
+    }
+    return {
+        c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
+    } | with_dampers
 
 
 def card(catalog: Catalog) -> Card:
@@ -115,7 +124,8 @@ def example(catalogs: Sequence[Catalog]) -> Example | None:
     chosen = min(found, key=lambda c: (abs(c.n_masses - 3), not c.damped))
     low, high = chosen.classes()[0][:2]
     drawings = (model_of(chosen, low).drawing, model_of(chosen, high).drawing)
-    return Example(f"{chosen.name}.html#{low}-{high}", short_title(chosen), *drawings)
+    motion = f"{motion_of(chosen)}#A{low}-A{high}"
+    return Example(f"{chosen.name}.html#{low}-{high}", motion, short_title(chosen), *drawings)
 
 
 def _card(

@@ -20,8 +20,9 @@ from disting.questions.identifiability import Level
 from disting.questions.inclusion import Inclusion
 from disting.report.drawing import draw
 from disting.report.environment import render
+from disting.report.experiment_drawing import definitions
 from disting.report.formulas import Correspondence, combinations, correspondence, written
-from disting.report.next_steps import advice, found_for, page_of
+from disting.report.next_steps import advice, drawn, found_for, page_of
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
 from disting.report.words import plural, rule_in_words, short_title
@@ -44,8 +45,9 @@ class Drawing:
 
     @cached_property
     def definition(self) -> Markup:
-        """The drawing itself."""
-        return Markup(f'<g id="chain-{self.number}">{body(self.scene, PAGE_PALETTE)}</g>')
+        """The drawing itself; all but the force is a part of its own, rest-5 of chain-5."""
+        drawn = body(self.scene, PAGE_PALETTE, f"rest-{self.number}")
+        return Markup(f'<g id="chain-{self.number}">{drawn}</g>')
 
     @property
     def width(self) -> str:
@@ -144,6 +146,19 @@ def folder_of(catalog: Catalog) -> str:
     return f"models/{catalog.name.removeprefix('chains-')}"
 
 
+def motion_of(catalog: Catalog) -> str:
+    """Name of the page where a catalogue's models move, as seen from the catalogue's page; none
+    of a catalogue of one model.
+
+    >>> from disting.catalogs import catalog
+    >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1))
+    ('motion-3-damped.html', '')
+    """
+    if len(catalog.family) < 2:
+        return ""
+    return f"motion-{catalog.name.removeprefix('chains-')}.html"
+
+
 def model_page(catalog: Catalog, number: int) -> str:
     """HTML of one model; beside it the style sheet of `write_report` is expected."""
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
@@ -153,6 +168,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         for other, v in verdicts.items()
         if seen[other] is not Relation.DISTINGUISHABLE
     ]
+    told = advice(found_for(catalog), number)
     over_complex = {other: catalog.relation(number, other, View.EXACT) for other in verdicts}
     return render(
         "model.html",
@@ -180,8 +196,10 @@ def model_page(catalog: Catalog, number: int) -> str:
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
         ),
         limits=limits(number, verdicts),
-        advice=advice(found_for(catalog), number),
+        advice=told,
+        additions=definitions(drawn([told] if told else [])),
         next_name=page_of(catalog),
+        motion=motion_of(catalog),
         last=len(catalog.family),
         plural=plural,
     )
@@ -219,7 +237,7 @@ def standing(number: int, other: int, verdict: Verdict) -> Relation:
     """The relation as seen from one model; of a distinguishable pair, some positive models of
     one side may have equivalents.
     """
-    found = _ways(number, other, verdict)[0]
+    found = ways(number, other, verdict)[0]
     if (
         verdict.relation is not Relation.DISTINGUISHABLE
         or found is None
@@ -229,10 +247,10 @@ def standing(number: int, other: int, verdict: Verdict) -> Relation:
     return Relation.UNDECIDED if found.share is Share.UNKNOWN else Relation.SOMETIMES
 
 
-def _ways(
+def ways(
     number: int, other: int, verdict: Verdict
 ) -> tuple[PositiveFinding | None, PositiveFinding | None]:
-    """From this model to the other one, and back."""
+    """Which positive models have positive equivalents: from this one to the other one, and back."""
     ways = (verdict.left_positive, verdict.right_positive)
     return ways if number < other else ways[::-1]
 
@@ -246,8 +264,8 @@ def _verdicts(catalog: Catalog, number: int) -> Iterator[tuple[int, Verdict]]:
 def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
     here = model.row.number
     low, high = sorted((here, other))
-    twin, ways = model_of(catalog, other), _ways(here, other, verdict)
-    said = _positive(ways, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
+    twin, both = model_of(catalog, other), ways(here, other, verdict)
+    said = _positive(both, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
     relation = standing(here, other, verdict)
     return Twin(
         twin, f"{low}-{high}", relation, said, correspondence(model.row.chain, twin.row.chain)

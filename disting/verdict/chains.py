@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.content import written
 from disting.algebra.sampling import prime
 from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import Profile, profile
@@ -75,6 +76,10 @@ class ComparedChain:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The profile: it costs little."""
+        return self.profile(representation, count)
+
     @property
     def transfer_profile(self) -> Profile:
         """That of the transfer function."""
@@ -91,6 +96,15 @@ class ComparedChain:
         return self.chain.structure
 
     @property
+    def n_elements(self) -> int:
+        """Number of masses, springs and dampers."""
+        return len(self.chain.structure.elements)
+
+    def part_of(self, other: "ComparedChain") -> dict[int, int] | None:
+        """The numbering under which it is the other one with elements missing."""
+        return next(self.chain.structure.embeddings(other.chain.structure), None)
+
+    @property
     def n_states(self) -> int:
         """Order of the transfer function."""
         return self.chain.structure.n_states
@@ -98,7 +112,7 @@ class ComparedChain:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on this chain depend on."""
-        return self.name, repr(self.chain)
+        return self.name, written(self.chain)
 
     @property
     def profiled(self) -> Structure:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
-from disting.general import Model
+from disting.general import AnyModel, MatrixModel, Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named, name_of
 from disting.verdict.cascade import Step, steps
@@ -18,8 +18,8 @@ NOT_CHAINS = "experiments are on chains: a general model has no masses to measur
 
 
 def compare(
-    left: Chain | Model | str,
-    right: Chain | Model | str,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
@@ -33,7 +33,8 @@ def compare(
 
     Chains are also named: "3:1+b2", "A4" of as many masses as the other one has; `damped` and
     `sensor` say how names are meant, else they are taken from the chain beside them (see
-    `model.names`). General models (`Model`) are compared likewise, with each other or with chains.
+    `model.names`). General models (`Model`, `MatrixModel`) are compared likewise, with each other
+    or with chains.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
@@ -62,8 +63,8 @@ def compare(
 
 
 def findings(
-    left: Chain | Model | str,
-    right: Chain | Model | str,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
@@ -82,28 +83,28 @@ def findings(
 
 
 def _read(
-    left: Chain | Model | str,
-    right: Chain | Model | str,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     damped: bool | None,
     sensor: Sensor | str | None,
-) -> tuple[Chain | Model, Chain | Model]:
+) -> tuple[Chain | AnyModel, Chain | AnyModel]:
     """Names as the chains that they mean."""
-    given = [m for m in (left, right) if not isinstance(m, Model)]
+    given = [m for m in (left, right) if isinstance(m, Chain | str)]
     chains = iter(chains_named(given, damped=damped, sensor=sensor))
-    a, b = (m if isinstance(m, Model) else next(chains) for m in (left, right))
+    a, b = (next(chains) if isinstance(m, Chain | str) else m for m in (left, right))
     return a, b
 
 
 def _measured(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
     query: Query,
     audit: bool,
     engine: Engine,
 ) -> Verdict:
     """The verdict under experiments, with what is to be known of those that tell nothing."""
-    if isinstance(left, Model) or isinstance(right, Model):
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
         raise InputError(NOT_CHAINS)
     pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
     chains = zip((left, right), zip(*pairs, strict=True), strict=True)
@@ -123,10 +124,13 @@ def _measured(
     return replace(found, notes=(*found.notes, *notes))
 
 
-def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[Compared, Compared]:
+def _sides(
+    left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
+) -> tuple[Compared, Compared]:
     """Two chains as chains, whatever else as two general models; by two names."""
-    if isinstance(left, Model) or isinstance(right, Model):
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
         models = [_model(left), _model(right)]
+        refuse_ports(models)
         names = [m.name for m in models]
         if names[0] == names[1]:
             names = [f"{names[0]} 1", f"{names[1]} 2"]
@@ -147,7 +151,17 @@ def names_of(left: Chain, right: Chain) -> tuple[str, str]:
     return names
 
 
-def _model(given: Chain | Model) -> Model:
-    if isinstance(given, Model):
+def refuse_ports(models: Sequence[AnyModel]) -> None:
+    """Raises InputError for models of which not all have the same inputs and outputs."""
+    shapes = {m.shape if isinstance(m, MatrixModel) else (1, 1): m.name for m in models}
+    if len(shapes) > 1:
+        told = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
+        raise InputError(
+            f"models are compared that have the same outputs and inputs: {' and '.join(told)}"
+        )
+
+
+def _model(given: Chain | AnyModel) -> AnyModel:
+    if not isinstance(given, Chain):
         return given
     return Model.from_chain(given, name=name_of(given))

@@ -8,9 +8,10 @@ from enum import StrEnum
 
 from disting.errors import InputError
 from disting.experiments import Experiment, Named, Places, moved, named, ways
-from disting.general import Model
+from disting.general import MatrixModel, Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
+from disting.model.shown import plural, summary
 from disting.verdict.comparison import NOT_CHAINS, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
@@ -33,6 +34,11 @@ class Everywhere:
     """The verdict of every way to place the experiments, the chains as they are included."""
 
     verdicts: tuple[tuple[Places, Verdict], ...]
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.answer}, {plural(len(self.verdicts), 'way')} to place the experiments"
+        )
 
     @property
     def answer(self) -> Answer:
@@ -69,7 +75,7 @@ def compare_everywhere(
     >>> compare_everywhere(a[1], a[11], ["sensor=2"]).answer.value
     'surely'
     """
-    if isinstance(left, Model) or isinstance(right, Model):
+    if isinstance(left, Model | MatrixModel) or isinstance(right, Model | MatrixModel):
         raise InputError(NOT_CHAINS)
     left, right = chains_named([left, right], damped=damped, sensor=sensor)
     engine = engine or Engine()

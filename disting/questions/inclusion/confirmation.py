@@ -13,6 +13,7 @@ from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
+    MissingElements,
     Outside,
     RelativeDegrees,
     RowsInside,
@@ -44,6 +45,10 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
             return a.n_masses != b.n_masses and confirms_across_sizes(evidence, left, right)
         case Counts() if a.n_masses != b.n_masses:
             return confirms_across_sizes(evidence, left, right)
+        case MissingElements():
+            part, whole = (a, b) if evidence.left_is_part else (b, a)
+            found = part.structure.embeddings(whole.structure)
+            return evidence.left_is_part == left_is_smaller and dict(evidence.numbering) in found
         case Counts() | LargerProjection() | FullImage() | RelativeDegrees():
             return _confirms_summary(evidence, a, b, left_is_smaller)
         case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():

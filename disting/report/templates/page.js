@@ -41,6 +41,7 @@
     link.textContent = nameOf(number);
     link.href = pageOf(number);
   };
+  const linkTo = (href, textContent) => Object.assign(document.createElement("a"), { href, textContent });
   const further = (low, high) => {
     const said = data.next[`${low}-${high}`];
     return said ? `To measure next: ${said}` : "";
@@ -51,13 +52,32 @@
     slot("algebra").hidden = false;
     slot("algebra").open = !v.shown;
   };
+  const sketches = (pair) => (data.sketches[pair] || []).map(([box, parts, text]) => {
+    const figure = document.createElement("figure"), caption = document.createElement("figcaption");
+    const svg = slot("left").cloneNode(true);
+    for (const name of ["data-slot", "width", "style"]) svg.removeAttribute(name);
+    svg.hidden = false;
+    svg.setAttribute("viewBox", box);
+    svg.setAttribute("aria-label", text);
+    svg.replaceChildren(...parts.map((part) => {
+      const use = document.createElementNS(svg.namespaceURI, "use");
+      use.setAttribute("href", `#${part}`);
+      return use;
+    }));
+    caption.textContent = text;
+    caption.setAttribute("aria-hidden", "true"); // the drawing says the same
+    figure.append(svg, caption);
+    return figure;
+  });
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
     put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: v.why, formula: v.formula, link: "", next: further(low, high) });
     explain(v);
+    slot("sketches").replaceChildren(...sketches(`${low}-${high}`));
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
     slot("certainty").textContent = v.by ? v.certainty : "";
+    if (data.motion) slot("link").replaceChildren(linkTo(`${data.motion}#A${low}-A${high}`, "Both machines in motion"));
     draw("left", low);
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
@@ -69,13 +89,11 @@
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
     const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map(nameOf).join(", ")})`}`);
     put({ title: nameOf(model), badge: "", where: data.titles[view], shown: `Of the other models: ${words.join("; ")}.`, why: "", formula: "", certainty: "", next: "" });
+    slot("sketches").replaceChildren();
     slot("badge").className = "badge";
     draw("left", model);
     slot("right-figure").hidden = slot("views").hidden = slot("algebra").hidden = true;
-    const link = document.createElement("a");
-    link.href = pageOf(model);
-    link.textContent = `Formulas and identifiability of ${nameOf(model)}`;
-    slot("link").replaceChildren(link);
+    slot("link").replaceChildren(linkTo(pageOf(model), `Formulas and identifiability of ${nameOf(model)}`));
     byId("status").textContent = `${nameOf(model)}. ${slot("shown").textContent}`;
   };
   const fill = ({ models, view }) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
