@@ -9,7 +9,7 @@ from pathlib import Path
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.arguments import add_damped, add_work, is_damped, whole
+from disting.cli.arguments import add_damped, add_work, is_damped, size_or_file
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError
@@ -23,28 +23,28 @@ from disting.questions.identifiability import Identifiability, Level, ParameterI
 from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
+Found = Identifiability | ParameterIdentifiability
 MOST_LISTED = 25  # masses: 140 thousand models, in seconds
 AT_ONCE = 7  # masses; 314 models take five seconds
 COLUMNS = ("model", "gap", "force", "sensor", "n/m", "free", "par", "rank", "sets", "drawing")
-Found = Identifiability | ParameterIdentifiability
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     text = "number of masses, or a file of models: what can be determined of each"
-    parser.add_argument("masses", type=_size_or_file, metavar="N|FILE.json", help=text)
+    parser.add_argument("masses", type=size_or_file, metavar="N|FILE.json", help=text)
     parser.add_argument(
         "--identifiability",
         action="store_true",
         help="say for each model which parameters can be determined",
     )
-    text = f"say degrees and ranks of more than {AT_ONCE} masses too, which takes a minute or more"
-    parser.add_argument("--ranks", action="store_true", help=text)
     text = (
         "say it of the models as they are and measured also like this: sensor=3, lock=2 or"
         " inertia=1:0.5; may be repeated"
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    text = f"say degrees and ranks of more than {AT_ONCE} masses too, which takes a minute or more"
+    parser.add_argument("--ranks", action="store_true", help=text)
     add_damped(parser)
     add_work(parser)
 
@@ -53,10 +53,12 @@ def run(options: argparse.Namespace) -> int:
     """List the models of one size, or of a file."""
     if isinstance(options.masses, Path):
         return _of_file(options.masses, options)
+    if options.masses > MOST_LISTED:
+        raise InputError(f"models of at most {MOST_LISTED} masses are listed")
     family = Family(options.masses, is_damped(options))
     also = [_one_model(text) for text in options.also]
     with engine_for(options) as (engine, pool, progress):
-        asked = options.ranks or options.identifiability or also or family.n_masses <= AT_ONCE
+        asked = bool(also) or options.ranks or options.identifiability or family.n_masses <= AT_ONCE
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
         profiles = plain.profiles_of(family, executor=pool, progress=progress) if asked else ()
@@ -88,10 +90,6 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _size_or_file(text: str) -> int | Path:
-    return Path(text) if text.endswith(".json") else whole(1, MOST_LISTED)(text)
-
-
 def _of_file(path: Path, options: argparse.Namespace) -> int:
     """Tell what can be determined of the models of a file."""
     if options.also:
@@ -114,12 +112,10 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Found]) 
     for place, chain in enumerate(family):
         _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
         ports = (f"{act_plus}-{act_minus}", f"{meas_plus}-{meas_minus}")
-        found = [NOT_ASKED] * 4
-        if profiles:
-            rank = known[place].rank if known else profiles[place].rank
-            found = [*_found(profiles[place]), str(rank)]
+        found = _found(profiles[place]) if profiles else (NOT_ASKED,) * 3
+        rank = str(known[place].rank if known else profiles[place].rank) if profiles else NOT_ASKED
         sets = _sets(known[place]) if known else NOT_ASKED
-        yield _line((str(place + 1), str(gap), *ports, *found, sets, text_drawing(chain)))
+        yield _line((str(place + 1), str(gap), *ports, *found, rank, sets, text_drawing(chain)))
 
 
 def _line(cells: Sequence[str]) -> str:

@@ -184,15 +184,15 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
     """The structures to tell apart, or the sentence that says that there is nothing to do."""
     texts = list(dict.fromkeys(options.models))
     chains = chains_named(texts, damped=is_damped(options))
+    again = next((i for i, chain in enumerate(chains) if chain in chains[:i]), None)
+    if again is not None:
+        first = texts[chains.index(chains[again])]
+        raise InputError(f"{texts[again]} and {first} are the same structure")
     names = [name_of(chain) for chain in chains]
     if len(names) == 1:
         return _all_like(names[0], is_damped(options))
     if len({chain.n_masses for chain in chains}) > 1:
         raise InputError("the structures have different numbers of masses: name some of one size")
-    found = dict(zip(chains, texts, strict=True))
-    for text, chain in zip(texts, chains, strict=True):
-        if found[chain] != text:
-            raise InputError(f"{text} and {found[chain]} are the same structure")
     named = list(zip(names, chains, strict=True))
     for (left, a), (right, b) in combinations(named, 2):
         sides = engine.subject(left, a), engine.subject(right, b)

@@ -26,7 +26,8 @@ def onward(
     source = next(name for name in options.models if name.lower().endswith(".json"))
     if len(options.models) > 1 or options.damped is not None:
         raise InputError(
-            f"{source} names its structures itself: leave other names, --damped and --undamped away"
+            f"{source} names its structures itself: leave other names and"
+            " --damped or --undamped away"
         )
     named = named_by(Path(source))
     if len(named.left) < 2 and not named.explained:
