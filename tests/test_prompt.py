@@ -36,6 +36,8 @@ from disting import (
     global_identifiability,
     identifiability,
     local_identifiability,
+    verdict_file,
+    verify,
 )
 from disting.catalogs.next_files import next_catalog
 from disting.fit import figure_1, plan, predicted, select
@@ -74,6 +76,7 @@ def shown() -> list[object]:
         Query(),
         engine.decisions(subjects, Query(View.EXACT)),
         compare(poles, long_name),
+        verify(verdict_file(family[1], family[2])),
         compare_everywhere(family[1], family[11], ["sensor=3"]),
         Experiment(sensor=(3, 1), inertias={1: "0.5"}, springs={2: 3}, locked=2),
         poles,

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 from disting.errors import InputError
 from disting.experiments import Experiment, Named, Places, moved, named, ways
-from disting.general import Model
+from disting.general import MatrixModel, Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.shown import plural, summary
@@ -75,7 +75,7 @@ def compare_everywhere(
     >>> compare_everywhere(a[1], a[11], ["sensor=2"]).answer.value
     'surely'
     """
-    if isinstance(left, Model) or isinstance(right, Model):
+    if isinstance(left, Model | MatrixModel) or isinstance(right, Model | MatrixModel):
         raise InputError(NOT_CHAINS)
     left, right = chains_named([left, right], damped=damped, sensor=sensor)
     engine = engine or Engine()

@@ -10,15 +10,18 @@ from disting.experiments import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.general import AnyModel, MatrixModel, Model
 from disting.general.parameters import PARAMETERS
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named
 from disting.questions.identifiability import Identifiability, ParameterIdentifiability
 from disting.verdict.comparison import NOT_CHAINS
 from disting.verdict.engine import Engine
 
 
 def identifiability(
-    model: Chain | AnyModel,
+    model: Chain | AnyModel | str,
     *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
     experiments: Sequence[Experiment] = (),
     engine: Engine | None = None,
 ) -> Identifiability | ParameterIdentifiability:
@@ -28,7 +31,8 @@ def identifiability(
 
     `experiments`: all ways in which the chain is measured, with one parameter vector for all;
     `Experiment()` is that of the chain as it is. Without them more is told of the chain as it is:
-    which combinations are determined, and all parameter vectors at a random point. `engine` brings
+    which combinations are determined, and all parameter vectors at a random point. A chain can be
+    named, such as "3:1+b2": `damped` and `sensor` say then how it is meant. `engine` brings
     settings and a store. Raises InputError.
 
     >>> from disting import Experiment, Family
@@ -45,6 +49,8 @@ def identifiability(
         if experiments:
             raise InputError(NOT_CHAINS)
         return engine.answer(PARAMETERS, (replace(model, name="model"),), engine.settings)
+    if isinstance(model, str):
+        (model,) = chains_named([model], damped=damped, sensor=sensor)
     if not isinstance(model, Chain):
         raise InputError("identifiability is asked of a chain, such as Family(3)[4], or a Model")
     if not experiments:

@@ -32,6 +32,7 @@ from disting.evidence.limits import FullImage, LargerProjection
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.model.domain import Domain
+from disting.model.shown import summary
 from disting.model.symmetry import canonical
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding
 from disting.questions.inclusion import confirms as confirms_inclusion
@@ -81,6 +82,9 @@ class Verification:
 
     standing: Standing
     reason: str = ""
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     def __bool__(self) -> bool:
         raise TypeError("a verification is not true or false; look at its standing")

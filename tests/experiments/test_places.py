@@ -107,7 +107,7 @@ def test_command_line(capsys):
     assert code == 0 and out.out.startswith("DISTINGUISHABLE")
     assert "experiment 3  mass 2 locked" in out.out and "masses 2/1, 3/2 of 3:1/3:11" in out.out
     code, out = told(capsys, "3:2", "3:5", "--also", "sensor=2", "--domain", "complex")
-    assert code == 0 and out.out.startswith("DEPENDS ON THE PLACES: A2 and A5")
+    assert code == 0 and out.out.startswith("DEPENDS ON THE PLACES: 3:2 and 3:5")
     code, out = told(capsys, "3:2", "3:5", "--also", "lock=2/2", "--domain", "complex")
     assert code == 0 and "nothing is learned from experiment 2" in out.out
 
