@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from disting.catalogs import Catalog
 from disting.conditions.rule import EXACT, Role, Rule
 from disting.conditions.table import RULES
+from disting.files import __version__
 from disting.model.chain import Chain
 from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
@@ -95,6 +96,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
             domains,
             masses=catalog.n_masses,
             damped=catalog.damped,
+            version=__version__,
             dampers=bool(dampers),
             motion=motion_of(catalog),
             next=for_pairs(further),

@@ -4,14 +4,17 @@ goes wrong, all can use it.
 
 import json
 import re
+import shlex
 from pathlib import Path
 
 import pytest
 
+import disting
 from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict import View
 from disting.verdict.shown import shown
+from tests.cli.process import called
 from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
@@ -78,6 +81,12 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
         assert box["width"] > 150 and box["height"] > 50
         assert tab.get_attribute(f'#detail [data-slot="{side}"] use', "href") == f"#chain-{number}"
     assert tab.url.endswith("#1-4")
+    shell = tab.inner_text('#detail [data-slot="shell"]')
+    assert called(*shlex.split(shell)[1:]).stdout.startswith(verdict.relation.upper())
+    python = tab.inner_text('#detail [data-slot="python"]')
+    assert eval(python, {"disting": disting}).relation is verdict.relation
+    cited = tab.inner_text('#detail [data-slot="cited"]')
+    assert str(verdict.relation) in cited and cited.endswith(tab.url)
 
 
 def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ignore[no-untyped-def]
@@ -167,6 +176,7 @@ def test_the_focus_is_seen(visit) -> None:  # type: ignore[no-untyped-def]
 
 def test_the_wheel_zooms_where_the_pointer_is_and_dragging_moves(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGE)
+    tab.evaluate("document.getElementById('matrix').scrollIntoView()")
     tab.mouse.click(**_place(tab, 40, 20))
     size, at = float(tab.get_attribute("#matrix", "data-cell")), _place(tab, 40, 20)
     tab.mouse.move(**at)

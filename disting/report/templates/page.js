@@ -69,6 +69,17 @@
     figure.append(svg, caption);
     return figure;
   });
+  const takeAway = (low, high, v) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
+    slot("takeaway").hidden = Boolean(data.names);
+    if (data.names) return;
+    const [left, right] = [low, high].map((i) => `${data.masses}:${i}`);
+    put({
+      shell: `disting compare ${left} ${right} --${kind}`,
+      python: `disting.compare("${left}", "${right}", damped=${data.damped ? "True" : "False"})`,
+      cited: `disting ${data.version}: ${left} and ${right}, ${kind}, are ${v.relation} over ${v.domain} parameters. ${location.href.split("#")[0]}${pairHash([low, high])}`,
+    });
+    for (const button of slot("takeaway").querySelectorAll("[data-copy]")) button.textContent = "Copy";
+  };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
     put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: v.why, formula: v.formula, link: "", next: further(low, high) });
@@ -77,6 +88,7 @@
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
     slot("certainty").textContent = v.by ? v.certainty : "";
+    takeAway(low, high, v);
     if (data.motion) slot("link").replaceChildren(linkTo(`${data.motion}#A${low}-A${high}`, "Both machines in motion"));
     draw("left", low);
     draw("right", high);
@@ -92,7 +104,7 @@
     slot("sketches").replaceChildren();
     slot("badge").className = "badge";
     draw("left", model);
-    slot("right-figure").hidden = slot("views").hidden = slot("algebra").hidden = true;
+    slot("right-figure").hidden = slot("views").hidden = slot("algebra").hidden = slot("takeaway").hidden = true;
     slot("link").replaceChildren(linkTo(pageOf(model), `Formulas and identifiability of ${nameOf(model)}`));
     byId("status").textContent = `${nameOf(model)}. ${slot("shown").textContent}`;
   };
