@@ -21,6 +21,7 @@ from math import ceil, log2
 from flint import fmpz
 
 from disting.algebra.certainty import LEAST_SAFETY
+from disting.algebra.content import written
 
 # products of two residues fit into 64 bits: the vectorised searches use such primes
 SEARCH_BITS = 31
@@ -40,8 +41,7 @@ class Size:
 
 
 def about(label: str, *content: object) -> str:
-    """The label of a question about models: with a digest of their content, which `repr` must tell
-    completely.
+    """The label of a question about models: with a digest of all of their content (`written`).
 
     >>> about("doc", "a model") == about("doc", "a model") != about("doc", "another one")
     True
@@ -55,9 +55,9 @@ def digest(*content: object) -> str:
 
 
 def _text(content: object) -> str:
-    """`repr`; numbers of more digits than Python writes in decimal are hexadecimal."""
+    """As `written`; numbers of more digits than Python writes in decimal are hexadecimal."""
     try:
-        return repr(content)
+        return written(content)
     except ValueError:
         if isinstance(content, int):
             return hex(content)

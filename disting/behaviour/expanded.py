@@ -7,7 +7,8 @@ from flint import fmpz_mpoly
 from disting.algebra.notation import Expr, quotient, symbol
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.behaviour.transfer import plain_receptance
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named
 from disting.model.structure import Structure
 
 
@@ -36,19 +37,22 @@ def written_out(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     return num * ring["s"] ** structure.sensor_order, den
 
 
-def transfer_function(chain: Chain) -> Expr:
+def transfer_function(
+    chain: Chain | str, *, damped: bool | None = None, sensor: Sensor | str | None = None
+) -> Expr:
     """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
     parameters.
 
     The quotient of two polynomials in s, a lag among its poles, times exp(-s Td) where there is a
-    dead time.
+    dead time. A chain can be named, such as "3:1+b2": `damped` and `sensor` say then how it is
+    meant.
 
-    >>> from disting.model.family import Family
-    >>> transfer_function(Family(2)[1])
+    >>> transfer_function("2:1", damped=False)
     (k12 + m2*s**2)/(k12*m1 + k12*m2 + m1*m2*s**2)
     """
     from sympy import exp
 
+    (chain,) = chains_named([chain], damped=damped, sensor=sensor)
     num, den = expanded(chain.structure)
     rational = quotient(coefficients(num, "s"), coefficients(den, "s"))
     return rational * exp(-symbol("s") * symbol("Td")) if chain.dead_time else rational

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from pathlib import Path
 
-from disting.behaviour.sample import Representation
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import (
     INCLUSIONS,
@@ -85,7 +84,7 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
 
 
 def _model(number: int, subject: ComparedChain, identifiability: Identifiability) -> Record:
-    profile = subject.profile(Representation.TF, 0)
+    profile = subject.transfer_profile
     return {
         "model": number,
         "indices": list(subject.chain.indices[1:]),

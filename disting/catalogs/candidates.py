@@ -23,8 +23,9 @@ from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
+from disting.model.names import name_of
+from disting.model.shown import plural, summary
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
-from disting.verdict.comparison import name_of
 
 SCHEMA = 1
 FILE = "candidates.jsonl"
@@ -53,6 +54,9 @@ class Matrix:
     """The verdicts on all pairs of `chains`; `records` is the file's content."""
 
     records: tuple[Record, ...]
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.records[0]['catalog']}, {plural(len(self.chains), 'model')}")
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
@@ -127,7 +131,7 @@ def matrix(
     if len({c.sensor for c in chains}) != 1:
         raise InputError("a matrix of verdicts holds models of one sensor quantity")
     engine = engine or Engine()
-    subjects = [engine.subject(name_of(c, short=False), c) for c in chains]
+    subjects = [engine.subject(name_of(c), c) for c in chains]
     decided = engine.decisions(
         subjects, Query(View.EXACT, inclusion=False), executor=executor, progress=progress
     )

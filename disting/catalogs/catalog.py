@@ -24,11 +24,13 @@ from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.shown import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
 from disting.verdict import Relation, Verdict, View
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +48,15 @@ class ModelRow:
     group: int
     identifiability: Identifiability
 
+    def __repr__(self) -> str:
+        known = f"{self.rank} of {self.n_parameters} parameters determinable"
+        return summary(
+            self, f"model {self.number}, {known}" + f", group {self.group}" * bool(self.group)
+        )
+
 
 @dataclass(frozen=True)
-class Catalog:
+class Catalog(Shown):
     """All verdicts of one family; `records` is its file's content (see `files`).
 
     >>> catalog(3, damped=True).verdict(2, 5, View.EXACT).decided_by
@@ -56,6 +64,13 @@ class Catalog:
     """
 
     records: tuple[Record, ...]
+
+    def __repr__(self) -> str:
+        size = len(self.family)
+        return summary(
+            self,
+            f"{self.name}, {plural(size, 'model')}, {plural(size * (size - 1) // 2, 'pair')}",
+        )
 
     @staticmethod
     def from_records(records: list[Record]) -> "Catalog":
@@ -189,6 +204,13 @@ class Catalog:
         return pd.DataFrame(
             table, index=pd.Index(numbers, name="model"), columns=pd.Index(numbers, name="model")
         )
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """The matrix over positive parameters as a picture, with matplotlib; in a new figure where
+        no axes are given. Returns the axes. Raises DistingError where matplotlib is missing.
+        """
+        axes: Axes = self._presenter.plot(self, ax, {})
+        return axes
 
     def models(self) -> "pd.DataFrame":
         """One row a model: indices, parameters, degrees, determinable parameters, group."""

@@ -12,6 +12,7 @@ from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.files import shipped_folder
 from disting.errors import InputError
 from disting.model.family import Family
+from disting.model.shown import plural, summary
 from disting.questions.same.limited import PATIENTLY, SETTLED, SHARING
 from disting.verdict import Engine, Progress, Relation, silent
 from disting.verdict.classes import Classes
@@ -30,6 +31,9 @@ class DamperFamily:
     family: Family
     sets: tuple[Masses, ...]
     found: Classes
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.family!r}, {plural(len(self), 'model')}")
 
     def __len__(self) -> int:
         return len(self.found)

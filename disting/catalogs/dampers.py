@@ -16,6 +16,7 @@ from itertools import combinations
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.domain import Domain
+from disting.model.shown import plural, summary
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
 
 Masses = tuple[int, ...]
@@ -60,6 +61,9 @@ class DamperTable:
     chain: Chain
     sets: tuple[Masses, ...]
     decided: Decisions
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.chain}, {plural(len(self.sets), 'set')} of ground dampers")
 
     @property
     def domain(self) -> Domain:

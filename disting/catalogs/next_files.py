@@ -1,11 +1,15 @@
 """What to measure next as files, shipped for the groups of indistinguishable structures of 2 to
-4 masses.
+5 masses.
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
 measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
 for each kind of experiment what `verdict.placed.Placed` holds of its spots, structure by structure
 and mass by mass: `gains` (a letter each: n new, r repeats, s silent), `columns`, `classes`,
 `links`, `open` and `safety`. The evidence is not kept: `disting compare --also` gives it.
+
+`next-dampers-<masses>-<undamped|damped>.jsonl`, shipped for 3 masses: the same for structures with
+dampers to the ground, in groups in which at least one has some; a number is the place, from 0,
+among all structures with all sets of dampers.
 """
 
 import json
@@ -16,33 +20,65 @@ from functools import cache, cached_property
 from pathlib import Path
 
 from disting.catalogs.catalog import Catalog
+from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
 from disting.errors import CatalogError
 from disting.experiments.menu import Costs, Gain, Kind
 from disting.files import intact_text, write_whole
+from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.shown import plural, summary
 from disting.verdict import Engine, Progress, View, silent
 from disting.verdict.further import Further, further
 from disting.verdict.placed import NOT_KNOWN, TESTS, Placed
 
 SCHEMA = 1
-SHIPPED_SIZES = (2, 3, 4)
+SHIPPED_SIZES = (2, 3, 4, 5)
+WITH_DAMPERS = (3,)  # shipped with dampers to the ground
 COMMAND = "disting catalog next"
 LETTERS = {g.value[0]: g for g in Gain}
 
 
-def name_of(n_masses: int, damped: bool) -> str:
-    """Name of a file without its suffix, such as next-3-damped."""
-    return f"next-{n_masses}-{'damped' if damped else 'undamped'}"
+def name_of(n_masses: int, damped: bool, dampers: bool = False) -> str:
+    """Name of a file without its suffix, such as next-3-damped; `dampers`: to the ground."""
+    kind = f"{n_masses}-{'damped' if damped else 'undamped'}"
+    return f"next-dampers-{kind}" if dampers else f"next-{kind}"
 
 
 @dataclass(frozen=True)
 class NextCatalog:
-    """What to measure next for all groups of a family; `records` is the file's content."""
+    """What to measure next for all groups of a family; `records` is the file's content.
+
+    `sets` of dampers to the ground, if any: then structures are counted from 0, each of the family
+    with each set, else from 1.
+    """
 
     family: Family
     records: tuple[Record, ...]
+    sets: tuple[Masses, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Name of the file without its suffix."""
+        return name_of(self.family.n_masses, self.family.damped, bool(self.sets))
+
+    def named(self, number: int) -> tuple[str, Chain]:
+        """A structure with its name, such as 3:4 or 3:4+b1."""
+        if not self.sets:
+            return f"{self.family.n_masses}:{number}", self.family[number]
+        model, chosen = number // len(self.sets) + 1, self.sets[number % len(self.sets)]
+        name = "+".join([f"{self.family.n_masses}:{model}", *(f"b{m}" for m in chosen)])
+        return name, replace(self.family[model], ground_dampers=chosen)
+
+    def number(self, model: int, dampers: Masses = ()) -> int:
+        """The number of a model of the family with these dampers to the ground."""
+        return (model - 1) * len(self.sets) + self.sets.index(dampers) if self.sets else model
+
+    def __repr__(self) -> str:
+        name = name_of(self.family.n_masses, self.family.damped)
+        return summary(self, f"{name}, {plural(len(self.groups), 'group')}")
 
     @property
     def groups(self) -> tuple[tuple[int, ...], ...]:
@@ -72,25 +108,27 @@ class NextCatalog:
         if places or at is None or len(set(numbers)) < 2:
             return None
         if at not in self._read:
-            self._read[at] = _further(self.family, self.records[at], self.records[0]["tests"])
-        group = self.groups[at - 1]
-        found = self._read[at].only([group.index(m) for m in numbers])
+            self._read[at] = _further(self, self.records[at])
+        group, found = self.groups[at - 1], self._read[at]
+        if tuple(numbers) != group:
+            found = found.only([group.index(m) for m in numbers])
         return replace(found, costs=costs or Costs())
 
 
 @cache
-def next_catalog(n_masses: int, *, damped: bool = False) -> NextCatalog:
-    """What is shipped; raises CatalogError where there is nothing.
+def next_catalog(n_masses: int, *, damped: bool = False, dampers: bool = False) -> NextCatalog:
+    """What is shipped, of structures with `dampers` to the ground or of those without; raises
+    CatalogError where there is nothing.
 
     >>> found = next_catalog(3, damped=True).further((1, 11))
     >>> [kind.value for kind in found.kinds if found.anywhere(kind)]
     ['sensor', 'force', 'inertia', 'lock']
     """
-    return read(shipped_folder(), n_masses, damped)
+    return read(shipped_folder(), n_masses, damped, dampers)
 
 
 def build_next(
-    stored: Catalog,
+    stored: Catalog | DamperFamily,
     engine: Engine,
     *,
     executor: Executor | None = None,
@@ -99,11 +137,11 @@ def build_next(
     """The text of the file that belongs to a catalogue, computed; the bytes do not depend on the
     machine or the order of the work.
     """
-    n, damped = stored.n_masses, stored.damped
-    groups = stored.classes(View.EXACT)
+    empty, groups = _asked(stored)
+    n = empty.family.n_masses
     header: Record = {
         "schema": SCHEMA,
-        "catalog": name_of(n, damped),
+        "catalog": empty.name,
         "groups": len(groups),
         "command": f"{COMMAND} {n}",
         "settings": engine.settings.to_dict(),
@@ -111,7 +149,7 @@ def build_next(
     }
     records = [header]
     for done, members in enumerate(groups, 1):
-        named = [(f"{n}:{m}", stored.family[m]) for m in members]
+        named = [empty.named(m) for m in members]
         found = further(named, engine, executor=executor, progress=progress)
         tables = {kind.value: _plain(table) for kind, table in found.tables.items()}
         records.append({"group": list(members), **tables})
@@ -119,19 +157,32 @@ def build_next(
     return lines(records)
 
 
-def write(text: str, n_masses: int, damped: bool, folder: Path) -> Path:
-    """Write a file and, last, the provenance of its folder; returns its path."""
+def _asked(stored: Catalog | DamperFamily) -> tuple[NextCatalog, tuple[tuple[int, ...], ...]]:
+    """A catalogue without answers, and the groups that it is about."""
+    if isinstance(stored, Catalog):
+        return NextCatalog(stored.family, ()), stored.classes(View.EXACT)
+    empty = NextCatalog(stored.family, (), stored.sets)
+    bare = {empty.number(m) for m in range(1, len(stored.family) + 1)}
+    groups = (tuple(map(stored.place, names)) for names in stored.classes())
+    return empty, tuple(g for g in groups if not bare.issuperset(g))
+
+
+def write(text: str, folder: Path) -> Path:
+    """Write a file, whose first line names it, and, last, the provenance of its folder; returns
+    its path.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    path = write_whole(folder / f"{name_of(n_masses, damped)}.jsonl", [text])
+    name = json.loads(text.partition("\n")[0])["catalog"]
+    path = write_whole(folder / f"{name}.jsonl", [text])
     write_provenance(folder)
     return path
 
 
-def read(folder: Path, n_masses: int, damped: bool) -> NextCatalog:
+def read(folder: Path, n_masses: int, damped: bool, dampers: bool = False) -> NextCatalog:
     """The file in a folder; raises CatalogError where it is missing, damaged or of another
     schema.
     """
-    path = folder / f"{name_of(n_masses, damped)}.jsonl"
+    path = folder / f"{name_of(n_masses, damped, dampers)}.jsonl"
     remedy = f"make it with '{COMMAND} {n_masses}'"
     try:
         records = [json.loads(line) for line in intact_text(path).splitlines()]
@@ -140,7 +191,8 @@ def read(folder: Path, n_masses: int, damped: bool) -> NextCatalog:
             raise ValueError("another schema")
         if len(records) != header["groups"] + 1 or any(len(r["group"]) < 2 for r in records[1:]):
             raise ValueError("groups are missing")
-        return NextCatalog(Family(n_masses, damped), tuple(records))
+        sets = DamperSets.ALL.of(n_masses) if dampers else ()
+        return NextCatalog(Family(n_masses, damped), tuple(records), sets)
     except FileNotFoundError:
         raise CatalogError(f"there is no {path}; {remedy}") from None
     except (OSError, ValueError, LookupError, TypeError) as reason:
@@ -148,7 +200,7 @@ def read(folder: Path, n_masses: int, damped: bool) -> NextCatalog:
 
 
 def verify_next(
-    stored: Catalog,
+    stored: Catalog | DamperFamily,
     folder: Path,
     engine: Engine,
     *,
@@ -158,11 +210,12 @@ def verify_next(
     """What is wrong with the file of a catalogue, in sentences: its bytes against those that are
     computed now.
     """
-    n, damped = stored.n_masses, stored.damped
-    path = folder / f"{name_of(n, damped)}.jsonl"
+    family, dampers = stored.family, isinstance(stored, DamperFamily)
+    kind = family.n_masses, family.damped, dampers
+    path = folder / f"{name_of(*kind)}.jsonl"
     if not path.exists() and folder.resolve() != shipped_folder().resolve():
         return []  # a folder of one's own need not have it
-    read(folder, n, damped)
+    read(folder, *kind)
     text = build_next(stored, engine, executor=executor, progress=progress)
     there = path.read_text(encoding="utf-8").splitlines()
     for number, (a, b) in enumerate(zip(there, text.splitlines(), strict=False), 1):
@@ -182,20 +235,19 @@ def _plain(table: Placed) -> Record:
     }
 
 
-def _further(family: Family, record: Record, tests: Sequence[str]) -> Further:
-    numbers = record["group"]
+def _further(stored: NextCatalog, record: Record) -> Further:
+    n, numbers, tests = stored.family.n_masses, record["group"], stored.records[0]["tests"]
     try:
         tables = {
-            kind: _placed(kind, family.n_masses, len(numbers), record[kind.value], tests)
+            kind: _placed(kind, n, len(numbers), record[kind.value], tests)
             for kind in Kind
             if kind.value in record
         }
-        names = tuple(f"{family.n_masses}:{m}" for m in numbers)
-        return Further(names, tuple(family[m] for m in numbers), tables)
+        names, chains = zip(*map(stored.named, numbers), strict=True)
+        return Further(names, chains, tables)
     except (LookupError, TypeError, ValueError) as reason:
         raise CatalogError(
-            f"the group {numbers} cannot be read ({reason!r}); make it with '{COMMAND}"
-            f" {family.n_masses}'"
+            f"the group {numbers} cannot be read ({reason!r}); make it with '{COMMAND} {n}'"
         ) from None
 
 

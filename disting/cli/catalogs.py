@@ -1,10 +1,47 @@
 """disting catalog: compute, settle and verify catalogues."""
 
 import argparse
+from pathlib import Path
 
-from disting.catalogs import catalog
+from disting.catalogs import Catalog, catalog
+from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.files import shipped_folder
+from disting.cli.arguments import add_masses, add_out, add_work
 from disting.cli.workers import engine_for
 from disting.verdict import Engine
+
+
+def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `build`."""
+    add_masses(parser)
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
+def add_candidates_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `candidates`."""
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
+def add_settle_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `settle`."""
+    add_masses(parser)
+    text = "and what is open with dampers to the ground, of 3 to 5 masses"
+    parser.add_argument("--dampers", action="store_true", help=text)
+    _add_read_folder(parser, Path("catalog"), "catalog")
+
+
+def add_verify_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `verify`."""
+    add_masses(parser)
+    _add_read_folder(parser, shipped_folder(), "the shipped one")
+    add_work(parser)
+
+
+def _add_read_folder(parser: argparse.ArgumentParser, default: Path, said: str) -> None:
+    text = f"folder (default: {said})"
+    parser.add_argument("--catalog", type=Path, default=default, metavar="DIR", help=text)
 
 
 def build(options: argparse.Namespace) -> int:
@@ -60,10 +97,10 @@ def settle(options: argparse.Namespace) -> int:
 
 def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
-    from disting.catalogs.damper_files import SHIPPED_SIZES
+    from disting.catalogs.damper_files import SHIPPED_SIZES, read
     from disting.catalogs.damper_verify import verify_dampers
     from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-    from disting.catalogs.next_files import verify_next
+    from disting.catalogs.next_files import WITH_DAMPERS, verify_next
     from disting.catalogs.verify import verify
 
     wrong: list[str] = []
@@ -88,10 +125,14 @@ def verify(options: argparse.Namespace) -> int:
                         executor=pool,
                         progress=progress,
                     )
+                stored: list[Catalog | DamperFamily] = []
                 if n in NEXT_SIZES:
-                    stored = catalog(n, damped=damped, folder=options.catalog)
+                    stored.append(catalog(n, damped=damped, folder=options.catalog))
+                if n in WITH_DAMPERS:
+                    stored.append(read(options.catalog, n, damped))
+                for one in stored:
                     found += verify_next(
-                        stored, options.catalog, fresh, executor=pool, progress=progress
+                        one, options.catalog, fresh, executor=pool, progress=progress
                     )
                 what = f"{n} masses, {'damped' if damped else 'undamped'}"
                 print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")

@@ -2,31 +2,18 @@
 are told.
 """
 
-import re
 import sys
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from disting.algebra.certainty import USELESS
 from disting.conditions.table import RULES
-from disting.errors import InputError, shown
+from disting.errors import InputError
 from disting.files import write_whole
 from disting.model.domain import Domain
-from disting.model.family import MOST_MASSES
 from disting.verdict import Query, Relation, View
 
 VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
-
-
-def reference(text: str) -> tuple[int, int]:
-    """Size and number of a model written masses:number; raises InputError."""
-    match = re.fullmatch(r"(\d{1,3}):(\d{1,7})", text)
-    if not match:
-        raise InputError(f"a model is written masses:number, for instance 3:4, not {shown(text)}")
-    if int(match[1]) > MOST_MASSES:
-        raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {match[1]}")
-    return int(match[1]), int(match[2])
 
 
 def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
@@ -90,20 +77,3 @@ def emitted_lines(where: str, lines: Iterable[str]) -> None:
             f"{where} cannot be written ({reason.strerror}); name another file, or - for standard"
             " output"
         ) from None
-
-
-def joint_in_words(safety: int) -> str:
-    """How surely everything that is said of a family holds together.
-
-    >>> joint_in_words(121)
-    'all of it together is wrong with a probability of at most 2^-121'
-    >>> joint_in_words(USELESS)
-    'no error bound is left for all of it together'
-    """
-    if safety == USELESS:
-        return "no error bound is left for all of it together"
-    return (
-        f"all of it together is wrong with a probability of at most 2^-{safety}"
-        if safety
-        else "nothing is left to chance"
-    )

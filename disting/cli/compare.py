@@ -2,107 +2,140 @@
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.common import query, reference
+from disting.cli.arguments import (
+    add_bounds,
+    add_damped,
+    add_deciding,
+    add_json,
+    add_no_cache,
+    add_quantity,
+)
+from disting.cli.colour import in_colour
+from disting.cli.common import emitted, query
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
-from disting.evidence.real import BothWays
 from disting.experiments import Places, named
-from disting.general import Model, read_models
+from disting.general import AnyModel, MatrixModel, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named, name_of, read
+from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Query, Relation, Verdict, View
-from disting.verdict.comparison import compare
+from disting.verdict.comparison import compare, names_of
 from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere
 from disting.verdict.proof import prove
+from disting.verdict.shown import shown
+from disting.verdict.verdict_file import as_file, exact, has_more
 
 FILE = ".json:"  # between a file and the name of a model in it
 MOST_TERMS = 30  # of a transfer function that is written out
+MODEL = (
+    "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
+    " ground; +lag; +delay; or file.json:name, a model of your own"
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument("left", metavar="N:I", help=MODEL)
+    text = "the other model, of the same or another size"
+    parser.add_argument("right", metavar="M:J", help=text)
+    add_damped(parser)
+    add_quantity(parser)
+    add_deciding(parser)
+    text = "look only at models within this range of a parameter, of both models; may be repeated"
+    add_bounds(parser, text)
+    text = (
+        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
+        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
+    add_no_cache(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Explain the verdict on one pair."""
-    if options.json and options.range:
+    if options.json and options.bound:
         raise InputError(
-            "what holds within ranges is told in words only: leave --json or --range away"
+            "what holds within ranges is told in words only: leave --json or --bound away"
         )
     texts = (options.left, options.right)
     if any(FILE in text for text in texts):
         if options.also:
             raise InputError("--also belongs to chains: a model of a file has no masses to name")
         return _of_files(options, texts)
-    sensor = Sensor(options.sensor)
-    references = [reference(text.partition("+")[0]) for text in texts]
-    chains = [chain_of(text, Family(1, options.damped, sensor)) for text in texts]
+    chains = chains_named(texts, damped=options.damped, sensor=options.quantity)
     asked = query(options.conditions, View.EXACT, options.domain)
     if options.also:
         return _under_experiments(chains, asked, options)
-    plain = sensor is Sensor.ACCELERATION and "+" not in "".join(texts)
-    verdict = _shipped(references, options.damped, asked) if plain else None
-    if verdict is not None and references[0] > references[1]:
-        chains.reverse()  # a stored verdict names the model of the lower number first
-    if verdict is None:
-        with engine_for(options) as (engine, _, _progress):
-            verdict = compare(*chains, query=asked, engine=engine)
-    if options.prove:
-        verdict = prove(verdict, chains[0], chains[1])
     if options.json:
-        return _as_json(verdict)
-    ways = _both_ways(verdict, chains, dict(options.range)) if _tells_ways(verdict, options) else ()
+        return _as_json(file_of(chains, asked, options), options)
+    chains, verdict = decided(chains, asked, options)
+    ways = _both_ways(verdict, chains, dict(options.bound)) if _tells_ways(verdict, options) else ()
     print("\n".join([_explained(verdict, list(map(text_drawing, chains))), *ways]))
     return 0
 
 
 def _of_files(options: argparse.Namespace, texts: tuple[str, str]) -> int:
     """Explain the verdict on models of files, named file.json:name, or on one and a chain."""
-    for name in ("range", "prove"):
+    for name in ("bound", "prove"):
         if getattr(options, name):
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):
         refuse_chain_options(options)
-    family = Family(1, options.damped, Sensor(options.sensor))
-    sides = [_of_file(text) if FILE in text else chain_of(text, family) for text in texts]
+    named = chains_named(
+        [text for text in texts if FILE not in text],
+        damped=options.damped,
+        sensor=options.quantity,
+    )
+    sides = [_of_file(text) if FILE in text else named[0] for text in texts]
     asked = query(options.conditions, View.EXACT, options.domain)
     with engine_for(options) as (engine, _, _progress):
         verdict = compare(*sides, query=asked, engine=engine)
     if options.json:
-        return _as_json(verdict)
+        return _as_json(verdict.to_dict(), options)
     print(_explained(verdict, list(map(_in_letters, sides))))
     return 0
 
 
-def _of_file(text: str) -> Model:
+def _of_file(text: str) -> AnyModel:
     path, name = text.split(FILE, 1)
     return read_models(f"{path}{FILE[:-1]}")[name]
 
 
-def _in_letters(side: Chain | Model) -> str:
+def _in_letters(side: Chain | AnyModel) -> str:
     """A chain's drawing, or a transfer function that fits a few lines."""
     if isinstance(side, Chain):
         return text_drawing(side)
-    if sum(map(len, (*side.numerator_terms, *side.denominator_terms))) <= MOST_TERMS:
+    entries = side.entries if isinstance(side, MatrixModel) else (side,)
+    parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
+    if sum(map(len, parts)) <= MOST_TERMS:
         return str(side)
+    if isinstance(side, MatrixModel):
+        return "G(s) with {} outputs and {} inputs".format(*side.shape)
     return "G(s) of degree {} over {}".format(*side.degrees)
 
 
-def _as_json(verdict: Verdict) -> int:
-    print(json.dumps(verdict.to_dict(), indent=1, ensure_ascii=False))
+def _as_json(data: dict[str, Any], options: argparse.Namespace) -> int:
+    emitted(options.json, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     return 0
 
 
 def _under_experiments(chains: list[Chain], asked: Query, options: argparse.Namespace) -> int:
     """Explain what further experiments tell, the chains as they are included."""
-    if options.prove or options.range:
+    if options.prove or options.bound:
         raise InputError(
-            "with --also the verdict is on several experiments: leave --prove and --range away"
+            "with --also the verdict is on several experiments: leave --prove and --bound away"
         )
     with engine_for(options) as (engine, _, _progress):
         found = compare_everywhere(chains[0], chains[1], options.also, query=asked, engine=engine)
@@ -116,8 +149,7 @@ def _under_experiments(chains: list[Chain], asked: Query, options: argparse.Name
                 for places, verdict in found.verdicts
             ],
         }
-        print(json.dumps(data, indent=1, ensure_ascii=False))
-        return 0
+        return _as_json(data, options)
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
     print("\n".join([*_every_way(found, chains), "", *lines]))
     return 0
@@ -152,11 +184,47 @@ def _placed(places: Places, verdict: Verdict) -> str:
     return f"masses {pairs} of {verdict.left}/{verdict.right}"
 
 
-def _shipped(references: list[tuple[int, int]], damped: bool, asked: Query) -> Verdict | None:
-    """The stored verdict of a shipped pair, if all conditions may decide."""
-    (n, left), (m, right) = references
-    stored = n == m in SHIPPED_SIZES and left != right and asked == Query(asked.view)
-    return catalog(n, damped=damped).verdict(left, right, asked.view) if stored else None
+def decided(
+    chains: Sequence[Chain], asked: Query, options: argparse.Namespace
+) -> tuple[list[Chain], Verdict]:
+    """The verdict, from the shipped catalogues or decided, and the chains in its order: a stored
+    one names the model of the lower number first.
+    """
+    found = shipped(chains, asked)
+    if found is None:
+        with engine_for(options) as (engine, _, _progress):
+            found = compare(*chains, query=asked, engine=engine)
+    turned = found.left != names_of(chains[0], chains[1])[0]
+    ordered = list(reversed(chains)) if turned else list(chains)
+    return ordered, prove(found, ordered[0], ordered[1]) if options.prove else found
+
+
+def file_of(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> dict[str, Any]:
+    """The verdict with all that its check needs."""
+    ordered, verdict = decided(chains, asked, options)
+    beside = decided(ordered, exact(asked), options)[1] if has_more(verdict) else None
+    return as_file(ordered, asked, Settings(), verdict, beside)
+
+
+def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
+    """The stored verdict on two chains of a shipped catalogue, if all conditions may decide, under
+    their whole names.
+    """
+    left, right = sorted((read(name_of(chain)) for chain in chains), key=lambda n: n.number)
+    a, b = chains
+    stored = (
+        a.n_masses == b.n_masses in SHIPPED_SIZES
+        and a.damped == b.damped
+        and a.sensor is b.sensor is Sensor.ACCELERATION
+        and left.is_plain
+        and right.is_plain
+        and left != right
+        and asked == Query(asked.view)
+    )
+    if not stored:
+        return None
+    found = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
+    return replace(found, left=str(left), right=str(right))
 
 
 def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
@@ -164,7 +232,7 @@ def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
     does not say.
     """
     known = verdict.left_positive is not None or verdict.right_positive is not None
-    return bool(options.range) or (known and not isinstance(verdict.evidence, BothWays))
+    return bool(options.bound) or (known and not verdict.proves_shares)
 
 
 def _both_ways(
@@ -206,7 +274,11 @@ def _explained(verdict: Verdict, drawn: list[str]) -> str:
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
     drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
-    lines = [verdict.relation.upper(), "", *drawings, "", verdict.sentence]
+    heading = in_colour(verdict.relation.upper(), verdict.relation)
+    lines = [heading, "", *drawings, ""]
+    if verdict.evidence:
+        lines += [shown(verdict), ""]
+    lines.append(verdict.sentence)
     if verdict.evidence:
         certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]

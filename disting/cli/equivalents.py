@@ -7,6 +7,8 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from disting.cli.arguments import add_damped, add_json
+from disting.cli.common import emitted
 from disting.equivalence import (
     NONE,
     Equivalent,
@@ -24,11 +26,10 @@ from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
-from disting.model.family import Family
-from disting.model.names import chain_of
-from disting.verdict.comparison import name_of
+from disting.model.names import chains_named, name_of
 
 ABREAST = 3  # parameter sets beside each other
+NONE_HERE = "No experiment with this force and sensor"
 FEW = 12  # names of structures that are told one by one
 SOURCES = {
     Origin.GIVEN: "given",
@@ -40,7 +41,7 @@ SOURCES = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Everything but --damped, which other commands have too."""
+    """Arguments of the command."""
     named = (
         "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to"
         " the ground; +lag; +delay"
@@ -55,8 +56,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
+    text = (
+        "list what keeps the response of this experiment too: sensor=3, lock=2 or inertia=1:0.5, at"
+        " masses of the given model (3/2: mass 2 of the other one, else every one is tried); may be"
+        " repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     form = parser.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="print the result as JSON")
+    add_json(form, "the result", alone=True)
     form.add_argument(
         "--formulas",
         action="store_true",
@@ -66,23 +73,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form.add_argument(
         "--sympy", action="store_true", help="print formulas as Python source for SymPy"
     )
+    add_damped(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the equivalents of a model, or formulas for them."""
     if options.formulas or options.latex or options.sympy:
-        given = chain_of(options.model, Family(1, options.damped))
+        if options.also:
+            raise InputError("--also asks for values, not for formulas: leave one of them away")
+        (given,) = chains_named([options.model], damped=options.damped)
         print("\n".join(_formulas(given, chains_of(options.to, given), options)))
         return 0
     if not options.values:
         example = "--set m1=1,m2=2,.. (or --formulas for formulas)"
         raise InputError(f"values of the given model are needed: {example}")
-    found = find(options.model, assignments(options.values), options.to, damped=options.damped)
-    print(
-        json.dumps(found.to_dict(), indent=1, ensure_ascii=False)
-        if options.json
-        else "\n".join(_lines(found))
-    )
+    values = assignments(options.values)
+    found = find(options.model, values, options.to, damped=options.damped, also=options.also)
+    if options.json:
+        emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
+    else:
+        print("\n".join(_lines(found)))
     return 0
 
 
@@ -90,6 +100,7 @@ def _lines(found: Equivalents) -> Iterator[str]:
     values = ", ".join(f"{name} = {_decimal(value)}" for name, value in found.values.items())
     yield f"{found.name}  {text_drawing(found.chain)}"
     yield f"given: {values}"
+    yield from (f"experiment {i}  {text}" for i, text in enumerate(found.experiments, 1))
     listed = [listing for listing in found.listings if listing.members]
     for listing in listed:
         yield ""
@@ -112,7 +123,7 @@ def _decimal(value: Fraction) -> str:
 
 
 def _listing(listing: Listing) -> Iterator[str]:
-    yield f"{listing.name}  {text_drawing(listing.chain)}   {_counted(listing)}"
+    yield f"{listing.name}  {text_drawing(listing.chain)}   {_counted(listing)}{_placed(listing)}"
     shown = [
         (i, member)
         for i, member in enumerate(listing.members, 1)
@@ -124,6 +135,12 @@ def _listing(listing: Listing) -> Iterator[str]:
     hidden = len(listing.members) - len(shown)
     if hidden:
         yield f"  and {hidden} complex ones, of no physical meaning (--json shows them)"
+
+
+def _placed(listing: Listing) -> str:
+    """Which mass of the given model is which here, where experiments name some."""
+    places = ", ".join(f"{a}/{b}" for a, b in listing.places)
+    return f", masses {places}" if places else ""
 
 
 def _counted(listing: Listing) -> str:
@@ -163,7 +180,7 @@ def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
     for listing in listings:
         if not listing.members:
             said = listing.sentence if len(listings) == 1 or not listing.complete else NONE
-            groups.setdefault(said, []).append(listing.name)
+            groups.setdefault(said, []).append(f"{listing.name}{_placed(listing)}")
     for said, names in groups.items():
         every = "all" if len(names) == len(listings) else "all other"
         few = len(groups) > 1 or len(names) <= FEW
@@ -173,9 +190,12 @@ def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
 def _closing(found: Equivalents) -> str:
     """One sentence: what this means for an experiment."""
     others = [listing for listing in found.listings if listing.chain != found.chain]
-    chains = [listing.chain for listing in found.listings]
+    chains = list(dict.fromkeys(listing.chain for listing in found.listings))
+    what = "responses" if found.experiments else "transfer function"
+    this = f"{'these' if found.experiments else 'this'} {what}"
+    who = "None of these experiments" if found.experiments else NONE_HERE
     physical = [
-        listing.name
+        f"{listing.name}{_placed(listing)}"
         for listing in others
         if any(m.signs is Signs.POSITIVE for m in listing.members)
     ]
@@ -183,15 +203,12 @@ def _closing(found: Equivalents) -> str:
     twins = sum(m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN for m in own)
     said = []
     if physical:
-        said.append(
-            f"No experiment with this force and sensor tells it from {_and(physical)} with the"
-            " positive values above."
-        )
+        said.append(f"{who} tells it from {_and(physical)} with the positive values above.")
     elif others and all(listing.complete for listing in others):
         said.append(
-            f"No other of {among(chains)} gives this transfer function with positive values."
-            if len(others) > 1
-            else f"With positive values, {among(chains)} does not give this transfer function."
+            f"No other of {among(chains)} gives {this} with positive values."
+            if len({listing.chain for listing in others}) > 1
+            else f"With positive values, {among(chains)} does not give {this}."
         )
     elif others:
         said.append(
@@ -199,9 +216,7 @@ def _closing(found: Equivalents) -> str:
             " not all are excluded."
         )
     if own and twins:
-        said.append(
-            "Other positive values of the same structure give the same transfer function too."
-        )
+        said.append(f"Other positive values of the same structure give the same {what} too.")
     elif own and all(
         listing.complete for listing in found.listings if listing.chain == found.chain
     ):
@@ -223,10 +238,10 @@ def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace
     for other in others:
         found = explicit_map(given, other)
         if found is None:
-            none.append(name_of(other, short=False))
+            none.append(name_of(other))
             continue
-        yield f"{mark}{name_of(given, short=False)}  {text_drawing(given)}"
-        yield f"{mark}{name_of(other, short=False)}  {text_drawing(other)}   (primed)"
+        yield f"{mark}{name_of(given)}  {text_drawing(given)}"
+        yield f"{mark}{name_of(other)}  {text_drawing(other)}   (primed)"
         yield f"{mark}by {', then '.join(found.steps) or 'identity'}; {_checked(found)}"
         yield found.latex if options.latex else found.python if options.sympy else found.text
         yield ""

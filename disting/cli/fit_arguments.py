@@ -5,7 +5,8 @@ import re
 from pathlib import Path
 from typing import Any
 
-from disting.cli.paths import written_file, written_folder
+from disting.cli.arguments import add_json, add_work, frequency_range
+from disting.cli.paths import written_folder
 from disting.errors import shown
 
 WEIGHTS = ("auto", "none", "std", "coherence")
@@ -17,14 +18,20 @@ THRESHOLDS = (30.0, 1000.0, 20.0)
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    _data(p.add_argument_group("data"))
-    _candidates(p.add_argument_group("candidates"))
+    data = p.add_argument_group("data")
+    _responses(data)
+    _reading(data)
+    _quantities(data)
+    candidates = p.add_argument_group("candidates")
+    _structures(candidates)
+    _known(candidates)
     _choices(p.add_argument_group("cost and selection"))
     _output(p.add_argument_group("output"))
+    add_work(p, jobs=(0, "one for each core if there are many candidates"))
 
 
-def _data(group: argparse._ArgumentGroup) -> None:
-    """Files and how they are read."""
+def _responses(group: argparse._ArgumentGroup) -> None:
+    """Measured responses of the drive, which are fitted together or tested against."""
     group.add_argument(
         "train",
         nargs="*",
@@ -46,6 +53,10 @@ def _data(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--demo", action="store_true", help="simulated data of a small drive instead of files"
     )
+
+
+def _reading(group: argparse._ArgumentGroup) -> None:
+    """What of the files is read."""
     text = (
         "header of the response's first column (default: the first response); all: they are repeats"
         " of one"
@@ -62,6 +73,10 @@ def _data(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--repeat", type=Path, action="append", default=[], metavar="FILE", help=text
     )
+
+
+def _quantities(group: argparse._ArgumentGroup) -> None:
+    """What the numbers of the files mean, and which of them count."""
     text = (
         "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg;"
         " may be repeated"
@@ -90,8 +105,8 @@ def _data(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--sign", type=_signs, default="+", metavar="SIGN", help=text)
 
 
-def _candidates(group: argparse._ArgumentGroup) -> None:
-    """Which structures are fitted, and what is known of them."""
+def _structures(group: argparse._ArgumentGroup) -> None:
+    """Which structures are fitted."""
     group.add_argument(
         "--masses",
         type=_masses,
@@ -123,6 +138,10 @@ def _candidates(group: argparse._ArgumentGroup) -> None:
         action="store_true",
         help="force, sensor and gap anywhere: every chain of these sizes",
     )
+
+
+def _known(group: argparse._ArgumentGroup) -> None:
+    """What is known of their parameters and verdicts."""
     group.add_argument(
         "--fix",
         type=_value,
@@ -189,12 +208,7 @@ def _output(group: argparse._ArgumentGroup) -> None:
         " (default: if it lies beside)"
     )
     group.add_argument("--site", type=_site, metavar="DIR", help=text)
-    group.add_argument(
-        "--json",
-        type=written_file,
-        metavar="FILE",
-        help="write the selection as JSON; - is standard output",
-    )
+    add_json(group, "the selection")
 
 
 def _site(text: str) -> Path:
@@ -242,18 +256,6 @@ def _number(text: str) -> int | float | str:
         except ValueError:
             continue
     return text
-
-
-def frequency_range(text: str) -> tuple[float, float]:
-    """Two rising numbers such as 11..250; raises ArgumentTypeError."""
-    low, dots, high = text.partition("..")
-    try:
-        limits = (float(low), float(high))
-    except ValueError:
-        limits = (1.0, 0.0)
-    if not dots or not limits[0] < limits[1]:
-        raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {shown(text)}")
-    return limits
 
 
 def _bound(text: str) -> tuple[str, tuple[float, float]]:

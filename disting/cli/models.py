@@ -1,86 +1,132 @@
-"""disting models: the numbered list of one size."""
+"""disting models: the numbered list of one size, or what can be determined of a file's models."""
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
+from pathlib import Path
 
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.arguments import add_damped, add_work, is_damped, size_or_file
+from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
+from disting.errors import InputError
+from disting.experiments import Experiment, MeasuredChain, named
+from disting.experiments.identifiable import IDENTIFIABLE
+from disting.general import read_models
+from disting.general.parameters import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
-from disting.questions.identifiability import Identifiability, Level
+from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
 from disting.verdict import Engine, Progress
 
 NOT_ASKED = "·"
+Found = Identifiability | ParameterIdentifiability
+MOST_LISTED = 25  # masses: 140 thousand models, in seconds
+AT_ONCE = 7  # masses; 314 models take five seconds
+COLUMNS = ("model", "gap", "force", "sensor", "n/m", "free", "par", "rank", "sets", "drawing")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    text = "number of masses, or a file of models: what can be determined of each"
+    parser.add_argument("masses", type=size_or_file, metavar="N|FILE.json", help=text)
+    parser.add_argument(
+        "--identifiability",
+        action="store_true",
+        help="say for each model which parameters can be determined",
+    )
+    text = (
+        "say it of the models as they are and measured also like this: sensor=3, lock=2 or"
+        " inertia=1:0.5; may be repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    text = f"say degrees and ranks of more than {AT_ONCE} masses too, which takes a minute or more"
+    parser.add_argument("--ranks", action="store_true", help=text)
+    add_damped(parser)
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:
-    """List the models of one size."""
-    family = Family(options.masses, options.damped)
+    """List the models of one size, or of a file."""
+    if isinstance(options.masses, Path):
+        return _of_file(options.masses, options)
+    if options.masses > MOST_LISTED:
+        raise InputError(f"models of at most {MOST_LISTED} masses are listed")
+    family = Family(options.masses, is_damped(options))
+    also = [_one_model(text) for text in options.also]
     with engine_for(options) as (engine, pool, progress):
+        asked = bool(also) or options.ranks or options.identifiability or family.n_masses <= AT_ONCE
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
-        profiles = plain.profiles_of(family, executor=pool, progress=progress)
-        known = _identifiabilities(family, engine, pool, progress, options.identifiability)
-    print(_table(family, profiles, known), end="")
+        profiles = plain.profiles_of(family, executor=pool, progress=progress) if asked else ()
+        known: Sequence[Found] = (
+            _under_experiments(family, also, engine, pool, progress)
+            if also
+            else _identifiabilities(family, engine, pool, progress, options.identifiability)
+        )
+    print("\n".join(_table(family, profiles, known)))
     for gap in sorted({chain.gap for chain in family}):
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
-    print("degree n/m of (25), free = non-constant coefficients, rank = determinable parameters")
+    print("force, sensor: what it acts or looks on, and against (0 the ground)")
+    said = f"; {NOT_ASKED} not asked (--ranks asks)" * (not profiles)
+    print("n/m degrees of (25), free non-constant coefficients, par parameters,")
+    print(f"rank determinable parameters{said}")
     said = (
         "1 identifiable, ∞ not, ? not known"
         + f", {NOT_ASKED} not asked (--identifiability asks)" * (not known)
     )
-    print(f"sets = parameter sets, real or complex, with the same behaviour: {said}")
+    where = " in all experiments" if also else ""
+    print(f"sets parameter sets, real or complex, with the same behaviour{where}:\n     {said}")
     print(LEGEND)
-    if options.identifiability:
+    for number, experiment in enumerate([Experiment(), *also], 1) if also else ():
+        print(f"experiment {number}  {experiment.text}")
+    if options.identifiability or also:
         for number, found in enumerate(known, 1):
             print(f"A{number}: {found.sentence}")
     return 0
 
 
-def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Identifiability]) -> str:
-    """A line a model: its number, indices, degrees, ranks and drawing."""
-    from rich.console import Console
-    from rich.table import Table
+def _of_file(path: Path, options: argparse.Namespace) -> int:
+    """Tell what can be determined of the models of a file."""
+    if options.also:
+        raise InputError("--also belongs to chains: a model of a file has no masses to name")
+    refuse_chain_options(options)
+    found = read_models(path)
+    asked = [(replace(model, name="model"),) for model in found]
+    with engine_for(options) as (engine, pool, progress):
+        engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
+        for model, question in zip(found, asked, strict=True):
+            print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")
+    return 0
 
-    names = (
-        "model",
-        "gap",
-        "act-",
-        "act+",
-        "meas-",
-        "meas+",
-        "degree",
-        "free",
-        "params",
-        "rank",
-        "sets",
-        "drawing",
-    )
-    table = Table(*names, box=None)
-    sets = [_sets(found) for found in known] or [NOT_ASKED] * len(family)
-    for number, (chain, profile, count) in enumerate(zip(family, profiles, sets, strict=True), 1):
-        n, m = profile.degrees
-        numbers = (
-            number,
-            *chain.indices[1:],
-            f"{n}/{m}",
-            len(profile.form),
-            profile.n_parameters,
-            profile.rank,
-        )
-        table.add_row(*map(str, numbers), count, text_drawing(chain).replace("[", r"\["))
-    console = Console(highlight=False)
-    # drawings are not cut, they may run over
-    console.width = max(console.width, 74 + 8 * family.n_masses)
-    # printed by print, so that a closed pipe ends this command as it ends the others
-    with console.capture() as text:
-        console.print(table)
-    return text.get()
+
+def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Found]) -> Iterator[str]:
+    """A line a model: its number, gap, ports, degrees, ranks and drawing; 80 columns hold five
+    masses, drawings are not cut.
+    """
+    yield _line(COLUMNS)
+    for place, chain in enumerate(family):
+        _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
+        ports = (f"{act_plus}-{act_minus}", f"{meas_plus}-{meas_minus}")
+        found = _found(profiles[place]) if profiles else (NOT_ASKED,) * 3
+        rank = str(known[place].rank if known else profiles[place].rank) if profiles else NOT_ASKED
+        sets = _sets(known[place]) if known else NOT_ASKED
+        yield _line((str(place + 1), str(gap), *ports, *found, rank, sets, text_drawing(chain)))
+
+
+def _line(cells: Sequence[str]) -> str:
+    widths = (5, 3, 5, 6, 5, 4, 4, 4, 4, 0)
+    return " ".join(f"{cell:{w}}" for cell, w in zip(cells, widths, strict=True)).rstrip()
+
+
+def _found(profile: Profile) -> tuple[str, str, str]:
+    """Degrees, non-constant coefficients, parameters."""
+    n, m = profile.degrees
+    return f"{n}/{m}", str(len(profile.form)), str(profile.n_parameters)
 
 
 def _identifiabilities(
@@ -96,7 +142,29 @@ def _identifiabilities(
     )
 
 
-def _sets(found: Identifiability) -> str:
+def _one_model(text: str) -> Experiment:
+    """The experiment of an option that names masses of one model; raises InputError."""
+    found = named(text)
+    if found.places:
+        raise InputError(f"{text} names masses of two models: write {text.partition('/')[0]} alone")
+    return found.experiment
+
+
+def _under_experiments(
+    family: Family,
+    also: Sequence[Experiment],
+    engine: Engine,
+    pool: Executor | None,
+    progress: Progress,
+) -> list[ParameterIdentifiability]:
+    """What the chains as they are and these experiments determine together."""
+    experiments = tuple(dict.fromkeys([Experiment(), *also]))
+    asked = [(MeasuredChain(chain, experiments),) for chain in family]
+    engine.answer_all(IDENTIFIABLE, asked, executor=pool, progress=progress)
+    return [engine.answer(IDENTIFIABLE, measured, engine.settings) for measured in asked]
+
+
+def _sets(found: Found) -> str:
     """How many parameter sets have one behaviour."""
     if found.level is Level.NOT:
         return "∞"

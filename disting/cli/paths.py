@@ -5,6 +5,7 @@ in vain.
 import argparse
 import os
 from pathlib import Path
+from tempfile import TemporaryFile
 
 
 def written_file(text: str) -> str:
@@ -24,7 +25,7 @@ def written_file(text: str) -> str:
         raise argparse.ArgumentTypeError(
             f"there is no folder {path.parent}; make it first, or name another file"
         )
-    if not os.access(path if path.exists() else path.parent, os.W_OK):
+    if not (os.access(path, os.W_OK) if path.exists() else _takes_files(path.parent)):
         raise argparse.ArgumentTypeError(f"{text} may not be written; name another file")
     return text
 
@@ -35,6 +36,17 @@ def written_folder(text: str) -> Path:
     there = next(p for p in (path, *path.absolute().parents) if p.exists())
     if not there.is_dir():
         raise argparse.ArgumentTypeError(f"{there} is a file, not a folder; name another folder")
-    if not os.access(there, os.W_OK):
+    if not _takes_files(there):
         raise argparse.ArgumentTypeError(f"{there} may not be written to; name another folder")
     return path
+
+
+def _takes_files(folder: Path) -> bool:
+    """Whether a file can be made there: tried, since permissions do not tell it of all folders, nor
+    of all users.
+    """
+    try:
+        with TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from disting.cli.arguments import is_damped
 from disting.cli.common import emitted
 from disting.cli.plain import complain
 from disting.cli.workers import engine_for
@@ -21,8 +22,7 @@ from disting.fit.plant import Real
 from disting.fit.scatter import scatter
 from disting.measurement import read
 from disting.model.chain import Chain
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named, damping_option
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.plan_write import write_plan
 
@@ -44,8 +44,7 @@ def run(options: argparse.Namespace) -> int:
         return _from_fit(Path(options.model), options)
     if options.rival is None:
         raise InputError("name the structure to exclude too, such as: disting plan 2:1+b1 2:1+b2")
-    family = Family(1, options.damped)
-    model, rival = (chain_of(text, family) for text in (options.model, options.rival))
+    model, rival = chains_named([options.model, options.rival], damped=options.damped)
     exact = point_of(model, assignments(options.values))
     values = {name: int(value.p) / int(value.q) for name, value in exact.items()}
     effort = _effort(options, model, values, None)
@@ -81,9 +80,10 @@ def _write(options: argparse.Namespace, found: Plan, best: Designed | None) -> N
 
 def _from_fit(path: Path, options: argparse.Namespace) -> int:
     """The selected structure of a fit against each rival that it names."""
-    if options.rival or options.values or options.damped:
+    if options.rival or options.values or options.damped is not None:
         raise InputError(
-            f"{path} names structures and values itself: leave the rival, --set and --damped away"
+            f"{path} names structures and values itself: leave the rival, --set and"
+            f" {damping_option(is_damped(options))} away"
         )
     if options.out:
         raise InputError("--out belongs to one pair: plan it by name, as the output shows")
@@ -136,9 +136,9 @@ def _effort(
         return _measured(options, model, values)
     if number is None and named is None:
         raise InputError("say how much a line scatters: --noise 0.02, or --noise FRF.csv")
-    low, high = options.range or ((named.low, named.high) if named else (0.0, 0.0))
+    low, high = options.band or ((named.low, named.high) if named else (0.0, 0.0))
     if not 0 < low < high:
-        raise InputError("say which lines are measured [Hz]: --range 5..300")
+        raise InputError("say which lines are measured [Hz]: --band 5..300")
     size = number if number is not None else named.scatter if named else 0.0
     count = options.lines or (named.lines if named else 0) or LINES
     source = "given" if number is not None else "of the fitted data"
@@ -159,7 +159,7 @@ def _measured(options: argparse.Namespace, model: Chain, values: dict[str, float
     found = read(Path(options.noise)).to_quantity(model.sensor)
     for note in (*found.notes, *found.suspicions):
         complain(f"{found.origin or 'data'}: {note}")
-    found = found.masked(*options.range) if options.range else found
+    found = found.masked(*options.band) if options.band else found
     seen = scatter(found, [predicted(model, values, found.omega)])
     return Effort(found.omega, seen.rho, f"of {options.noise}, known from {seen.source}")
 

@@ -2,12 +2,12 @@
 
 import argparse
 
-from disting.cli.fit_arguments import frequency_range
-from disting.cli.paths import written_file, written_folder
+from disting.cli.arguments import add_damped, add_json, add_work, frequency_range, refuse
+from disting.cli.paths import written_folder
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
-    """Everything but --damped and what concerns the work."""
+    """Arguments of the command."""
     text = (
         "the true structure, such as 2:1+b1, or a file of 'disting fit --json': its selected"
         " structure"
@@ -24,12 +24,9 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         " measured response whose lines and scatter are taken"
     )
     p.add_argument("--noise", metavar="X|FRF.csv", help=text)
-    p.add_argument(
-        "--range",
-        type=frequency_range,
-        metavar="LOW..HIGH",
-        help="of the lines [Hz], such as 5..300",
-    )
+    text = "frequencies of the lines [Hz], such as 5..300"
+    p.add_argument("--band", type=frequency_range, metavar="LOW..HIGH", help=text)
+    refuse(p, "--range", "a range of frequencies is --band, such as --band 5..300")
     p.add_argument(
         "--lines",
         type=int,
@@ -38,9 +35,6 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     )
     text = "write figure, spectrum to run, lines and JSON there"
     p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
-    p.add_argument(
-        "--json",
-        type=written_file,
-        metavar="FILE",
-        help="write the plan as JSON; - is standard output",
-    )
+    add_json(p, "the plan")
+    add_damped(p)
+    add_work(p)

@@ -10,6 +10,7 @@ from disting.catalogs.combined import answers_in, combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.cli.arguments import add_out, add_work, size_or_file
 from disting.cli.common import relations_in_words
 from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
@@ -20,15 +21,36 @@ from disting.verdict import Engine, Progress, View
 MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 
 
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    text = "numbers of masses, or files of models"
+    parser.add_argument("masses", type=size_or_file, nargs="*", metavar="N|FILE.json", help=text)
+    text = (
+        "the paper's figures and tables from our own data, and its claims one by one, into the"
+        " folder paper below DIR"
+    )
+    parser.add_argument("--paper", action="store_true", help=text)
+    choice = parser.add_mutually_exclusive_group()
+    for name in ("damped", "undamped", "both"):
+        choice.add_argument(
+            f"--{name}", dest="damping", action="store_const", const=name, help=f"{name} models"
+        )
+    parser.set_defaults(damping="both")
+    add_out(parser, "reports")
+    add_work(parser)
+
+
 def run(options: argparse.Namespace) -> int:
     """Write pages, figures and tables."""
-    from disting.report.model_list import page_name
+    from disting.report.model_list import page_name, refuse_matrices
 
     if not (options.masses or options.paper):
         raise InputError("name at least one number of masses, a file of models, or --paper")
     files = [x for x in options.masses if isinstance(x, Path)]
     options.masses = [x for x in options.masses if not isinstance(x, Path)]
     lists = [(page_name(path), path, list_of(path)) for path in files]
+    for _, path, found in lists:
+        refuse_matrices(found, str(path))
     if files and not options.masses and options.damping != "both":
         raise InputError(f"--{options.damping} belongs to numbered chains: leave it away")
     names = [name for name, *_ in lists]
@@ -70,7 +92,7 @@ def _catalogues(options: argparse.Namespace) -> None:
     with_dampers = [
         damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices
     ]
-    paths += write_report(catalogs, options.out, with_dampers)
+    paths += write_report(catalogs, options.out, with_dampers, options.grammar)
     for c in catalogs:
         relations = relations_in_words(v.relation for *_, v in c.pairs())
         print(

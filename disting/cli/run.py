@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Sequence
 from contextlib import redirect_stderr, redirect_stdout
 
+from disting.cli.completion import complete, is_asked
 from disting.cli.parser import parser
 from disting.cli.plain import complain, say_what_can_be_said
 from disting.errors import DistingError, shown
@@ -37,7 +38,10 @@ def _fill_closed_streams() -> None:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        options = parser().parse_args(arguments)
+        commands = parser()
+        if is_asked():
+            return complete(commands)
+        options = commands.parse_args(arguments)
         status: int = options.run(options)
         sys.stdout.flush()
         return status

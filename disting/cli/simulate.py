@@ -3,19 +3,49 @@
 import argparse
 from pathlib import Path
 
+from disting.cli.arguments import add_damped, add_quantity, refuse
 from disting.cli.common import emitted
 from disting.cli.paths import written_file
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
-from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import chains_named
 
 KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
 
 
+NUMBERS = (
+    ("low", 10.0, "lowest excited frequency [Hz]"),
+    ("high", 250.0, "highest excited frequency [Hz]"),
+    ("rms", 1.0, "root mean square of the input"),
+    ("rate", 2500.0, "sampling rate [Hz]"),
+    ("input-noise", 0.0, "standard deviation of noise on the recorded input"),
+    ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
+    ("quantum", 0.0, "step of the sensor"),
+)
+COUNTS = (
+    ("samples", 2500, "samples of a period"),
+    ("periods", 20, "periods"),
+    ("seed", 0, "seed of noise and phases"),
+)
+
+
 def add_arguments(p: argparse.ArgumentParser) -> None:
-    """Everything but --damped."""
+    """Arguments of the command."""
+    _drive(p)
+    _bench(p)
+    p.add_argument(
+        "--csv",
+        type=written_file,
+        metavar="FILE",
+        default="-",
+        help="where the response goes (default: standard output)",
+    )
+    add_damped(p)
+
+
+def _drive(p: argparse.ArgumentParser) -> None:
+    """The model, its parameters, and what of it is seen."""
     text = (
         "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the"
         " ground; +lag; +delay"
@@ -27,59 +57,30 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
-    p.add_argument(
-        "--sensor",
-        choices=QUANTITIES,
-        default="position",
-        help="what the sensor shows (default: position)",
-    )
-    p.add_argument(
-        "--to",
-        choices=QUANTITIES,
-        default="acceleration",
-        help="what the response shows (default: acceleration)",
-    )
-    p.add_argument(
-        "--excitation",
-        choices=KINDS,
-        default="schroeder",
-        help="test signal (default: a Schroeder multisine)",
-    )
+    add_quantity(p, Sensor.POSITION)
+    text = "quantity of the response that is written (default: acceleration)"
+    p.add_argument("--response", choices=QUANTITIES, default="acceleration", help=text)
+    refuse(p, "--to", "the quantity of the response is --response, such as --response position")
+
+
+def _bench(p: argparse.ArgumentParser) -> None:
+    """Excitation, record, noise, friction."""
+    text = "test signal (default: a Schroeder multisine)"
+    p.add_argument("--excitation", choices=KINDS, default="schroeder", help=text)
     text = (
         "CSV with the columns frequency_hz and amplitude, as 'disting plan' writes it: the lines of"
         " the multisine, instead of --low and --high"
     )
     p.add_argument("--spectrum", type=Path, metavar="FILE", help=text)
-    for name, value, text in (
-        ("low", 10.0, "lowest excited frequency [Hz]"),
-        ("high", 250.0, "highest excited frequency [Hz]"),
-        ("rms", 1.0, "root mean square of the input"),
-        ("rate", 2500.0, "sampling rate [Hz]"),
-        ("input-noise", 0.0, "standard deviation of noise on the recorded input"),
-        ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
-        ("quantum", 0.0, "step of the sensor"),
-    ):
-        p.add_argument(
-            f"--{name}", type=float, default=value, metavar="X", help=f"{text} (default: {value:g})"
-        )
-    for name, whole, text in (
-        ("samples", 2500, "samples of a period"),
-        ("periods", 20, "periods"),
-        ("seed", 0, "seed of noise and phases"),
-    ):
-        p.add_argument(
-            f"--{name}", type=int, default=whole, metavar="K", help=f"{text} (default: {whole})"
-        )
+    for name, value, text in NUMBERS:
+        text = f"{text} (default: {value:g})"
+        p.add_argument(f"--{name}", type=float, default=value, metavar="X", help=text)
+    for name, count, text in COUNTS:
+        text = f"{text} (default: {count})"
+        p.add_argument(f"--{name}", type=int, default=count, metavar="K", help=text)
     text = "Coulomb friction of a mass, such as 1=0.3; may be repeated (default: none)"
     p.add_argument(
         "--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text
-    )
-    p.add_argument(
-        "--csv",
-        type=written_file,
-        metavar="FILE",
-        default="-",
-        help="where the response goes (default: standard output)",
     )
 
 
@@ -107,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
     series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
     lines = excitation.lines(options.samples, options.rate) * options.rate / options.samples
     response = series.response(
-        options.to, period=options.samples, lines=lines if spectrum else None
+        options.response, period=options.samples, lines=lines if spectrum else None
     )
     text = csv_text(response)
     emitted(options.csv, text)
@@ -126,10 +127,10 @@ def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
     from disting.simulation import DEMO_MODEL
 
     if options.model is None:
-        if options.values or options.damped:
+        if options.values or options.damped is not None:
             raise InputError("parameters belong to a model: name it, such as 2:1")
         return DEMO_MODEL, {}
-    chain = chain_of(options.model, Family(1, options.damped, Sensor(options.sensor)))
+    (chain,) = chains_named([options.model], damped=options.damped, sensor=options.quantity)
     exact = point_of(chain, assignments(options.values))
     return chain, {name: int(value.p) / int(value.q) for name, value in exact.items()}
 

@@ -7,25 +7,58 @@ from pathlib import Path
 
 from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
+from disting.cli.arguments import (
+    add_damped,
+    add_deciding,
+    add_json,
+    add_quantity,
+    add_work,
+    is_damped,
+    sizes_or_file,
+    whole,
+)
 from disting.cli.common import (
     VIEWS,
     emitted,
-    joint_in_words,
     query,
     relations_in_words,
     rules_in_words,
 )
+from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
 from disting.model.chain import Chain, Sensor
+from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
-from disting.verdict import Decisions, Relation, family_safety
+from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.compared import Compared
+from disting.verdict.comparison import refuse_ports
 from disting.verdict.engine import Engine
 from disting.verdict.proof import prove_all
 
 MOST_TOLD = 20  # pairs that are told one by one
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    parser.add_argument(
+        "masses",
+        type=sizes_or_file,
+        metavar="N|N-M|FILE.json",
+        help="number of masses, or several sizes such as 1-4 in one matrix, or a file of models",
+    )
+    add_damped(parser)
+    add_quantity(parser)
+    add_work(parser)
+    add_deciding(parser)
+    text = "which may decide (default: all)"
+    parser.add_argument("--representation", choices=VIEWS, default="all", help=text)
+    text = "use G_0 and G_1..G_K (default: all that are needed)"
+    parser.add_argument("--markov", type=whole(1), default=0, metavar="K", help=text)
+    text = "write the verdicts as CSV; - is standard output"
+    parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
+    add_json(parser, "the verdicts with evidence")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -60,13 +93,14 @@ def run(options: argparse.Namespace) -> int:
 
 def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
     """Raises InputError for options that speak of numbered chains, where models are a file's."""
-    if options.damped:
+    if options.damped is not None:
         raise InputError(
-            '--damped belongs to numbered chains: write "damped": true at the chains of the file'
+            f'{damping_option(options.damped)} belongs to numbered chains: write "damped": true or'
+            " false at the chains of the file"
         )
-    if options.sensor != Sensor.ACCELERATION:
+    if getattr(options, "quantity", Sensor.ACCELERATION) != Sensor.ACCELERATION:
         raise InputError(
-            '--sensor belongs to numbered chains: write "sensor" at the chains of the file'
+            '--quantity belongs to numbered chains: write "sensor" at the chains of the file'
         )
     for name in names:
         if getattr(options, name):
@@ -78,13 +112,14 @@ def list_of(path: Path) -> ModelList:
     found = read_models(path)
     if len(found) < 2:
         raise InputError(f"{path} has one model: there is nothing to compare; add another one")
+    refuse_ports(found.models)
     return found
 
 
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:
     """Numbered chains: A1, A2, .. of one size, N:I of several."""
     named: Sequence[tuple[str, Chain]] = combined_family(
-        options.masses, damped=options.damped, sensor=Sensor(options.sensor)
+        options.masses, damped=is_damped(options), sensor=Sensor(options.quantity)
     )
     if len(options.masses) == 1:
         named = [(f"A{number}", chain) for number, (_, chain) in enumerate(named, 1)]

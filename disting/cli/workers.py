@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from threading import TIMEOUT_MAX, Event, Thread
@@ -15,8 +15,10 @@ from disting.store import Store
 from disting.store.scheduling import executor
 from disting.verdict import Engine, Progress
 
-SILENT = 4.5  # seconds at most, where standard error is no terminal
-VARIABLE = "DISTING_PROGRESS"  # of the environment: other seconds, or off
+BARS_AFTER = 2.0  # seconds of silence on a terminal
+SILENT = 30.0  # seconds at most, where standard error is no terminal
+REDRAWN = 0.2  # seconds between two looks at what is done
+VARIABLE = "DISTING_PROGRESS"  # of the environment: other seconds of silence, or off
 
 
 def cores() -> int:
@@ -26,9 +28,7 @@ def cores() -> int:
 
 @contextmanager
 def engine_for(options: argparse.Namespace) -> Iterator[tuple[Engine, Executor | None, Progress]]:
-    """Engine with the user's store, workers as asked, and a progress bar on a terminal's
-    standard error.
-    """
+    """Engine with the user's store, workers as asked, and progress on standard error."""
     with ExitStack() as stack:
         store = stack.enter_context(Store.open("" if getattr(options, "no_cache", False) else None))
         pool = stack.enter_context(
@@ -43,10 +43,10 @@ def _progress() -> Iterator[Progress]:
     chosen = os.environ.get(VARIABLE, "")
     if chosen == "off":
         yield lambda what, done, total: None
-    elif not chosen and sys.stderr.isatty():
-        yield from _bars()
-    else:
-        yield from _lines(_seconds(chosen) if chosen else SILENT)
+        return
+    told = _bars if sys.stderr.isatty() else _lines
+    pause = BARS_AFTER if told is _bars else SILENT
+    yield from told(_seconds(chosen) if chosen else pause)
 
 
 def _seconds(text: str) -> float:
@@ -61,19 +61,42 @@ def _seconds(text: str) -> float:
     return seconds
 
 
-def _bars() -> Iterator[Progress]:
+def _bars(pause: float) -> Iterator[Progress]:
+    """Work that ends soon shows nothing; drawn by a thread of its own, since one step may take
+    long.
+    """
+    ended, latest = Event(), dict[str, tuple[int, int]]()
+
+    def advance(what: str, done: int, total: int) -> None:
+        """What the next look shows."""
+        latest[what] = (done, total)
+
+    def draw() -> None:
+        """Until the work has ended; standard output is left alone."""
+        if not ended.wait(pause):
+            _drawn(ended, latest)
+
+    yield from _beside(draw, ended, advance)
+
+
+def _drawn(ended: Event, latest: dict[str, tuple[int, int]]) -> None:
+    """A bar for each thing that is done, a moving one where nothing is counted yet."""
     from rich.console import Console
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
     from rich.progress import Progress as Bar
 
-    with Bar(console=Console(stderr=True), transient=True) as bar:
-        tasks: dict[str, object] = {}
-
-        def advance(what: str, done: int, total: int) -> None:
-            """A bar for each thing that is done."""
-            task = tasks.setdefault(what, bar.add_task(what) if what not in tasks else None)
-            bar.update(task, completed=done, total=total)  # type: ignore[arg-type]
-
-        yield advance
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    console = Console(stderr=True)
+    with Bar(
+        *columns, console=console, transient=True, redirect_stdout=False, redirect_stderr=False
+    ) as bar:
+        tasks = {"": bar.add_task("working", total=None)}
+        while not ended.wait(REDRAWN):
+            for what, (done, total) in list(latest.items()):
+                if what not in tasks:
+                    tasks[what] = bar.add_task(what)
+                bar.update(tasks[what], completed=done, total=total)
+                bar.update(tasks[""], visible=False)
 
 
 def _lines(pause: float) -> Iterator[Progress]:
@@ -94,7 +117,12 @@ def _lines(pause: float) -> Iterator[Progress]:
             except (OSError, ValueError):  # nobody reads any more
                 return
 
-    thread = Thread(target=tell, daemon=True)
+    yield from _beside(tell, ended, advance)
+
+
+def _beside(told: Callable[[], None], ended: Event, advance: Progress) -> Iterator[Progress]:
+    """The progress, told by a thread until the work has ended."""
+    thread = Thread(target=told, daemon=True)
     thread.start()
     try:
         yield advance

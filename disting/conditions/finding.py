@@ -6,6 +6,7 @@ from enum import StrEnum
 from disting.algebra.certainty import Certainty, shortfall
 from disting.conditions.rule import Rule
 from disting.evidence.kinds import Evidence
+from disting.model.shown import summary
 
 
 class Outcome(StrEnum):
@@ -49,6 +50,9 @@ class Finding:
             }
             for name, value in (given_up | {"note": lacking}).items():
                 object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()} {self.outcome} ({self.certainty})")
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its outcome")

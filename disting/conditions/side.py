@@ -27,10 +27,22 @@ class Side(Protocol):
 
     @property
     def structure(self) -> Structure | None:
-        """Its masses, springs and dampers, if it is made of such elements."""
+        """Its masses, springs and dampers, if it is made of such and measured in one way."""
+
+    @property
+    def n_elements(self) -> int | None:
+        """Number of its masses, springs and dampers, if it is made of such elements."""
+
+    def part_of(self, other: Self) -> dict[int, int] | None:
+        """A numbering of its masses under which it is the other side with elements missing, what is
+        measured being the same; None if there is none.
+        """
 
     def profile(self, representation: Representation, count: int) -> Profile:
         """What it reveals in a representation, with so many Markov parameters."""
+
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The same, perhaps without its dependences, which are the dear part of it."""
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
         """Values and Jacobian columns, at a point, of functions that a renaming carries into those

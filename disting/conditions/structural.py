@@ -22,7 +22,8 @@ SUBMODEL = Rule(
 SUPERMODEL = Rule(
     "9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank"
 )
-NO_ELEMENTS = "of general models, and under several experiments, no elements are left out"
+NO_ELEMENTS = "of general models no elements are left out"
+NO_THIRD = f"{NO_ELEMENTS}, and under several experiments no third model is measured"
 
 
 def condition_8(left: Side, right: Side) -> Finding:
@@ -30,18 +31,17 @@ def condition_8(left: Side, right: Side) -> Finding:
     parameters. Submodel means that model structures are identical except for missing elements such
     as springs, dampers and masses."
     """
-    if left.structure is None or right.structure is None:
+    if left.n_elements is None or right.n_elements is None:
         return Finding(SUBMODEL, Outcome.INAPPLICABLE, note=NO_ELEMENTS)
-    sides = (left.structure, right.structure)
-    if len(sides[0].elements) == len(sides[1].elements):
+    if left.n_elements == right.n_elements:
         return Finding(
             SUBMODEL,
             Outcome.INAPPLICABLE,
             note="neither is a submodel: both have equally many elements",
         )
-    left_is_part = len(sides[0].elements) < len(sides[1].elements)
-    part, whole = sides if left_is_part else sides[::-1]
-    numbering = next(part.embeddings(whole), None)
+    left_is_part = left.n_elements < right.n_elements
+    part, whole = (left, right) if left_is_part else (right, left)
+    numbering = part.part_of(whole)
     if numbering is None:
         return Finding(SUBMODEL, Outcome.INAPPLICABLE, note="neither is a submodel of the other")
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
@@ -62,7 +62,7 @@ def condition_9(left: Side, right: Side) -> Finding:
     """
     a, b = left.structure, right.structure
     if a is None or b is None:
-        return Finding(SUPERMODEL, Outcome.INAPPLICABLE, note=NO_ELEMENTS)
+        return Finding(SUPERMODEL, Outcome.INAPPLICABLE, note=NO_THIRD)
     if (a.ports, a.sensor_order, a.dead_time) != (b.ports, b.sensor_order, b.dead_time):
         return Finding(
             SUPERMODEL,

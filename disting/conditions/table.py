@@ -15,6 +15,7 @@ from disting.conditions import necessary, structural, sufficient
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.conditions.side import Side
+from disting.model.shown import summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,10 @@ class Necessary:
     grade: Callable[[Profile, Profile], Grade]
     check: Callable[[Profile, Profile], Finding]
     of_degrees: bool = False
+    of_dependences: bool = False
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +47,9 @@ class Sufficient:
     rule: Rule
     check: Callable[[Side, Side, Representation, int], Finding]
 
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
+
 
 @dataclass(frozen=True, slots=True)
 class Structural:
@@ -49,6 +57,9 @@ class Structural:
 
     rule: Rule
     check: Callable[[Side, Side], Finding]
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
 
 def _renaming(left: Side, right: Side, representation: Representation, count: int) -> Finding:
@@ -72,7 +83,9 @@ NECESSARY = (
     ),
     Necessary(_n.FORM, _n.symbolic_form, _n.form_grade, _n.condition_3),
     Necessary(_n.RANK, _n.generic_rank, _n.rank_grade, _n.condition_4),
-    Necessary(_n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5),
+    Necessary(
+        _n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5, of_dependences=True
+    ),
 )
 SUFFICIENT = (
     Sufficient(sufficient.RENAMING, _renaming),

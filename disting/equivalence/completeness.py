@@ -34,6 +34,19 @@ def sentence(found: Fibre, count: int, cause: str) -> str:
     return f"special values: {listed}, since {cause}; change a value slightly"
 
 
+def under_all(found: Fibre, count: int, is_complete: bool) -> str:
+    """What is said of those of a list that keep the responses of all experiments."""
+    if found.status is Status.EMPTY:
+        return f"{NONE} ({found.reason})"
+    if is_complete:
+        of = len(found.solutions)
+        return "all there are" if count else f"none: all {of} that fit one of them miss another one"
+    if found.status is Status.INFINITE:
+        return "infinitely many fit each experiment alone; not all of them were put into the others"
+    listed = "the list may be incomplete" if count else "nothing can be said"
+    return f"{listed}: no experiment alone gives a complete list"
+
+
 def among(chains: Sequence[Chain]) -> str:
     """What was looked at, in words: how many structures, of which size and kind.
 

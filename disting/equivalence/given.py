@@ -25,8 +25,8 @@ Value = Number | str
 
 
 def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
-    """The chains to look at: one, or all of a family; text such as 3:11 or 3 means damping and
-    sensor of the given chain.
+    """The chains to look at: one, or all of a family; text such as 3:11, A11 or 3 means damping
+    and sensor of the given chain.
 
     3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with
     any set of them. Families and structures given as text have the lag and the dead time of the
@@ -52,8 +52,8 @@ def _named(to: Family | str, given: Chain) -> tuple[Chain, ...]:
     family = Family(given.n_masses, given.damped, given.sensor)
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
-        return (chain_of(to, family),)
-    plain = [extended(chain, match[3]) for chain in sized(family, match[1]).models]
+        return (chain_of(to, family, masses=given.n_masses),)
+    plain = [extended(chain, match[3]) for chain in sized(family, int(match[1])).models]
     return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
 
 

@@ -8,9 +8,11 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import Any
 
+from disting.experiments import Places
 from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.model.shown import Shown, summary
 
 
 class Signs(StrEnum):
@@ -58,6 +60,10 @@ class Equivalent:
     free_choices: int = 0
     proven: bool = True
 
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.values.items())
+        return summary(self, f"{self.signs}, {values}")
+
     def to_dict(self) -> dict[str, Any]:
         """For JSON: values as text, exact ones as fractions."""
         return {
@@ -75,7 +81,7 @@ class Equivalent:
 @dataclass(frozen=True, slots=True)
 class Listing:
     """The equivalents in one structure; `complete`: there are no others. `sentence` says it in
-    words.
+    words. `places`: which of its masses is which of the given model, under experiments.
     """
 
     name: str
@@ -84,6 +90,10 @@ class Listing:
     members: tuple[Equivalent, ...]
     complete: bool
     sentence: str
+    places: Places = ()
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -94,15 +104,18 @@ class Listing:
             "complete": self.complete,
             "sentence": self.sentence,
             "equivalents": [member.to_dict() for member in self.members],
+            **({"places": {str(a): b for a, b in self.places}} if self.places else {}),
         }
 
 
 @dataclass(frozen=True, slots=True)
-class Equivalents:
+class Equivalents(Shown):
     """The given model, its exact values, and a listing for each structure looked at.
 
     `proportional`: all of two or more springs have the same ratio k/d, which makes more structures
-    equivalent than other dampers do. Iterates over all parameter vectors, positive ones first.
+    equivalent than other dampers do. `experiments`: in words, those whose responses all are kept;
+    none: the transfer function of the model as it is. Iterates over all parameter vectors,
+    positive ones first.
     """
 
     name: str
@@ -110,6 +123,11 @@ class Equivalents:
     values: dict[str, Fraction]
     listings: tuple[Listing, ...]
     proportional: bool = False
+    experiments: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        there = ", ".join(listing.name for listing in self.listings if listing.members)
+        return summary(self, f"{len(self)} of {self.name}" + f" in {there}" * bool(there))
 
     def __iter__(self) -> Iterator[Equivalent]:
         members = [member for listing in self.listings for member in listing.members]
@@ -124,5 +142,6 @@ class Equivalents:
             "model": self.name,
             "values": {name: str(value) for name, value in self.values.items()},
             "proportional_damping": self.proportional,
+            **({"experiments": list(self.experiments)} if self.experiments else {}),
             "listings": [listing.to_dict() for listing in self.listings],
         }

@@ -21,7 +21,8 @@ from disting.equivalence.identity import holds_at_random, is_identity, safety
 from disting.equivalence.images import Image, images
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
-from disting.verdict.comparison import name_of
+from disting.model.names import chains_named, name_of
+from disting.model.shown import summary
 
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
 CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters
@@ -45,12 +46,19 @@ class Map:
     certainty: Certainty
     safety: int
 
+    def __repr__(self) -> str:
+        given = ", ".join(self.given.parameters)
+        return summary(self, f"{', '.join(self.formulas)} from {given} ({self.certainty})")
+
     def at(self, values: Mapping[str, Value]) -> dict[str, Any]:
         """Parameters of `other`, exact fractions, at values of the given ones. Raises
         InputError as `point_of` does.
         """
         point: dict[str, fmpq] = point_of(self.given, values)
         return {name: formula.value(point) for name, formula in self.formulas.items()}
+
+    def _repr_latex_(self) -> str:
+        return self.latex  # an environment of its own: no dollar signs
 
     @property
     def python(self) -> str:
@@ -88,11 +96,14 @@ class Map:
         return {name: expression(formula) for name, formula in self.formulas.items()}
 
 
-def explicit_map(given: Chain, other: Chain) -> Map | None:
+def explicit_map(
+    given: Chain | str, other: Chain | str, *, damped: bool | None = None
+) -> Map | None:
     """The formulas, the simplest ones known; None if no rational map is known here (there may be
     one).
 
-    From a structure to itself: another map than the identity, if there is one.
+    From a structure to itself: another map than the identity, if there is one. Chains can be named,
+    such as "3:1" and "A11": `damped` says then how they are meant.
 
     >>> found = explicit_map(Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
     >>> print(found.text)
@@ -101,6 +112,7 @@ def explicit_map(given: Chain, other: Chain) -> Map | None:
     k01' = k12*(m1 + m2)**2/m2**2
     d01' = d12*(m1 + m2)**2/m2**2
     """
+    given, other = chains_named([given, other], damped=damped)
     found = next(_candidates(given, other), None)
     if found is None:
         return None
@@ -112,8 +124,7 @@ def explicit_map(given: Chain, other: Chain) -> Map | None:
         grade = (Certainty.BOUNDED, safety(given, formulas))
     if not holds:
         raise ContradictionError(
-            f"the formulas from {name_of(given, short=False)} to {name_of(other, short=False)} are"
-            " wrong"
+            f"the formulas from {name_of(given)} to {name_of(other)} are wrong"
         )
     return Map(given, other, formulas, steps, *grade)
 

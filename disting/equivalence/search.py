@@ -7,27 +7,28 @@ complete; for special values that it cannot treat, the theorems remain, and with
 damping the synthesis without dampers.
 """
 
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 from flint import acb, arb, fmpq
 
-from disting.equivalence.completeness import not_covered, sentence, special
+from disting.equivalence.completeness import not_covered, sentence, special, under_all
 from disting.equivalence.given import Value, chains_of, point_of
 from disting.equivalence.images import DUALITY, Image, images
 from disting.equivalence.listing import Equivalent, Equivalents, Listing, Origin, Signs
 from disting.equivalence.proportional import common_ratio, proportional_solutions
 from disting.equivalence.residual import difference
+from disting.equivalence.under import Bench, benches
 from disting.errors import ContradictionError, InputError
+from disting.experiments import Experiment, named
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.names import chain_of
-from disting.verdict.comparison import name_of
+from disting.model.names import chains_named, name_of
 
 Point = Mapping[str, fmpq]
 
@@ -37,7 +38,8 @@ def equivalents(
     values: Mapping[str, Value],
     to: Chain | Family | str,
     *,
-    damped: bool = False,
+    damped: bool | None = None,
+    also: Sequence[str | Experiment] = (),
 ) -> Equivalents:
     """All models of the structure `to`, or of all structures of a family, with the transfer
     function of the given model.
@@ -49,6 +51,10 @@ def equivalents(
     positive, any consistent units; they are taken exactly, floats by their decimal text. Raises
     InputError for wrong names and values.
 
+    `also`: further experiments, as `Experiment` or as text such as "sensor=3", at masses of the
+    given model; of the equivalents those are listed that keep all responses. Masses of another
+    structure that are not named, as in "sensor=3/2", are tried in every place, a listing for each.
+
     >>> given = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": "0.3"}
     >>> found = equivalents("3:1", given, "3:11", damped=True)
     >>> [(e.signs.value, e.exact["m1"], e.text["k12"]) for e in found]
@@ -56,7 +62,7 @@ def equivalents(
     >>> found.listings[0].sentence
     'all there are'
     """
-    given = chain_of(model, Family(1, damped))
+    (given,) = chains_named([model], damped=damped)
     point = point_of(given, values)
     others = chains_of(to, given)
     if others[0].sensor is not given.sensor:
@@ -64,9 +70,14 @@ def equivalents(
             f"the sensors differ: {given.sensor.value} and {others[0].sensor.value}; choose one for"
             " both"
         )
-    exact = images(given, point)
     listings = tuple(
-        _listing(given, point, other, [i for i in exact if i.chain == other]) for other in others
+        listing
+        for other in others
+        for listing in (
+            (_under(bench, point) for bench in benches(given, other, also))
+            if also
+            else (_listing(given, point, other),)
+        )
     )
     fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
     special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
@@ -76,28 +87,86 @@ def equivalents(
         values=fractions,
         listings=listings,
         proportional=special_damping,
+        experiments=tuple(_text(e) for e in (Experiment(), *also)) if also else (),
     )
 
 
-def _listing(given: Chain, point: Point, other: Chain, exact: list[Image]) -> Listing:
-    found = _fibre(given, point, other)
-    known = [_from_theorem(given, point, image) for image in exact]
-    others = [
-        _from_solution(given, point, other, s, Origin.SYNTHESIS) for s in _others(found, exact)
-    ]
-    if found.status is Status.DEGENERATE:
+def _text(given: str | Experiment) -> str:
+    return (named(given).experiment if isinstance(given, str) else given).text
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """What fits one experiment: exact images, and solutions with where they come from."""
+
+    given: Chain
+    other: Chain
+    fibre: Fibre
+    exact: tuple[Image, ...]
+    others: tuple[tuple[Solution, Origin], ...]
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there are no others."""
+        return _is_complete(self.fibre)
+
+
+def _found(given: Chain, point: Point, other: Chain) -> _Found:
+    fibre = _fibre(given, point, other)
+    exact = [i for i in images(given, point) if i.chain == other]
+    others = [(s, Origin.SYNTHESIS) for s in _others(fibre, exact)]
+    if fibre.status is Status.DEGENERATE:
         lifted = _unlike(proportional_solutions(given, point, other), exact)
-        others += [_from_solution(given, point, other, s, Origin.PROPORTIONAL) for s in lifted]
-    members = tuple(sorted([*known, *others], key=_order))
-    cause = special(given, point) if found.status is Status.DEGENERATE else ""
-    return Listing(
-        _name(other),
-        other,
-        found.status,
-        members,
-        _is_complete(found),
-        sentence(found, len(members), cause),
+        others += [(s, Origin.PROPORTIONAL) for s in lifted]
+    return _Found(given, other, fibre, tuple(exact), tuple(others))
+
+
+def _listing(given: Chain, point: Point, other: Chain) -> Listing:
+    found = _found(given, point, other)
+    members = _members(found, point)
+    cause = special(given, point) if found.fibre.status is Status.DEGENERATE else ""
+    told = sentence(found.fibre, len(members), cause)
+    return Listing(_name(other), other, found.fibre.status, members, found.is_complete, told)
+
+
+def _members(found: _Found, point: Point) -> tuple[Equivalent, ...]:
+    known = [_from_theorem(found.given, point, image) for image in found.exact]
+    others = [_from_solution(found.given, point, found.other, *each) for each in found.others]
+    return tuple(sorted([*known, *others], key=_order))
+
+
+def _under(bench: Bench, point: Point) -> Listing:
+    """What keeps the responses of all experiments, from the first list that is complete."""
+    tried: list[_Found] = []
+    for one, there in bench.alone:
+        tried.append(_found(one, point, there))
+        if tried[-1].is_complete:
+            break
+    found = next((f for f in tried if f.is_complete), tried[0])
+    plain = {name: value for name, value in point.items() if name != "Td"}
+    kept = replace(
+        found,
+        exact=tuple(i for i in found.exact if bench.agrees(plain, _plain(i.values))),
+        others=tuple((s, o) for s, o in found.others if bench.agrees(plain, _plain(s.values))),
     )
+    other = bench.other.chain
+    members = tuple(_everywhere(m, bench, plain) for m in _members(kept, point))
+    told = under_all(found.fibre, len(members), found.is_complete)
+    return Listing(
+        _name(other), other, found.fibre.status, members, found.is_complete, told, bench.places
+    )
+
+
+def _everywhere(member: Equivalent, bench: Bench, point: Point) -> Equivalent:
+    """The member with what all responses differ by."""
+    rounded = bench.deviation(point, _plain(_read(member.text)))
+    residual = max(member.residual, rounded) if member.residual else 0.0
+    return replace(member, chain=bench.other.chain, residual=residual)
+
+
+def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Without the dead time, which belongs to both models or to none."""
+    return {name: value for name, value in values.items() if name != "Td"}
 
 
 def _is_complete(found: Fibre) -> bool:
@@ -227,4 +296,4 @@ def _order(member: Equivalent) -> tuple[int, bool, list[tuple[float, float]]]:
 
 
 def _name(chain: Chain) -> str:
-    return name_of(chain, short=False)
+    return name_of(chain)

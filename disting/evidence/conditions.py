@@ -25,18 +25,23 @@ class Counts:
 
     def sentence(self, left: str, right: str) -> str:
         """The first degrees that differ, in words."""
-        at, (a, b) = self._first
+        at, (a, b) = self._first_differing
         where = f"In experiment {at + 1} " if len(self.left) > 2 else ""
         return f"{where}{left} has {_degrees_in_words(a)}, {right} {_degrees_in_words(b)}."
 
     @property
     def formula(self) -> str:
         """N_MI = n + m + 1 on both sides."""
-        (n1, m1), (n2, m2) = self._first[1]
+        (n1, m1), (n2, m2) = self.first
         return f"n + m + 1 = {n1} + {m1} + 1 = {n1 + m1 + 1},  {n2} + {m2} + 1 = {n2 + m2 + 1}"
 
     @property
-    def _first(self) -> tuple[int, tuple[tuple[int, ...], tuple[int, ...]]]:
+    def first(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Degrees of both first transfer functions of which they differ."""
+        return self._first_differing[1]
+
+    @property
+    def _first_differing(self) -> tuple[int, tuple[tuple[int, ...], tuple[int, ...]]]:
         """Number of the first transfer function, from 0, of which the degrees differ, and both."""
         sides = ([s[i : i + 2] for i in range(0, len(s), 2)] for s in (self.left, self.right))
         pairs = list(enumerate(zip(*sides, strict=True)))

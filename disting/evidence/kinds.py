@@ -22,6 +22,7 @@ from disting.evidence.ideals import ByRow, ByRows, FullRows, Refuted, Shared, So
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
+    MissingElements,
     Outside,
     RelativeDegrees,
     RowsInside,
@@ -40,12 +41,16 @@ InclusionEvidence = (
     | Counts
     | LargerProjection
     | FullImage
+    | MissingElements
     | RelativeDegrees
     | RowByRow
     | FibreAt
     | Solved
     | Refuted
 )
+TELLING_LIMITS = (
+    Limit | Meeting | LimitFibre | FullImage | MissingElements | RowsInside | Solved
+)  # those of `Solved` may have elements that are zero, as those of `ByRows`
 GROUNDS = {
     "theorem": "a theorem",
     "dead time": "dead time",
@@ -84,11 +89,7 @@ def tells_equivalents(evidence: InclusionEvidence) -> bool:
 def tells_limits(evidence: InclusionEvidence) -> bool:
     """Whether it shows limits; those of `Solved` and `ByRows` may have elements that are zero."""
     by_rows = isinstance(evidence, ByRows) and evidence.is_member
-    return (
-        by_rows
-        or isinstance(evidence, Limit | Meeting | LimitFibre | FullImage | RowsInside | Solved)
-        or tells_equivalents(evidence)
-    )
+    return by_rows or isinstance(evidence, TELLING_LIMITS) or tells_equivalents(evidence)
 
 
 def excludes_limits(evidence: InclusionEvidence) -> bool:

@@ -163,6 +163,30 @@ class LargerProjection:
 
 
 @dataclass(frozen=True, slots=True)
+class MissingElements:
+    """One model is the other one with elements missing, all experiments at the same masses: the
+    numbering of its masses in the larger model.
+    """
+
+    kind: ClassVar[str] = "missing-elements"
+    left_is_part: bool
+    numbering: tuple[tuple[int, int], ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which model is part of which."""
+        part, whole = (left, right) if self.left_is_part else (right, left)
+        return (
+            f"{part} is {whole} with some elements missing, measured at the same masses: elements"
+            f" of {whole} that go to zero give every response of {part}."
+        )
+
+    @property
+    def formula(self) -> str:
+        """Masses of the part in the whole."""
+        return ", ".join(f"{a} → {b}" for a, b in self.numbering)
+
+
+@dataclass(frozen=True, slots=True)
 class FullImage:
     """The model of the larger rank has as many determinable parameters as non-constant
     invariants.

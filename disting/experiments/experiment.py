@@ -19,6 +19,7 @@ from disting.behaviour.transfer import touched
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.exact_number import is_too_long
+from disting.model.shown import summary
 from disting.model.structure import Element, Known, Ports, Structure
 
 GENERIC = "generic"  # in place of a number: one that is drawn once, the same for all models
@@ -74,6 +75,19 @@ class Experiment:
         }
         for name, value in given.items():
             object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        given = [
+            f"{name}={place[0] if not place[1] else place}"
+            for name, place in (("force", self.force), ("sensor", self.sensor))
+            if place
+        ]
+        given += [f"quantity={self.quantity.value!r}"] if self.quantity else []
+        given += [f"locked={self.locked}"] * bool(self.locked)
+        for name, sizes in (("inertias", self.inertias), ("springs", self.springs)):
+            items = ", ".join(f"{mass}: {str(size)!r}" for mass, size in sizes)
+            given += [f"{name}={{{items}}}"] * bool(items)
+        return f"Experiment({', '.join(given)})"
 
     @property
     def masses(self) -> tuple[int, ...]:
@@ -198,6 +212,9 @@ class MeasuredChain:
             raise InputError("at least one experiment is needed")
         for experiment in self.experiments:
             experiment.refuse(self.chain)
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.chain} | {' | '.join(self.text)}")
 
     @cached_property
     def entries(self) -> tuple[Entry, ...]:

@@ -12,10 +12,17 @@ degree 2 (N_B + 1) at most in the parameters of both, in every experiment: locke
 known lower degrees. That is no more than the 3 N_B + 2 of `synthesis.decide.safety_of_point`, and
 the degree of a component, D^(n + 1) at most, does not depend on how many equations there are. The
 point is the same for all experiments that may be listed, so no more points are drawn than there.
+
+Where many experiments are asked of few chains (`shared`), the point belongs to the chains, in their
+canonical form, whatever is done to them. So all that fits the present experiment is listed once,
+and each further experiment at each place is only an evaluation of that list. Each statement has the
+bound of its point, and bounds of many statements add up, whether their points are one or many. (A
+comparison of its own has its own point: experiments could be written for a point that is known.)
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from flint import acb_poly, ctx, fmpq, fmpq_poly
 
@@ -44,6 +51,7 @@ from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 
 Values = dict[str, Ring]
+REMEMBERED = 64  # fibres
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +78,15 @@ class Listed:
         return tuple(s for s, missed in pairs if missed is None)
 
 
-def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
+def by_list(
+    left: MeasuredChain, right: MeasuredChain, settings: Settings, *, shared: bool = False
+) -> Finding | None:
     """FAILS where one list is refuted, the cheaper direction first; None where nothing is."""
     left, right = without_dead_time(left), without_dead_time(right)
     ways = [(True, left, right), (False, right, left)]
     ways.sort(key=lambda way: dearest(way[2].chain))
     for left_given, given, searched in ways:
-        listed = next(lists(given, searched, settings.seed), None)
+        listed = next(lists(given, searched, settings.seed, shared=shared), None)
         if listed is not None and None not in listed.refuted_by:
             evidence = FibreUnder(
                 left_given,
@@ -95,26 +105,40 @@ def by_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Fi
     return None
 
 
-def lists(given: MeasuredChain, searched: MeasuredChain, seed: str) -> Iterator[Listed]:
-    """Yield lists at random points, one for each experiment that can be listed."""
+def lists(
+    given: MeasuredChain,
+    searched: MeasuredChain,
+    seed: str,
+    *,
+    confirm: bool = False,
+    shared: bool = False,
+) -> Iterator[Listed]:
+    """Yield lists at random points, one for each experiment that can be listed; `confirm` has
+    solutions tested for being simple.
+    """
     for at, _, _ in listable(given, searched):
         for draw in range(DRAWS):
-            label = about(f"synthesis:{seed}:{draw}", given, searched)
-            values = rational_point(given.chain, label, point_bits(searched.chain))
-            listed = listed_at(given, searched, at, values)
+            label = f"synthesis:{seed}:{draw}"
+            values = (_shared_point if shared else _own_point)(given, searched, label)
+            listed = listed_at(given, searched, at, values, confirm=confirm)
             if listed is not None:
                 yield listed
                 break
 
 
 def listed_at(
-    given: MeasuredChain, searched: MeasuredChain, at: int, values: dict[str, fmpq]
+    given: MeasuredChain,
+    searched: MeasuredChain,
+    at: int,
+    values: dict[str, fmpq],
+    *,
+    confirm: bool = False,
 ) -> Listed | None:
     """All solutions of one experiment at a point; None for an infinite or an open list."""
     one, other = given.alone(at), searched.alone(at)
     if one is None or other is None:
         return None
-    found = fibre(other, target(one.structure, values), confirm=False)
+    found = _fibre(other, one, tuple(values.items()), confirm)
     whole = found.status in (Status.COMPLETE, Status.EMPTY)
     if not whole or found.tests.boundary or found.tests.uncovered:
         return None
@@ -154,6 +178,41 @@ def without_dead_time(measured: MeasuredChain) -> MeasuredChain:
     """The measured chain without the factor that it shares with the other side."""
     chain = measured.chain
     return replace(measured, chain=replace(chain, dead_time=False)) if chain.dead_time else measured
+
+
+def _own_point(given: MeasuredChain, searched: MeasuredChain, label: str) -> dict[str, fmpq]:
+    """A point of this question alone."""
+    return rational_point(given.chain, about(label, given, searched), point_bits(searched.chain))
+
+
+def _shared_point(given: MeasuredChain, searched: MeasuredChain, label: str) -> dict[str, fmpq]:
+    """A point of two chains, whatever is done to them."""
+    form, other = canonical(given.chain), canonical(searched.chain).chain
+    found = rational_point(form.chain, about(label, form.chain, other), point_bits(other))
+    return {name: found[form.renaming[name]] for name in given.chain.parameters}
+
+
+def _fibre(
+    searched: Chain, given: Chain, values: tuple[tuple[str, fmpq], ...], confirm: bool
+) -> Fibre:
+    """All parameters of one chain with the transfer function of the other, made once for all
+    chains of the same canonical forms.
+    """
+    form, here = canonical(searched), canonical(given)
+    named = sorted((here.renaming[name], value) for name, value in values)
+    found = _canonical_fibre(form.chain, here.chain, tuple(named), confirm)
+    solutions = (
+        replace(s, values={name: s.values[form.renaming[name]] for name in searched.parameters})
+        for s in found.solutions
+    )
+    return replace(found, solutions=tuple(solutions))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _canonical_fibre(
+    searched: Chain, given: Chain, values: tuple[tuple[str, fmpq], ...], confirm: bool
+) -> Fibre:
+    return fibre(searched, target(given.structure, dict(values)), confirm=confirm)
 
 
 def _differs(here: Entry, point: dict[str, fmpq], there: Entry, balls: Values) -> bool:

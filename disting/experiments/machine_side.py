@@ -1,7 +1,11 @@
 """A measured chain as one side of a comparison: what conditions and verdicts ask of it.
 
-Conditions 1 to 7 are asked of the stacked summary word for word. Conditions 8 and 9 look at one
-pair of ports and are not asked. Which models lie in others of larger rank is not asked either.
+Conditions 1 to 7 are asked of the stacked summary word for word, and so is condition 8: where one
+model is the other with elements missing and all experiments are at the same masses, missing
+elements that go to zero carry one tuple of transfer functions into the other, so the closure of its
+image lies in that of the other, and of equal rank they are equal. Condition 9 would be as true, but
+its third model, with the elements of both, is no chain of the class: it has no gap where theirs
+differ, so it cannot be measured as chains are, and what it would say the exact decision finds.
 """
 
 from collections.abc import Callable, Sequence
@@ -11,6 +15,7 @@ from typing import Any
 
 from disting.algebra.certainty import weakest
 from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.content import written
 from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation, coefficients
@@ -22,17 +27,17 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding
 from disting.experiments.exact_under import exact_finding
 from disting.experiments.experiment import MeasuredChain
+from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
 from disting.experiments.stacked_profiles import drawn_at, profile
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
-from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 from disting.questions.same.real_and_positive import positive_ways
 
-NOT_ASKED = "under several experiments only equality is asked for"
 NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
 NOT_KNOWN = "whether equivalents under these experiments are {} is not known"
 EXACTLY = Question(
@@ -68,6 +73,19 @@ class ComparedMachine:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """What they reveal but for dependences, unless these are known: a stacked summary has many
+        more rows than parameters, so their search costs more than all else.
+        """
+        if (representation, count) in self._known:
+            return self._known[representation, count]
+        return self._sketch_of(self.measured, representation, count)
+
+    def _sketch_of(
+        self, measured: MeasuredChain, representation: Representation, count: int
+    ) -> Profile:
+        return self.source(measured, representation, count, replace(self.settings, subset_limit=0))
+
     @property
     def parameters(self) -> tuple[str, ...]:
         """Names of the parameters."""
@@ -75,8 +93,19 @@ class ComparedMachine:
 
     @property
     def structure(self) -> None:
-        """None that conditions 8 and 9 could look at."""
+        """None of which condition 9 could make a third one."""
         return
+
+    @property
+    def n_elements(self) -> int:
+        """Number of masses, springs and dampers."""
+        return len(self.measured.chain.structure.elements)
+
+    def part_of(self, other: "ComparedMachine") -> dict[int, int] | None:
+        """The numbering under which it is the other one with elements missing, all experiments at
+        the same masses.
+        """
+        return numbering(self.measured, other.measured)
 
     @property
     def n_states(self) -> int:
@@ -86,7 +115,7 @@ class ComparedMachine:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on it depend on."""
-        return self.name, repr(self.measured)
+        return self.name, written(self.measured)
 
     @property
     def profiled(self) -> MeasuredChain:
@@ -96,7 +125,7 @@ class ComparedMachine:
     @property
     def rank(self) -> int:
         """Number of parameters that all experiments together determine."""
-        return self.profile(Representation.TF, 0).rank
+        return self.sketch(Representation.TF, 0).rank
 
     @cached_property
     def colouring(self) -> Colouring:
@@ -122,7 +151,7 @@ class ComparedMachine:
 
     def exact(self, other: "ComparedMachine") -> Finding:
         """The exact decision, for equal ranks and degrees."""
-        one, there = (side.profile(Representation.TF, 0) for side in (self, other))
+        one, there = (side.sketch(Representation.TF, 0) for side in (self, other))
         if not _comparable(self, other):
             return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
         found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
@@ -145,8 +174,13 @@ class ComparedMachine:
         return replace(found, certainty=certainty, safety=safety)
 
     def inclusions(self, other: "ComparedMachine") -> Inclusions:
-        """Not asked."""
-        return Inclusions(*(InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED),) * 2)
+        """For unequal ranks: limits, where missing elements or one experiment settle it."""
+
+        def profile_of(measured: MeasuredChain) -> Profile:
+            """That of the coefficients, without dependences."""
+            return self._sketch_of(measured, Representation.TF, 0)
+
+        return inclusions_under(self.measured, other.measured, profile_of)
 
     def tells_shares(self, other: "ComparedMachine") -> bool:
         """No."""
@@ -173,11 +207,11 @@ class ComparedMachine:
 
     @staticmethod
     def all_inclusions(pairs: Sequence[Pair], ask: Callable[..., Any]) -> list[Inclusions]:
-        """Not asked."""
+        """One after the other: they cost little."""
         return [a.inclusions(b) for a, b in pairs]
 
 
 def _comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
-    one, other = (side.profile(Representation.TF, 0) for side in (left, right))
+    one, other = (side.sketch(Representation.TF, 0) for side in (left, right))
     times = (side.measured.chain.dead_time for side in (left, right))
     return one.rank == other.rank > 0 and one.degrees == other.degrees and len(set(times)) == 1

@@ -1,87 +1,111 @@
 """All transfer functions of a measured chain as one polynomial map, for the ideal of its fibre.
 
 With w_i = 1/m_i, f = 1/T1 and the other parameters as they are, row i of A(s) times w_i is monic
-in s where no inertia is added, and so are the denominators: equal transfer functions have equal
-coefficients. Determinants and minors are linear in each mass, so a polynomial in the new
-unknowns is the old one with the exponents of m_i turned, e -> 1 - e; the map is birational, which
-leaves the closure of the image as it is. A denominator that is not monic takes one more unknown, a
-common factor of all polynomials of its experiments (they are those of one fraction N_1 : N_2 : ..
-: D only up to it). Parameters that occur in no entry are left out.
+in s where no inertia is added, and so are the denominators. Determinants and minors are linear in
+each mass, so a polynomial in the new unknowns is the old one with the exponents of m_i turned, e
+-> 1 - e; the map is birational, which leaves the closure of the image as it is. One map of all
+fractions is made by `fibres.ideals.stacked`.
+
+One inertia J that is added to mass i, and nothing else, turns w = 1/m_i into w' = w/(1 + J w) in
+the same polynomials: each coefficient c0 + c1 w (linear in w, as determinants are) becomes c0 + c1
+w'. Where c0 is the constant 0 in some coefficient, c and c' of it give w = (c/c' - 1)/J, then w',
+and each other pair gives c1 = (c - c')/(w - w') and c0. So (c, c') and (w, c0, c1) are birational
+images of each other by formulas that speak of no model: two models whose c0 vanishes in the same
+coefficient, with the same J, have equal closures of the ones where they have equal closures of
+the others. c0 are the coefficients with mass i locked. The new coordinates are of lower degree, no
+scale is unknown, and J does not occur in them. The lowest coefficient of a numerator, that of the
+motion at rest, is always such a one.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from itertools import groupby
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from flint import fmpz_mpoly
 
-from disting.algebra.sampling import digest
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.experiments.polynomials import expanded, shape
-from disting.fibres.ideals import Terms
+from disting.fibres.ideals import Fraction, StackedMap, Terms, stacked_maps
+from disting.fibres.ideals.stacked import is_one, map_of
 
 REMEMBERED = 256
-Fraction = tuple[tuple[Terms, ...], tuple[Terms, ...]]
-"""Coefficients of numerator and denominator."""
 
 
-@dataclass(frozen=True)
-class StackedMap:
-    """Parameters -> coefficients of all transfer functions, one after the other."""
-
-    parameters: tuple[str, ...]
-    coordinates: tuple[Terms, ...]
-
-    @cached_property
-    def content(self) -> str:
-        """A digest of all that tells two maps apart."""
-        return digest(self.parameters, self.coordinates)
-
-    def __hash__(self) -> int:
-        return hash(self.content)
+def stacked_map(measured: MeasuredChain) -> StackedMap:
+    """The map of one measured chain, for its fibre in itself."""
+    return matched(measured, measured)[0]
 
 
 def matched(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap]:
     """Both maps, of equal degrees, in a form in which equal transfer functions are equal
-    coordinates: entries share a denominator where they do on both sides.
+    coordinates.
     """
+    by_mass = _by_mass(left, right)
+    if by_mass is not None:
+        return by_mass
     sides = [[_fraction(e) for e in m.entries if shape(e).numerator] for m in (left, right)]
-    shared = [(a[1], b[1]) for a, b in zip(*sides, strict=True)]
-    order = sorted(range(len(shared)), key=lambda i: shared.index(shared[i]))
-    groups = [list(g) for _, g in groupby(order, key=lambda i: shared.index(shared[i]))]
-    monic = [all(_is_one(side[g[0]][1][-1]) for side in sides) for g in groups]
+    found = stacked_maps([m.chain.parameters for m in (left, right)], sides)
+    return found[0], found[1]
+
+
+def _by_mass(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap] | None:
+    """Both maps as (w, c0, c1), where the second experiment is the first one with an inertia."""
+    here, there = _split(left), _split(right)
+    if here is None or there is None or here.kind != there.kind:
+        return None
+    numerators = zip(here.parts[0], here.parts[1], there.parts[0], there.parts[1], strict=True)
+    if not any(b and d and not (a or c) for a, b, c, d in numerators):
+        return None
+    seen = [
+        [k for k, pair in enumerate(zip(*part, strict=True)) if any(pair)]
+        for part in zip(here.parts, there.parts, strict=True)
+    ]
     return tuple(  # type: ignore[return-value]
-        _stacked(m, side, groups, monic) for m, side in zip((left, right), sides, strict=True)
+        map_of(
+            m.chain.parameters,
+            [
+                [split.inverse_mass],
+                *([part[k] for k in kept] for part, kept in zip(split.parts, seen, strict=True)),
+            ],
+        )
+        for m, split in ((left, here), (right, there))
     )
 
 
-def _stacked(
-    measured: MeasuredChain,
-    fractions: Sequence[Fraction],
-    groups: Sequence[Sequence[int]],
-    monic: Sequence[bool],
-) -> StackedMap:
+@dataclass(frozen=True, slots=True)
+class _Split:
+    """w, and c0 and c1 of the numerator, c0 and c1 of the denominator; `kind`: the inertia's size
+    and how many coefficients there are.
+    """
+
+    kind: tuple[object, ...]
+    inverse_mass: Terms
+    parts: tuple[tuple[Terms, ...], ...]
+
+
+def _split(measured: MeasuredChain) -> _Split | None:
+    """None unless one inertia is all that is done in the second of two experiments."""
+    if len(measured.experiments) != 2:
+        return None
+    first, second = measured.experiments
+    if any(first.changes) or len(second.inertias) != 1 or replace(second, inertias=()) != first:
+        return None
+    ((mass, size),) = second.inertias
+    num, den = _fraction(measured.entries[0])
+    if not is_one(den[-1]):
+        return None
     names = measured.chain.parameters
-    scales = [f"scale{k + 1}" for k, is_monic in enumerate(monic) if not is_monic]
-    coordinates: list[Terms] = []
-    at = 0
-    for group, is_monic in zip(groups, monic, strict=True):
-        whole = [*(c for i in group for c in fractions[i][0]), *fractions[group[0]][1]]
-        factor = [0] * len(scales)
-        if not is_monic:
-            factor[at], at = 1, at + 1
-        kept = whole[:-1] if is_monic else whole
-        coordinates += [tuple(((*e, *factor), c) for e, c in terms) for terms in kept]
-    used = sorted({j for terms in coordinates for e, _ in terms for j, x in enumerate(e) if x})
-    return StackedMap(
-        tuple([*names, *scales][j] for j in used),
-        tuple(tuple((tuple(e[j] for j in used), c) for e, c in terms) for terms in coordinates),
+    at = names.index(f"m{mass}")
+    parts = tuple(
+        tuple(_factor(c, at, power) for c in side) for side in (num, den[:-1]) for power in (0, 1)
     )
+    one = tuple(int(k == at) for k in range(len(names)))
+    return _Split((size, len(num), len(den)), ((one, 1),), parts)
 
 
-def _is_one(terms: Terms) -> bool:
-    return len(terms) == 1 and terms[0][1] == 1 and not any(terms[0][0])
+def _factor(terms: Terms, at: int, power: int) -> Terms:
+    """What stands beside this power of the unknown at a position."""
+    return tuple(((*e[:at], 0, *e[at + 1 :]), c) for e, c in terms if e[at] == power)
 
 
 @lru_cache(maxsize=REMEMBERED)

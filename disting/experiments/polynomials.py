@@ -19,11 +19,11 @@ from flint import fmpz_mpoly, fmpz_poly
 
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.algebra.tridiagonal import Ring
+from disting.behaviour.stacked import ZERO
 from disting.behaviour.transfer import plain_receptance, touched
 from disting.experiments.experiment import Entry, MeasuredChain
 
 REMEMBERED = 1024
-ZERO = (-1, 0)  # degrees of a transfer function that is zero
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,36 +1,29 @@
-"""The exhaustive summary of a measured chain and its profile: the coefficients of all transfer
-functions, one after the other, with one parameter vector.
+"""The exhaustive summary of a measured chain and its profile.
 
-Labels: b0[1], .., a0[1], .., b0[2], .. with the number of the experiment. Experiments on one state
-of the machine share poles, as a rule. So where two entries have denominators of one degree, the
-later one is given by what its coefficients are more than the first one's, a0[2-1], ..: that is as
-exhaustive, and where both denominators are one and the same these invariants are the constant 0,
-so that what is free is counted once. Entries that are zero have no coefficients: their degrees
-(-1, 0) say so. So the degrees alone say which invariants there are: summaries of equal degrees are
-compared entry by entry, whatever is done to either machine.
-
-Condition 7 needs no more: whatever the summary is, of as many free entries as its rank generic
-values of all of them are reached.
+It is that of `behaviour.stacked`, whatever is done to the machine; a dead time that all share adds
+itself.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from math import ceil, log2
 
-from disting.algebra.quotient import Quotient, series_rows
+from disting.algebra.quotient import Quotient, matrix
 from disting.algebra.sampling import PROOF_BITS, SEARCH_BITS, Size, about, enough, prime, residues
 from disting.behaviour.profile import Profile, from_samples, search_labels
-from disting.behaviour.sample import DRAWS, Representation, Sample, coefficients, quotient
+from disting.behaviour.sample import DRAWS, Representation, Sample, quotient
+from disting.behaviour.stacked import label, seen_degrees, shared_poles, stacked_rows
 from disting.errors import InputError
 from disting.experiments.experiment import Entry, MeasuredChain
-from disting.experiments.polynomials import ZERO, known_factor, residues_of, shape
+from disting.experiments.polynomials import known_factor, residues_of, shape
 from disting.model.settings import Settings
 
 # of one component of the matroid: stacked summaries have many more rows than parameters, and what
 # condition 5 would say after seconds a list of one fibre says in tenths of them
 MOST_SUBSETS = 300_000
-Rows = list[tuple[int, list[int]]]  # value and derivatives of each invariant
+REMEMBERED = 64  # points: of a few verdicts, for a sketch and the profile that may follow it
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,9 +64,14 @@ def degrees(measured: MeasuredChain) -> tuple[int, ...]:
     """Degrees of numerator and denominator of every transfer function, one pair after the
     other.
     """
-    return tuple(d for entry in measured.entries for d in shape(entry).degrees)
+    return tuple(d for pair in _pairs(measured) for d in pair)
 
 
+def _pairs(measured: MeasuredChain) -> list[tuple[int, int]]:
+    return [shape(entry).degrees for entry in measured.entries]
+
+
+@lru_cache(maxsize=REMEMBERED)
 def drawn(measured: MeasuredChain, label: str, bits: int) -> Drawn:
     """The point and the prime that the label stands for; points at which a degree is smaller are
     drawn again (see `behaviour.sample`).
@@ -83,7 +81,7 @@ def drawn(measured: MeasuredChain, label: str, bits: int) -> Drawn:
         modulus = prime(again, bits)
         point = residues(f"point:{again}", len(measured.chain.parameters), modulus)
         found = drawn_at(measured, point, modulus)
-        if _degrees(found) == degrees(measured):
+        if seen_degrees(found.quotients) == degrees(measured):
             return found
     raise InputError("numerator and denominator have a common factor for all parameters")
 
@@ -101,21 +99,26 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     """The summary with its derivatives by the parameters; a dead time that all share adds
     itself.
     """
-    rows, labels = Rows(), list[str]()
-    for i, q in enumerate(where.quotients):
-        if q is not None:
-            named = _series(q, count) if representation is Representation.MARKOV else _terms(q)
-            shared = _shared(where.measured, i) if representation is Representation.TF else None
-            first = None if shared is None else where.quotients[shared]
-            named = named if first is None else _less(named, _terms(first), where.modulus)
-            labels += [_label(name, i, shared) for name in named]
-            rows += named.values()
-    if where.measured.chain.dead_time and rows:
+    measured = where.measured
+    found = stacked_rows(where.quotients, _pairs(measured), representation, count)
+    if measured.chain.dead_time and found:
         n = len(where.point) - 1
-        rows = [(v, [*row, 0]) for v, row in rows] + [(where.point[-1], [0] * n + [1])]
-        labels.append("Td")
-    values, jacobian = tuple(v for v, _ in rows), tuple(tuple(row) for _, row in rows)
-    return Sample(tuple(labels), values, jacobian, len(where.point), where.modulus)
+        found = {name: (v, [*row, 0]) for name, (v, row) in found.items()}
+        found["Td"] = (where.point[-1], [0] * n + [1])
+    values = tuple(v for v, _ in found.values())
+    jacobian = tuple(tuple(row) for _, row in found.values())
+    return Sample(tuple(found), values, jacobian, len(where.point), where.modulus)
+
+
+def rank_by(measured: MeasuredChain, names: Sequence[str], label: str) -> int:
+    """Rank of the Jacobian of all coefficients by these parameters, at a random point modulo a
+    random prime: never above that at generic parameters.
+    """
+    parameters, modulus = measured.chain.parameters, prime(label)
+    point = residues(f"{label}:point", len(parameters), modulus)
+    seen = seen_at(drawn_at(measured, point, modulus), Representation.TF, 0)
+    at = [parameters.index(name) for name in names]
+    return int(matrix([[row[i] for i in at] for row in seen.rows], len(at), modulus).rank())
 
 
 def minor_size(measured: MeasuredChain, representation: Representation, count: int) -> Size:
@@ -141,75 +144,26 @@ def _height(entry: Entry) -> int:
     return (largest - 1).bit_length()
 
 
-def _degrees(found: Drawn) -> tuple[int, ...]:
-    pairs = (ZERO if q is None else (q.num.degree(), q.den.degree()) for q in found.quotients)
-    return tuple(d for pair in pairs for d in pair)
-
-
-def _terms(q: Quotient) -> dict[str, tuple[int, list[int]]]:
-    labels, values, rows = coefficients(q)
-    return dict(zip(labels, zip(values, rows, strict=True), strict=True))
-
-
-def _series(q: Quotient, count: int) -> dict[str, tuple[int, list[int]]]:
-    values, rows = series_rows(q, count)
-    return {f"G{i}": pair for i, pair in enumerate(zip(values, rows, strict=True))}
-
-
-def _less(
-    named: dict[str, tuple[int, list[int]]], first: dict[str, tuple[int, list[int]]], modulus: int
-) -> dict[str, tuple[int, list[int]]]:
-    """The denominator's coefficients less those of the first entry."""
-    return {
-        name: (
-            (
-                (value - first[name][0]) % modulus,
-                [(x - y) % modulus for x, y in zip(row, first[name][1], strict=True)],
-            )
-            if name[0] == "a"
-            else (value, row)
-        )
-        for name, (value, row) in named.items()
-    }
-
-
-def _shared(measured: MeasuredChain, at: int) -> int | None:
-    """The first entry before this one whose denominator has the same degree."""
-    entries = measured.entries
-    poles = shape(entries[at]).degrees[1]
-    same = (
-        i
-        for i in range(at)
-        if shape(entries[i]).numerator and shape(entries[i]).degrees[1] == poles
-    )
-    return next(same, None)
-
-
-def _label(name: str, at: int, shared: int | None) -> str:
-    less = f"-{shared + 1}" if shared is not None and name[0] == "a" else ""
-    return f"{name}[{at + 1}{less}]"
-
-
 def _proven_zeros(
     measured: MeasuredChain, representation: Representation, count: int
 ) -> Iterator[str]:
     """Labels of invariants that are proven to be the constant 0."""
     for i, entry in enumerate(measured.entries):
-        found, shared = shape(entry), _shared(measured, i)
+        found, shared = shape(entry), shared_poles(_pairs(measured), i)
         if not found.numerator:
             continue
         if representation is Representation.MARKOV:
-            yield from (_label(name, i, None) for name in _zero_series(entry, count))
+            yield from (label(name, i, None) for name in _zero_series(entry, count))
             continue
         first = None if shared is None else shape(measured.entries[shared])
         same = first is not None and first.denominator == found.denominator
         for name in (f"b{k}" for k in range(found.degrees[0] + 1)):
             if name in found.zeros:
-                yield _label(name, i, None)
+                yield label(name, i, None)
         for name in (f"a{k}" for k in range(found.degrees[1])):
             zero = name in found.zeros and (first is None or name in first.zeros)
             if same or zero:
-                yield _label(name, i, shared)
+                yield label(name, i, shared)
 
 
 def _zero_series(entry: Entry, count: int) -> Iterator[str]:

@@ -27,12 +27,10 @@ from disting.fit.designed import Designed as Designed
 from disting.fit.designed import designed as designed
 from disting.fit.estimate import Estimate as Estimate
 from disting.fit.estimate import Task as Task
-from disting.fit.estimate import estimates as estimates
+from disting.fit.exchange import estimates as estimates
 from disting.fit.explained import Explanation as Explanation
 from disting.fit.explained import Miss as Miss
 from disting.fit.export import predicted as predicted
-from disting.fit.export import read_model as read_model
-from disting.fit.export import selection_to_dict as selection_to_dict
 from disting.fit.export import state_space as state_space
 from disting.fit.export import to_control as to_control
 from disting.fit.export import to_control_transfer_function as to_control_transfer_function
@@ -52,6 +50,8 @@ from disting.fit.modes import physical as physical
 from disting.fit.modes import poles as poles
 from disting.fit.modes import zeros as zeros
 from disting.fit.noise import Noise as Noise
+from disting.fit.plain import read_model as read_model
+from disting.fit.plain import selection_to_dict as selection_to_dict
 from disting.fit.plan import Plan as Plan
 from disting.fit.plan import plan as plan
 from disting.fit.plant import Plant as Plant

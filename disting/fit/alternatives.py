@@ -22,8 +22,8 @@ from math import inf
 
 from disting.catalogs import candidates as stored
 from disting.errors import CatalogError
-from disting.evidence.positive import Share
 from disting.model.chain import Chain
+from disting.model.shown import summary
 from disting.questions.positive import renamings
 from disting.verdict import Engine, Query, Relation, View
 from disting.verdict.chains import ComparedChain
@@ -42,6 +42,9 @@ class Alternative:
     chain: Chain
     relation: Relation
     sentence: str
+
+    def __repr__(self) -> str:
+        return summary(self, str(self.chain))
 
 
 def limits_of(bounds: Mapping[str, tuple[float, float]], fixed: Mapping[str, float]) -> Limits:
@@ -81,7 +84,7 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
             for pair in ((chain, other), (other, chain))
         )
     here, there = (engine.subject(str(c), c) for c in (chain, other))
-    return here.positive(there).share is there.positive(here).share is Share.ALWAYS
+    return here.has_same_positive(there)
 
 
 def alternatives(

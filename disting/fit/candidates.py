@@ -8,8 +8,8 @@ from disting.errors import ConstraintViolation, InputError
 from disting.fit.setup import port
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
+from disting.model.names import name_of
 from disting.model.symmetry import Form, forms
-from disting.verdict.comparison import name_of
 
 
 def figure_1(
@@ -100,7 +100,7 @@ def as_listed(chain: Chain) -> Form:
 
 def reference(chain: Chain) -> str:
     """Such as 2:1+b2+delay, as the commands read it; of the form that is listed."""
-    return name_of(as_listed(chain).chain, short=False)
+    return name_of(as_listed(chain).chain)
 
 
 def _is_in(family: Family, chain: Chain) -> bool:

@@ -26,6 +26,7 @@ from disting.fit.plant import Complex, Differentiable, Plant, Real
 from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.shown import plural, summary
 from disting.model.structure import Structure
 
 
@@ -84,6 +85,9 @@ class Cost(SquaredCost):
                 f"one weight a line is needed: {len(self.measured.omega)}, not"
                 f" {np.size(self.lines)}"
             )
+
+    def __repr__(self) -> str:
+        return summary(self, f"case {self.case.value}, {plural(len(self.measured), 'line')}")
 
     @property
     def n_residuals(self) -> int:

@@ -14,6 +14,7 @@ import numpy as np
 from disting.fit.plan import Answer, Plan, needed, plan_to_dict, power
 from disting.fit.plant import Real
 from disting.fit.spectrum import Adversary, Band, Spectrum, best_band, optimal, runnable
+from disting.model.shown import plural, summary
 from disting.simulation import Excitation
 
 OVERSAMPLED = 5.0  # sampling rate, in highest frequencies
@@ -28,6 +29,12 @@ class Designed:
     band: Band
     optimum: Spectrum
     run: Spectrum
+
+    def __repr__(self) -> str:
+        return summary(
+            self,
+            f"{plural(len(self.hertz), 'line')}, {self.hertz[0]:.4g} to {self.hertz[-1]:.4g} Hz",
+        )
 
     @property
     def rate(self) -> float:

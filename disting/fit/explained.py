@@ -22,6 +22,7 @@ from disting.fit.noise import correlation
 from disting.fit.plant import Complex, Real
 from disting.fit.scatter import Scatter, between, scatter
 from disting.measurement import FrequencyResponse
+from disting.model.shown import summary
 
 # chi2 per line of a model that explains the data: right ones reach 1.5 where few repeats are known
 LARGEST = 3.0
@@ -78,6 +79,11 @@ class Explanation:
     correlation: float
     misses: tuple[Miss, ...]
     quietest: float | None = None
+
+    def __repr__(self) -> str:
+        explains = "explains the data" if self.explains else "does not explain the data"
+        said = "the data are mostly noise" if self.noisy else explains
+        return summary(self, f"chi2 {self.chi2:.3g}, {said}")
 
     @property
     def explains(self) -> bool:

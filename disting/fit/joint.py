@@ -21,6 +21,7 @@ from disting.fit.scatter import LEAST, scatter
 from disting.fit.setup import Setup, measurable
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.shown import plural, summary
 from disting.model.structure import Structure
 
 Lines = Callable[[FrequencyResponse], Real]
@@ -111,6 +112,9 @@ class JointCost(SquaredCost):
     parts: tuple[Cost, ...]
     setups: tuple[Setup, ...]
     delays: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return summary(self, plural(len(self.parts), "response"))
 
     @property
     def measured(self) -> FrequencyResponse:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from disting.fit.candidates import reference
 from disting.fit.descent import fine
 from disting.fit.each import noises, scatters, yardsticks
 from disting.fit.estimate import Estimate, Task
@@ -19,6 +20,7 @@ from disting.fit.scatter import Scatter
 from disting.fit.structural import with_structure
 from disting.model.chain import Chain
 from disting.model.settings import Settings
+from disting.model.shown import summary
 
 FOLDS = 5  # of the cross-validation
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
@@ -48,6 +50,13 @@ class Candidate:
     noise: Seen = field(repr=False, compare=False)
     reasons: tuple[str, ...] = ()
     akaike_weight: float = 0.0
+
+    def __repr__(self) -> str:
+        excluded = f", excluded: {self.reasons[0]}" if self.reasons else ""
+        return summary(
+            self,
+            f"{reference(self.chain)}, N_p = {self.n_parameters}, J = {self.j_test:.4g}{excluded}",
+        )
 
     @property
     def admissible(self) -> bool:

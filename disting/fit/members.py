@@ -28,6 +28,7 @@ from disting.fit.practical import practical
 from disting.fit.together import behaves_alike
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.shown import plural, summary
 from disting.verdict.engine import mapped
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
@@ -47,6 +48,10 @@ class Twin:
     chain: Chain
     parameters: dict[str, float]
     free_choices: int = 0
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.parameters.items())
+        return summary(self, f"{self.name}, {values}")
 
     @property
     def name(self) -> str:
@@ -80,6 +85,11 @@ class Member:
     open: tuple[str, ...]
     disagreements: tuple[Disagreement, ...]
     differs: tuple[tuple[float, float], ...] = ()
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.name}" + f", {plural(len(self.twins), 'twin')}" * bool(self.twins)
+        )
 
     @property
     def name(self) -> str:

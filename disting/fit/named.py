@@ -12,18 +12,42 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import InputError
-from disting.fit.candidates import reference
-from disting.fit.export import chain_from_dict, model_from_dict
+from disting.fit.candidates import as_listed, reference
+from disting.fit.plain import chain_from_dict, model_from_dict
 from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.model.names import chain_of
 from disting.verdict import Relation
+
+Values = dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A structure that the data leave, `fitted` or behaving as one that was: `like` names those
+    whose response it has for their fitted values. `values`: all its parameter vectors that are
+    known to do so, its own fit first; `free`: dimension of the family that some are taken from.
+    """
+
+    chain: Chain
+    fitted: bool
+    values: tuple[Values, ...]
+    like: tuple[Chain, ...] = ()
+    free: int = 0
+
+    @property
+    def name(self) -> str:
+        """Such as 3:11+b1."""
+        return reference(self.chain)
 
 
 @dataclass(frozen=True, slots=True)
 class Named:
     """`explained`: whether the selected structure explains the data; `same`: names of what behaves
     the same, with the reason; `rivals` with their fitted values, none of those that were not
-    fitted; `scatter` of a line; `low`, `high` [Hz] and number of the `lines`, 0
-    each where the file does not tell.
+    fitted; `left`: the structures that the data leave, the selected one first; `scatter` of a line;
+    `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell; `responses`:
+    how many were fitted together.
     """
 
     model: Chain
@@ -31,10 +55,12 @@ class Named:
     explained: bool
     rivals: dict[Chain, dict[str, float]]
     same: dict[str, str]
+    left: tuple[Left, ...]
     scatter: float
     low: float
     high: float
     lines: int
+    responses: int
 
 
 def named_by(path: Path) -> Named:
@@ -55,10 +81,12 @@ def named_by(path: Path) -> Named:
             plain["explained"] is True,
             {c: v for c, v in _rivals(plain) if c != model and reference(c) not in same},
             same,
+            tuple(_left(plain, model, values)),
             float(plain["scatter"]),
             float(range_of["low"]),
             float(range_of["high"]),
             int(range_of["lines"]),
+            len(plain.get("responses", [None])),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise InputError(f"{path} is no whole file of a fit: {reason} is missing") from None
@@ -70,6 +98,52 @@ def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
         if found["relation"] != Relation.INDISTINGUISHABLE:
             yield chain_from_dict(found), {}
     yield from map(model_from_dict, plain["not_excluded"][1:])
+
+
+def _left(plain: dict[str, Any], model: Chain, values: Values) -> Iterator[Left]:
+    """The selected structure, the others that were fitted, then what behaves as one of these;
+    each once.
+    """
+    fitted = {model: values} | dict(map(model_from_dict, plain["not_excluded"]))
+    own = {chain: [its] for chain, its in fitted.items()}
+    like = {chain: dict[Chain, None]() for chain in fitted}
+    named = {reference(chain): chain for chain in fitted}
+    free: dict[Chain, int] = {}
+
+    def add(name: str, chain: Chain) -> Chain:
+        """The structure of this name, which behaves as a fitted one."""
+        other = named.setdefault(name, _listed(name, chain))
+        own.setdefault(other, [])
+        like.setdefault(other, {}).update({chain: None} if other != chain else {})
+        return other
+
+    for member in plain["not_excluded"]:
+        chain, _ = model_from_dict(member)
+        for twin in member["equivalents"]:
+            other = add(twin["name"], chain)
+            own[other].extend(_whole(twin["parameters"], other))
+            free[other] = max(free.get(other, 0), int(twin.get("free_choices", 0)))
+    for found in plain["alternatives"]:
+        if found["relation"] == Relation.INDISTINGUISHABLE:
+            add(reference(chain_from_dict(found)), model)
+    for chain, all_values in own.items():
+        yield Left(
+            chain, chain in fitted, tuple(all_values), tuple(like[chain]), free.get(chain, 0)
+        )
+
+
+def _listed(name: str, chain: Chain) -> Chain:
+    """The structure of a name, with the damping and the sensor of a chain."""
+    return chain_of(name, Family(chain.n_masses, chain.damped, chain.sensor))
+
+
+def _whole(given: Values, chain: Chain) -> Iterator[Values]:
+    """Values under the names of the listed form, under those of the chain; nothing where some are
+    missing.
+    """
+    there = as_listed(chain).renaming
+    if all(there[name] in given for name in chain.parameters):
+        yield {name: float(given[there[name]]) for name in chain.parameters}
 
 
 def _same(plain: dict[str, Any]) -> Iterator[tuple[str, str]]:

@@ -22,6 +22,7 @@ from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from math import sqrt
 from typing import Any
 
@@ -33,6 +34,7 @@ from disting.fit.plant import Real
 from disting.fit.rival import Rival, Trust, fitted_rival
 from disting.model.chain import Chain
 from disting.model.settings import Settings
+from disting.model.shown import Shown, summary
 from disting.questions.identifiability.tangent import proof_tangents
 from disting.questions.inclusion import Inclusion
 from disting.verdict import Engine, Relation, Verdict
@@ -42,6 +44,7 @@ from disting.verdict.engine import Progress, silent
 LEVEL = 0.01  # probability of excluding a rival that is true
 POWER = 0.95  # wanted probability of excluding one that is not
 LARGEST = 1e6  # noncentrality that is looked for, at most
+REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
 
 class Answer(StrEnum):
@@ -73,7 +76,7 @@ def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> flo
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class Plan(Shown):
     """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`
     where none was asked for.
     """
@@ -84,6 +87,10 @@ class Plan:
     verdict: Verdict | None
     surplus: int
     rival: Rival | None
+
+    def __repr__(self) -> str:
+        size = f", lambda {self.noncentrality:.3g}" * (self.noncentrality > 0)
+        return summary(self, f"{self.names[0]} against {self.names[1]}: {self.answer}{size}")
 
     @property
     def names(self) -> tuple[str, str]:
@@ -183,6 +190,7 @@ def joined(model: Chain, rival: Chain) -> Chain | None:
     return found if same == other else None
 
 
+@lru_cache(maxsize=REMEMBERED)
 def _rank(chain: Chain, settings: Settings) -> int:
     tangents = proof_tangents(chain.structure, settings.seed, settings.points)
     return max(t.rank for t in tangents)

@@ -16,6 +16,7 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.fit.plant import Real
+from disting.model.shown import summary
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
 ROUNDING = 1e-15  # a singular value below this share of the largest one is zero
@@ -99,6 +100,11 @@ class Practical:
     relative_errors: dict[str, float]
     worst_direction: dict[str, float]
     unidentifiable: str = ""
+
+    def __repr__(self) -> str:
+        ratio, index = self.importance_ratio, self.collinearity
+        others = f"PII ratio {ratio:.3g}, collinearity index {index:.3g}"
+        return summary(self, f"condition index {self.condition_index:.3g}, {others}")
 
     @property
     def importance_ratio(self) -> float:

@@ -11,7 +11,8 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation
-from disting.fit.estimate import Estimate, Task, estimates
+from disting.fit.estimate import Estimate, Task
+from disting.fit.exchange import estimates
 from disting.fit.judged import Candidate
 from disting.model.chain import Chain, Sensor
 from disting.store import Store

@@ -33,9 +33,11 @@ from math import log
 import numpy as np
 
 from disting.errors import InputError
+from disting.fit.candidates import reference
 from disting.fit.cost import Case, Cost
 from disting.fit.descent import fine
-from disting.fit.estimate import Estimate, Task, estimates
+from disting.fit.estimate import Estimate, Task
+from disting.fit.exchange import estimates
 from disting.fit.export import predicted
 from disting.fit.neighbours import carried
 from disting.fit.noise import VANISHING
@@ -43,6 +45,7 @@ from disting.fit.plant import Real
 from disting.fit.starts import natural, scale, stacked
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.shown import summary
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
@@ -86,6 +89,11 @@ class Rival:
     recovered: bool
     task: Task = field(repr=False)
     known: Mapping[Chain, Estimate] = field(repr=False)
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{reference(self.chain)}, lambda {self.noncentrality:.4g}, {self.trust}"
+        )
 
     @property
     def chain(self) -> Chain:

@@ -31,6 +31,7 @@ from scipy.ndimage import median_filter
 
 from disting.fit.plant import Complex, Real
 from disting.measurement import FrequencyResponse
+from disting.model.shown import summary
 
 COMMON = 8  # lines that two measurements must share
 SAME = 1e-6  # relative distance of two frequencies that count as one
@@ -52,6 +53,9 @@ class Scatter:
 
     rho: Real
     source: str
+
+    def __repr__(self) -> str:
+        return summary(self, f"{100 * self.typical:.3g} %, from {self.source}")
 
     @property
     def typical(self) -> float:

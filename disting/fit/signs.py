@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from disting.fit.estimate import Task, estimates
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimates
 from disting.fit.joint import AnyCost, JointCost
 from disting.fit.plant import Complex
 from disting.model.chain import Chain

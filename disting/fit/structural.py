@@ -13,19 +13,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import inf
 
-from disting.algebra.quotient import matrix
-from disting.algebra.sampling import prime, residues
-from disting.behaviour.sample import Representation
-from disting.experiments.stacked_profiles import drawn_at, seen_at
+from disting.experiments.stacked_profiles import rank_by
 from disting.fit.estimate import Task
 from disting.fit.joint import JointCost
 from disting.fit.practical import Practical
-from disting.fit.setup import Setup, measured_chain
+from disting.fit.setup import measured_chain
 from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.questions.identifiability.basis import basis
 from disting.questions.identifiability.formula import Formula
-from disting.questions.identifiability.tangent import Tangent, proof_tangents
+from disting.questions.identifiability.tangent import proof_tangents
 
 MOST_TERMS = 3  # of a combination that is written out
 
@@ -48,12 +45,11 @@ def _told_together(chain: Chain, found: Practical, task: Task, settings: Setting
     """What the first response determines, all determine; else their stacked Jacobian is asked."""
     common = tuple(name for name in found.names if name in chain.parameters)
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
-    if max(_rank(t, common) for t in proof) == len(common):
+    if max(t.rank_by(common) for t in proof) == len(common):
         return found
-    rank = max(
-        stacked_rank(chain, task.cost.setups, common, f"joint:{settings.seed}:{k}")
-        for k in range(settings.points)
-    )
+    measured = measured_chain(chain, task.cost.setups)
+    labels = (f"joint:{settings.seed}:{k}" for k in range(settings.points))
+    rank = max(rank_by(measured, common, label) for label in labels)
     lacking = len(common) - rank
     if lacking <= 0:
         return found
@@ -63,21 +59,9 @@ def _told_together(chain: Chain, found: Practical, task: Task, settings: Setting
     return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
 
-def stacked_rank(chain: Chain, setups: Sequence[Setup], free: Sequence[str], label: str) -> int:
-    """Rank of the Jacobian of the coefficients of all responses by the free parameters, at a random
-    point modulo a random prime: never above that at generic parameters.
-    """
-    modulus = prime(label)
-    point = residues(f"{label}:point", len(chain.parameters), modulus)
-    seen = seen_at(drawn_at(measured_chain(chain, setups), point, modulus), Representation.TF, 0)
-    at = [chain.parameters.index(name) for name in free]
-    rows = [[row[i] for i in at] for row in seen.rows]
-    return int(matrix(rows, len(at), modulus).rank())
-
-
 def _told(chain: Chain, found: Practical, settings: Settings) -> Practical:
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
-    rank = max(_rank(t, found.names) for t in proof)
+    rank = max(t.rank_by(found.names) for t in proof)
     lacking = len(found.names) - rank
     if lacking <= 0:
         return found
@@ -86,13 +70,6 @@ def _told(chain: Chain, found: Practical, settings: Settings) -> Practical:
     given = " and what is given" * (len(found.names) < len(chain.parameters))
     words = in_words([c.formula for c in chosen]) + given
     return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=words)
-
-
-def _rank(at: Tangent, free: Sequence[str]) -> int:
-    """Rank of the columns of the free parameters: those that are given are known."""
-    columns = [i for i, name in enumerate(at.values) if name in free]
-    rows = [[row[i] for i in columns] for row in at.rows]
-    return int(matrix(rows, len(columns), at.modulus).rank()) if columns else 0
 
 
 def in_words(determined: Sequence[Formula]) -> str:

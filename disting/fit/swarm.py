@@ -6,7 +6,7 @@ the best cost has not improved by 1e-6 for 20 generations, or after 200 generati
 Needs pymoo: pip install "disting[swarm]".
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from hashlib import blake2b
 from math import log
 from typing import Any
@@ -46,6 +46,26 @@ def by_swarm(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     """Best parameters that a particle swarm finds; `costs` are those of the last generation,
     other fits in `known` unused.
     """
+    low, high = search_box(chain, task)
+    plant = task.plant(chain)
+
+    def costs(x: Real) -> Real:
+        """Cost of a whole generation, shape (n, n_p) of logarithms, at once."""
+        parts = np.array_split(x, len(x) // BATCH)
+        return np.concatenate([task.cost.total(plant.response(np.exp(part))) for part in parts])
+
+    algorithm = _moved(costs, low, high, _seed(task))
+    best = np.exp(np.asarray(algorithm.opt[0].X, dtype=float))
+    return Estimate(
+        chain,
+        dict(zip(chain.parameters, map(float, best), strict=True)),
+        float(algorithm.opt[0].F[0]),
+        tuple(sorted(float(c) for c in algorithm.pop.get("F")[:, 0])),
+    )
+
+
+def _moved(costs: Callable[[Real], Real], low: Real, high: Real, seed: int) -> Any:
+    """pymoo's swarm over a box, moved until it stands still; raises InputError without pymoo."""
     try:
         from pymoo.algorithms.soo.nonconvex.pso import PSO
         from pymoo.core.problem import Problem
@@ -54,41 +74,26 @@ def by_swarm(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
         from pymoo.termination.robust import RobustTermination
     except ImportError:
         raise InputError('the particle swarm needs pymoo: pip install "disting[swarm]"') from None
-    low, high = search_box(chain, task)
-    plant, n_p = task.plant(chain), len(low)
 
     class Fit(Problem):  # type: ignore[misc]
-        """Cost of a whole generation at once."""
+        """The costs as pymoo asks for them."""
 
         def _evaluate(self, x: Real, out: dict[str, Any], *_: object, **__: object) -> None:
-            out["F"] = np.concatenate(
-                [
-                    task.cost.total(plant.response(np.exp(part)))
-                    for part in np.array_split(x, len(x) // BATCH)
-                ]
-            )
+            out["F"] = costs(x)
 
+    n_p = len(low)
     stalled = RobustTermination(
         SingleObjectiveSpaceTermination(tol=GAIN, only_feas=False), period=STALLED
     )
     algorithm = PSO(pop_size=PARTICLES * n_p)
     problem = Fit(n_var=n_p, n_obj=1, xl=low, xu=high)
-    algorithm.setup(
-        problem, termination=MaximumGenerationTermination(GENERATIONS * n_p), seed=_seed(task)
-    )
+    algorithm.setup(problem, termination=MaximumGenerationTermination(GENERATIONS * n_p), seed=seed)
     while algorithm.has_next():
         algorithm.next()
         stalled.update(algorithm)
         if stalled.has_terminated():
             break
-    best = np.exp(np.asarray(algorithm.opt[0].X, dtype=float))
-    costs = sorted(float(c) for c in algorithm.pop.get("F")[:, 0])
-    return Estimate(
-        chain,
-        dict(zip(chain.parameters, map(float, best), strict=True)),
-        float(algorithm.opt[0].F[0]),
-        tuple(costs),
-    )
+    return algorithm
 
 
 def _seed(task: Task) -> int:

@@ -12,6 +12,7 @@ from disting.fit.descent import fine
 from disting.fit.estimate import Task
 from disting.fit.judged import Candidate
 from disting.fit.plant import Real
+from disting.model.shown import plural, summary
 
 CRITERIA = ("condition_index", "importance_ratio", "collinearity")
 STEPS = 200  # thresholds from 1 to 10000
@@ -29,6 +30,9 @@ class Sweep:
     thresholds: Real
     n_parameters: Real
     fulfilling: Real
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.criterion}, {plural(len(self.thresholds), 'threshold')}")
 
 
 def sweep(candidates: Sequence[Candidate], criterion: str) -> Sweep:
@@ -53,6 +57,9 @@ class Profile:
     name: str
     values: Real
     costs: Real
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.name}, {self.values[0]:.4g} to {self.values[-1]:.4g}")
 
 
 def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> Profile:

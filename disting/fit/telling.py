@@ -12,10 +12,12 @@ import numpy as np
 from disting.fit.admissible import KNOWN
 from disting.fit.candidates import as_listed, reference
 from disting.fit.each import correlations, partners
+from disting.fit.explained import LARGEST
 from disting.fit.joint import AnyCost
 from disting.fit.members import Disagreement
 from disting.fit.scatter import between, scatter
 from disting.fit.select import Selection
+from disting.model.names import damping_option
 
 FEW = 8  # names in one line
 CHANGED = 2.0  # training and test differ by this multiple of what either scatters
@@ -67,7 +69,7 @@ def commands(found: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps."""
     first, rest = found.described, [m.name for m in found.members[1:]]
     given, form = reference(first.chain), as_listed(first.chain)
-    damped = " --damped" if first.chain.damped else ""
+    damped = f" {damping_option(first.chain.damped)}"
     fitted = first.estimate.parameters
     values = ",".join(f"{form.renaming[n]}={fitted[n]:.6g}" for n in first.chain.parameters)
     steps = [f"disting compare {given} {rest[0]}{damped}"] if rest else []
@@ -114,7 +116,10 @@ def _verdict(found: Selection) -> str:
             f"none of the candidates explains this data: it is mostly noise ({scattered}); the best"
             f" one is {best}"
         )
-    return f"none of the candidates explains this data; the best one is {best} ({size})"
+    which = "none of the candidates"
+    if any(c.chi2 <= LARGEST for c in found.candidates):
+        which = "none of the candidates whose parameters this data determines"
+    return f"{which} explains this data; the best one is {best} ({size})"
 
 
 def _explained(found: Selection) -> Iterator[str]:

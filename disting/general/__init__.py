@@ -1,5 +1,5 @@
-"""General parametric models: any rational transfer function with parameters, compared as chains
-are.
+"""General parametric models: any rational transfer functions with parameters, with one input and
+one output or with several, compared as chains are.
 """
 
 from disting.evidence.general import Witnesses as Witnesses
@@ -15,7 +15,10 @@ from disting.general.global_identifiability import GlobalIdentifiability as Glob
 from disting.general.global_identifiability import global_identifiability as global_identifiability
 from disting.general.local_identifiability import LocalIdentifiability as LocalIdentifiability
 from disting.general.local_identifiability import local_identifiability as local_identifiability
+from disting.general.matrix_model import AnyModel as AnyModel
+from disting.general.matrix_model import MatrixModel as MatrixModel
 from disting.general.model import Model as Model
 from disting.general.model_files import ModelList as ModelList
 from disting.general.model_files import read_models as read_models
 from disting.general.model_files import write_models as write_models
+from disting.general.parameters import parameter_identifiability as parameter_identifiability

@@ -23,6 +23,7 @@ from disting.evidence.general import NoEquivalent, Point, Witnesses
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
 from disting.general.formulas import explicit, fit
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
 from disting.general.target import fibre_equations, rational_values, target
@@ -39,12 +40,12 @@ Found = tuple[bool, Point, Point]
 """Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
-def admissible_finding(left: Model, right: Model, domain: Domain, seed: str) -> Finding:
+def admissible_finding(left: AnyModel, right: AnyModel, domain: Domain, seed: str) -> Finding:
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
     return of_ways(left, right, (way(left, right, domain), way(right, left, domain)), domain, seed)
 
 
-def of_ways(left: Model, right: Model, ways: Ways, domain: Domain, seed: str) -> Finding:
+def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: str) -> Finding:
     """The finding from what is known each way; raises ContradictionError where that cannot all
     be true.
     """
@@ -60,7 +61,7 @@ def of_ways(left: Model, right: Model, ways: Ways, domain: Domain, seed: str) ->
             )
     if all(one and one.covering for one in ways):
         return _always(ways, domain)
-    if domain is Domain.POSITIVE and same_one_ports(left, right):
+    if domain is Domain.POSITIVE and _are_one_ports(left, right):
         return Finding(
             ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
         )
@@ -85,7 +86,13 @@ def of_ways(left: Model, right: Model, ways: Ways, domain: Domain, seed: str) ->
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
 
 
-def confirms(evidence: Witnesses, left: Model, right: Model) -> bool:
+def _are_one_ports(left: AnyModel, right: AnyModel) -> bool:
+    if isinstance(left, Model) and isinstance(right, Model):
+        return same_one_ports(left, right)
+    return False
+
+
+def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
     """Whether both points are what they are said to be, and all parameters near them: the search
     is done anew.
 
@@ -102,11 +109,11 @@ def confirms(evidence: Witnesses, left: Model, right: Model) -> bool:
     return bool(with_ and without and with_.having(points_[0]) and without.lacking(points_[1]))
 
 
-def points(model: Model, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
+def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
     """Yield random rational parameters of a domain, without end, determined by the seed and the
     model.
     """
-    label = f"{seed}:{model.parameters}:{model.numerator_terms}:{model.denominator_terms}"
+    label = ":".join(map(str, (seed, *model.content)))
     n, k = len(model.parameters), 0
     while True:
         spread = SPREADS[k % len(SPREADS)]
@@ -186,6 +193,8 @@ def _count(one: Way, point: Point) -> int:
     """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
     at once.
     """
+    if not (isinstance(one.given, Model) and isinstance(one.other, Model)):
+        return -2
     goal = target(one.given, rational_values(one.given, dict(point)))
     try:
         found = solved(fibre_equations(goal, one.other), one.other.parameters, "count", Bounds())
@@ -198,5 +207,5 @@ def _written(values: dict[str, Fraction]) -> Point:
     return tuple((name, str(x)) for name, x in values.items())
 
 
-def _rounded(model: Model, values: tuple[float, ...]) -> Point:
+def _rounded(model: AnyModel, values: tuple[float, ...]) -> Point:
     return tuple((name, spelled(x)) for name, x in zip(model.parameters, values, strict=True))

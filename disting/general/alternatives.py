@@ -19,6 +19,7 @@ from disting.general.fibre import Extent, Fibre, solved
 from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.domain import Domain
+from disting.model.shown import summary
 
 SECONDS = 30.0
 # milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time
@@ -46,6 +47,9 @@ class Alternatives:
     free: tuple[str, ...] = ()
     excluded: tuple[Domain, ...] = ()
     reason: str = ""
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     def __bool__(self) -> bool:
         raise TypeError("alternatives are not true or false; look at their extent")

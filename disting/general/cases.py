@@ -51,7 +51,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.model.domain import Domain
 
@@ -105,7 +105,7 @@ def orders(unknowns: Sequence[int]) -> Iterator[tuple[int, ...]]:
         yield tuple(x for _, x in sorted(zip(keys, unknowns, strict=True)))
 
 
-def searched(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -> Search:
+def searched(ring: Orthant, given: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Search:
     """All cases of the equivalents of `given` in `other`, unknowns solved for in this order of
     preference; raises TooMuch.
 
@@ -115,7 +115,8 @@ def searched(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) 
         tuple(ring.equations(given, other)), nonzero=unknown_factors(ring, [ring.lead(other)])
     )
     search = cases_of(ring, start, order)
-    search.generic.append(ring.lifted(given.denominator_terms[-1], 0))
+    leads = dict.fromkeys(entry.denominator_terms[-1] for entry in given.entries)
+    search.generic += [ring.lifted(lead, 0) for lead in leads]
     return search
 
 

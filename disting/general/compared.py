@@ -14,7 +14,7 @@ from functools import cached_property, partial
 from typing import Any
 
 from disting.algebra.colouring import Colouring, colouring
-from disting.algebra.sampling import prime
+from disting.algebra.content import written
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
@@ -25,10 +25,14 @@ from disting.evidence.general import Constants
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general.admissible import admissible_finding
-from disting.general.exact import exact_finding
-from disting.general.model import Model
-from disting.general.profiles import profile, proven_constants
-from disting.general.renaming import is_renaming, products
+from disting.general.any_model import (
+    columns_of,
+    constants_of,
+    is_renamed,
+    profile_of,
+    same,
+)
+from disting.general.matrix_model import AnyModel
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
@@ -40,21 +44,15 @@ NOT_ASKED = "of general models only equality is asked for"
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
-def _exactly(left: Model, right: Model, settings: Settings) -> Finding:
-    return exact_finding(left, right, settings.seed)
-
-
-def _over_real(left: Model, right: Model, settings: Settings) -> Finding:
+def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     return admissible_finding(left, right, Domain.REAL, settings.seed)
 
 
-def _over_positive(left: Model, right: Model, settings: Settings) -> Finding:
+def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
-EXACTLY = Question(
-    "exact decisions on general models", _exactly, finding_to_json, finding_from_json
-)
+EXACTLY = Question("exact decisions on general models", same, finding_to_json, finding_from_json)
 _admissible_from_json = partial(finding_from_json, rule=ADMISSIBLE)
 ADMISSIBLY = {
     Domain.REAL: Question(
@@ -67,7 +65,7 @@ ADMISSIBLY = {
         _admissible_from_json,
     ),
 }
-Profiles = Callable[[Model, Representation, int, Settings], Profile]
+Profiles = Callable[[AnyModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedModel", "ComparedModel"]
 
 
@@ -76,9 +74,9 @@ class ComparedModel:
     """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both."""
 
     name: str
-    model: Model
+    model: AnyModel
     settings: Settings = field(default_factory=Settings)
-    source: Profiles = profile
+    source: Profiles = profile_of
     answerer: Answerer = computed
     _known: dict[tuple[Representation, int], Profile] = field(
         default_factory=dict, init=False, repr=False, compare=False
@@ -91,6 +89,10 @@ class ComparedModel:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The profile: it costs little."""
+        return self.profile(representation, count)
+
     @property
     def parameters(self) -> tuple[str, ...]:
         """Names of the parameters."""
@@ -102,6 +104,15 @@ class ComparedModel:
         return
 
     @property
+    def n_elements(self) -> None:
+        """It has none."""
+        return
+
+    def part_of(self, other: "ComparedModel") -> None:
+        """No elements can be missing."""
+        return
+
+    @property
     def n_states(self) -> int:
         """Order of the transfer function."""
         return self.model.n_states
@@ -109,10 +120,10 @@ class ComparedModel:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on this model depend on."""
-        return self.name, repr(self.profiled)
+        return self.name, written(self.profiled)
 
     @property
-    def profiled(self) -> Model:
+    def profiled(self) -> AnyModel:
         """The model without its name."""
         return replace(self.model, name="model")
 
@@ -127,10 +138,8 @@ class ComparedModel:
         return colouring(self.columns, ("",) * len(self.parameters))
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """Values and Jacobian columns of the coefficients times the leading one: no division, and
-        the same whichever sign the transfer function is written with.
-        """
-        return products(self.model, point, prime("renaming"))
+        """Values and Jacobian columns of functions that a renaming carries over."""
+        return columns_of(self.model, point)
 
     def symmetry_with(self, other: "ComparedModel") -> Renaming | None:
         """None: its class has no symmetries that are known beforehand."""
@@ -138,7 +147,7 @@ class ComparedModel:
 
     def is_renamed(self, other: "ComparedModel", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns this transfer function into the other: exact."""
-        return is_renaming(self.model, other.model, renaming)
+        return is_renamed(self.model, other.model, renaming)
 
     def exact(self, other: "ComparedModel") -> Finding:
         """The exact decision, for equal ranks and degrees."""
@@ -199,7 +208,7 @@ class ComparedModel:
         return [a.inclusions(b) for a, b in pairs]
 
 
-def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[Model, Model]:
+def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
     return replace(left.model, name=LEFT), replace(right.model, name=RIGHT)
 
 
@@ -212,11 +221,11 @@ def _renamed(left: ComparedModel, right: ComparedModel) -> bool:
     return left.colouring.fingerprint == right.colouring.fingerprint
 
 
-def _constants(left: Model, right: Model) -> Finding:
+def _constants(left: AnyModel, right: AnyModel) -> Finding:
     """Transfer functions without parameters: unequal numbers, known exactly, tell the models
     apart.
     """
-    values = [proven_constants(model, Representation.TF, 0) for model in (left, right)]
+    values = [constants_of(model) for model in (left, right)]
     differing = tuple(
         label for label, x in values[0].items() if label in values[1] and x != values[1][label]
     )

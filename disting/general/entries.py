@@ -4,6 +4,7 @@ trees.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from disting.errors import InputError, shown
@@ -11,33 +12,49 @@ from disting.general.expression import tree
 from disting.general.trees import Power, Product, Sum, Tree, names
 
 Matrix = list[list[Tree]]
+ZERO = Fraction(0)
 
 
 @dataclass(frozen=True, slots=True)
 class StateSpace:
-    """x' = a x + b u, y = c x + d u: a is n x n, b and c have n entries."""
+    """x' = a x + b u, y = c x + d u with n states: a is n x n, b is n x inputs, c is outputs x n
+    and d is outputs x inputs.
+    """
 
     a: Matrix
-    b: list[Tree]
-    c: list[Tree]
-    d: Tree
+    b: Matrix
+    c: Matrix
+    d: Matrix
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of outputs and inputs."""
+        return len(self.c), len(self.b[0])
 
     @property
     def entries(self) -> list[Tree]:
         """All entries."""
-        return [*(entry for row in self.a for entry in row), *self.b, *self.c, self.d]
+        return [e for matrix in (self.a, self.b, self.c, self.d) for row in matrix for e in row]
 
 
 def state_space(a: object, b: object, c: object, d: object) -> StateSpace:
-    """Four matrices as a user gives them: SymPy or NumPy ones, nested lists, for b and c flat
-    lists too.
+    """Four matrices as a user gives them: SymPy or NumPy ones, nested lists; flat lists for a B of
+    one column and a C of one row, one entry for a D of one entry, 0 for a D of zeros.
     """
     rows = _matrix(a, "A")
     n = len(rows)
     if any(len(row) != n for row in rows):
         raise InputError(f"A is square, not {n} x {max(map(len, rows))}")
-    column = [entry for row in _shaped(b, n, 1, "B") for entry in row]
-    return StateSpace(rows, column, _shaped(c, 1, n, "C")[0], _shaped(d, 1, 1, "D")[0][0])
+    force = _column(b) if _is_flat(b) else _matrix(b, "B")
+    sensor = _row(c) if _is_flat(c) else _matrix(c, "C")
+    inputs, outputs = _width(force), len(sensor)
+    _refuse_shape(force, n, inputs, "B")
+    _refuse_shape(sensor, outputs, n, "C")
+    direct = _row(d) if _is_flat(d) else _matrix(d, "D")
+    if direct == [[ZERO]]:
+        direct = [[ZERO] * inputs for _ in sensor]
+    _refuse_shape(direct, outputs, inputs, "D")
+    return StateSpace(rows, force, sensor, direct)
 
 
 def refuse_namesakes(*given: object) -> None:
@@ -70,28 +87,56 @@ def polynomial(side: object, variable: str) -> Tree:
     return Sum(tuple(Product((c, Power(variable, top - i))) for i, c in enumerate(coefficients)))
 
 
+def rows_of(entries: object) -> list[list[Any]]:
+    """The rows of a matrix of transfer functions as they are given; raises InputError."""
+    if not _is_list(entries) or not all(map(_is_list, _listed(entries))):
+        raise InputError(
+            'a matrix of transfer functions is a list of rows; coefficients are "num" and "den"'
+        )
+    rows = [_listed(row) for row in _listed(entries)]
+    if not rows or not rows[0] or any(len(row) != len(rows[0]) for row in rows):
+        raise InputError("the rows of a matrix of transfer functions have equally many entries")
+    if any(map(_is_list, (entry for row in rows for entry in row))):
+        raise InputError("an entry of a matrix of transfer functions is an expression in s")
+    return rows
+
+
 def _matrix(entries: object, name: str) -> Matrix:
     if not _is_list(entries) or not all(map(_is_list, _listed(entries))):
         raise InputError(f"{name} is a matrix: a list of rows")
     return [[tree(entry) for entry in _listed(row)] for row in _listed(entries)]
 
 
-def _shaped(entries: object, height: int, width: int, name: str) -> Matrix:
-    """A matrix of this shape; one row or column may be given as a flat list, one entry as it is."""
-    flat = _listed(entries) if _is_list(entries) else [entries]
-    if any(map(_is_list, flat)):
-        rows = _matrix(entries, name)
-    else:
-        rows = (
-            [[tree(entry)] for entry in flat] if width == 1 else [[tree(entry) for entry in flat]]
-        )
-    if len(rows) != height or any(len(row) != width for row in rows):
-        found = f"{len(rows)} x {max(map(len, rows), default=0)}"
+def _is_flat(entries: object) -> bool:
+    """Whether it is one entry, or a list of entries."""
+    return not any(map(_is_list, _entries(entries)))
+
+
+def _entries(entries: object) -> list[Any]:
+    return _listed(entries) if _is_list(entries) else [entries]
+
+
+def _column(entries: object) -> Matrix:
+    return [[tree(entry)] for entry in _entries(entries)]
+
+
+def _row(entries: object) -> Matrix:
+    found = [tree(entry) for entry in _entries(entries)]
+    return [found] if found else []
+
+
+def _width(rows: Matrix) -> int:
+    return max(map(len, rows), default=0)
+
+
+def _refuse_shape(rows: Matrix, height: int, width: int, name: str) -> None:
+    """Raises InputError for a matrix of another shape, or an empty one."""
+    if len(rows) != height or not rows or any(len(row) != width or not row for row in rows):
         raise InputError(
-            f"{name} is {height} x {width} (one input, one output, A with {max(height, width)}"
-            f" rows), not {found}"
+            f"{name} is {height or 1} x {width or 1} (B has a row and C a column for each row of A,"
+            f" D a row for each row of C and a column for each column of B), not {len(rows)} x"
+            f" {_width(rows)}"
         )
-    return rows
 
 
 def _symbols(given: Any) -> Iterator[Any]:

@@ -17,6 +17,7 @@ from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 from disting.algebra.groebner.rational import Shape
 from disting.general.target import fraction
 from disting.model.domain import Domain
+from disting.model.shown import summary
 
 FIRST_BITS = 128
 
@@ -36,6 +37,9 @@ class Equivalent:
     coordinates: tuple[tuple[Fraction, ...], ...]
     domain: Domain
     numbers: tuple[complex, ...]
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.domain}, {self}")
 
     @property
     def values(self) -> dict[str, Fraction | float | complex]:

@@ -7,6 +7,7 @@ from disting.evidence.general import Explicit, Formula, NoEquivalent
 from disting.general.between import End, Path
 from disting.general.expansion import Expansion
 from disting.general.expression import tree
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.sections import Section
 from disting.general.spelled import polynomial_text, text_of
@@ -28,7 +29,7 @@ def explicit(ways: list[Way], domain: Domain) -> Explicit:
     return Explicit(domain.value, tuple(formulas))
 
 
-def is_explicit(evidence: Explicit, left: Model, right: Model) -> bool:
+def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
     """Whether every formula gives the same transfer function, and the ways found anew cover all
     parameters.
     """
@@ -40,13 +41,13 @@ def is_explicit(evidence: Explicit, left: Model, right: Model) -> bool:
     )
 
 
-def fit(evidence: Explicit, left: Model, right: Model) -> bool:
+def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
     """Whether every formula gives the same transfer function, as put into both models anew."""
     sides = {True: (left, right), False: (right, left)}
     return all(_fits(f, *sides[f[0]], Domain(evidence.domain)) for f in evidence.formulas)
 
 
-def is_without(evidence: NoEquivalent, left: Model, right: Model) -> bool:
+def is_without(evidence: NoEquivalent, left: AnyModel, right: AnyModel) -> bool:
     """Whether the cases found anew are all closed."""
     given, other = (left, right) if evidence.left_given else (right, left)
     one = way(given, other, Domain(evidence.domain))
@@ -84,7 +85,7 @@ def _names(one: Way) -> list[str]:
     return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
 
 
-def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
+def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) -> bool:
     """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and
     what must not be zero is not.
 
@@ -103,19 +104,27 @@ def _fits(formula: Formula, given: Model, other: Model, domain: Domain) -> bool:
     ):
         return False
     point = [expansion.value(t) for t in trees]
-    here = [
-        value_of(c, [RationalFunction(ring[n], one) for n in given.parameters], one)
-        for c in _every(given)
+    generic = [RationalFunction(ring[n], one) for n in given.parameters]
+    pairs = [
+        (
+            [value_of(c, generic, one) for c in _every(a)],
+            [value_of(c, point, one) for c in _every(b)],
+        )
+        for a, b in zip(given.entries, other.entries, strict=True)
     ]
-    there = [value_of(c, point, one) for c in _every(other)]
     equation = expansion.value(tree(root[1])).num if root else one - one
-    rests = [b * here[-1] - a * there[-1] for a, b in zip(here, there, strict=True)]
+    rests = [
+        b * here[-1] - a * there[-1]
+        for here, there in pairs
+        for a, b in zip(here, there, strict=True)
+    ]
+    leads = [there[-1] for _, there in pairs]
     sides = [
         side
-        for v in (*point, there[-1])
+        for v in (*point, *leads)
         for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))
     ]
-    return all(_is_apart(x, equation) for x in (there[-1].num, *sides)) and all(
+    return all(_is_apart(x, equation) for x in (*(v.num for v in leads), *sides)) and all(
         _is_multiple(r.num, equation) for r in rests
     )
 

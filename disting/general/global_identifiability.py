@@ -25,20 +25,21 @@ from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
 from disting.general.cases import ORDERS, Case, Search, orders, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.samples import evaluated
 from disting.general.spelled import text_of
 from disting.model.domain import Domain
 from disting.model.question import Question
 from disting.model.settings import Settings
+from disting.model.shown import Shown, summary
 
 CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
 SETTINGS = Settings()
 
 
 @dataclass(frozen=True, slots=True)
-class GlobalIdentifiability:
+class GlobalIdentifiability(Shown):
     """`count` of complex parameter vectors with one generic transfer function: None if infinite or
     not known.
 
@@ -52,6 +53,9 @@ class GlobalIdentifiability:
     is_infinite: bool
     unique: tuple[str, ...]
     combinations: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
 
     @property
     def sentence(self) -> str:
@@ -71,11 +75,12 @@ class GlobalIdentifiability:
 
 
 def global_identifiability(
-    model: Model, settings: Settings = SETTINGS, *, tries: int = ORDERS
+    model: AnyModel, settings: Settings = SETTINGS, *, tries: int = ORDERS
 ) -> GlobalIdentifiability:
     """How many parameter vectors fit, and what is determined, from so many `tries` of orders in
     which unknowns are solved for.
 
+    >>> from disting.general.model import Model
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     >>> found.count, found.unique, found.combinations
     (2, ('c',), ('c', 'a*b', 'a + b'))
@@ -121,7 +126,7 @@ def _decoded(text: str) -> GlobalIdentifiability:
     )
 
 
-def _cheaply(model: Model, settings: Settings) -> GlobalIdentifiability:
+def _cheaply(model: AnyModel, settings: Settings) -> GlobalIdentifiability:
     few = len(model.parameters) <= CHEAP_UP_TO
     return global_identifiability(model, settings, tries=TRIES if few else 0)
 
@@ -140,7 +145,7 @@ class _Vector:
     at: int
 
 
-def _best(ring: Orthant, model: Model, tries: int) -> Search | None:
+def _best(ring: Orthant, model: AnyModel, tries: int) -> Search | None:
     """The search with the fewest equations left."""
     found: list[Search] = []
     for order in islice(orders(ring.unknowns), tries):
@@ -155,7 +160,7 @@ def _best(ring: Orthant, model: Model, tries: int) -> Search | None:
     )
 
 
-def _vector(ring: Orthant, model: Model, case: Case) -> _Vector | None:
+def _vector(ring: Orthant, model: AnyModel, case: Case) -> _Vector | None:
     """The vector of a case, None if the leading coefficient or a denominator vanishes there."""
     solved = dict(case.solved)
     equation = case.equations[0] if case.equations else None
@@ -216,7 +221,7 @@ def _is_unique(ring: Orthant, vectors: Sequence[_Vector], at: int, search: Searc
 
 
 def _combinations(
-    ring: Orthant, model: Model, rank: int, unique: tuple[str, ...]
+    ring: Orthant, model: AnyModel, rank: int, unique: tuple[str, ...]
 ) -> tuple[str, ...]:
     """Independent ones, by their gradients modulo a prime: what is independent there is so
     everywhere else.
@@ -231,7 +236,7 @@ def _combinations(
         *singles,
         *sorted(ring.monic(model), key=lambda r: (len(r.num) + len(r.den), r.num.total_degree())),
     ]
-    modulus = prime(f"combinations:{model.numerator_terms}:{model.denominator_terms}")
+    modulus = prime(":".join(map(str, ("combinations", *model.content[1:]))))
     point = residues(f"combinations:{model.parameters}", ring.path + 1, modulus)
     chosen, rows = list[str](), list[list[int]]()
     for candidate in candidates:

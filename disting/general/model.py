@@ -22,9 +22,10 @@ from disting.errors import InputError, shown
 from disting.general.entries import polynomial, refuse_namesakes, state_space
 from disting.general.expansion import Expansion
 from disting.general.expression import tree
-from disting.general.response import response
+from disting.general.response import responses
 from disting.general.trees import LONGEST_NUMBER, Tree, names
 from disting.model.chain import Chain
+from disting.model.shown import Shown, plural, summary
 
 MOST_SYMBOLS = 300
 Terms = tuple[tuple[tuple[int, ...], int], ...]
@@ -34,7 +35,7 @@ lexicographic order.
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class Model(Shown):
     """A transfer function in lowest terms, made by `from_state_space`, `from_transfer_function` or
     `from_chain`.
 
@@ -50,6 +51,11 @@ class Model:
     numerator_terms: tuple[Terms, ...]
     denominator_terms: tuple[Terms, ...]
     name: str = field(default="model", compare=False)
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.name}, {plural(self.n_states, 'state')}, {', '.join(self.parameters)}"
+        )
 
     @staticmethod
     def from_state_space(
@@ -68,18 +74,13 @@ class Model:
         >>> str(Model.from_state_space(a, b, c))
         'G(s) = 1/(k + m*s**2)'
         """
-        space = state_space(a, b, c, d)
-        refuse_namesakes(a, b, c, d, s)
-        parameters, variable = _parameters(space.entries), _variable(s)
-        if variable in parameters:
+        ratios, parameters = transfer_functions(a, b, c, d, s)
+        if (len(ratios), len(ratios[0])) != (1, 1):
             raise InputError(
-                f"the matrices contain the frequency variable {variable}; name another one with"
-                " s=.."
+                f"these are {len(ratios)} outputs and {len(ratios[0])} inputs: a Model has one of"
+                " each, a MatrixModel any number"
             )
-        ring = symbols([variable, *parameters])
-        return _model(
-            response(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters, name
-        )
+        return _model(ratios[0][0], parameters, name)
 
     @staticmethod
     def from_transfer_function(
@@ -94,16 +95,12 @@ class Model:
         >>> Model.from_transfer_function("k*s", "(s + p)*(s + q)*k").denominator
         (p*q, p + q, 1)
         """
-        variable = _variable(s)
-        top, bottom = (polynomial(side, variable) for side in (num, den))
+        variable = frequency(s)
+        sides = tuple(polynomial(side, variable) for side in (num, den))
         refuse_namesakes(num, den, s)
-        parameters = tuple(name for name in _parameters([top, bottom]) if name != variable)
+        parameters = parameters_of(sides, variable)
         ring = symbols([variable, *parameters])
-        expansion = Expansion(ring, ring[variable] ** 0)
-        denominator = expansion.value(bottom)
-        if denominator.num.is_zero():
-            raise InputError("the denominator of the transfer function is zero")
-        return _model(expansion.quotient(expansion.value(top), denominator), parameters, name)
+        return _model(fraction(sides, Expansion(ring, ring[variable] ** 0)), parameters, name)
 
     @staticmethod
     def from_chain(chain: Chain, *, name: str = "") -> "Model":
@@ -138,6 +135,11 @@ class Model:
         return len(self.denominator_terms) - 1
 
     @property
+    def entries(self) -> tuple["Model", ...]:
+        """Its one transfer function: as of a `MatrixModel` with several."""
+        return (self,)
+
+    @property
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
         return self.parameters, self.numerator_terms, self.denominator_terms
@@ -155,6 +157,32 @@ class Model:
         return tuple(context.from_dict(dict(terms)) for terms in coefficients)
 
 
+def transfer_functions(
+    a: object, b: object, c: object, d: object, s: object
+) -> tuple[tuple[tuple[RationalFunction, ...], ...], tuple[str, ...]]:
+    """Those of a state space, outputs x inputs, in the ring of s and the parameters, s first, and
+    the parameters; raises InputError.
+    """
+    space = state_space(a, b, c, d)
+    refuse_namesakes(a, b, c, d, s)
+    variable = frequency(s)
+    parameters = parameters_of(space.entries)
+    if variable in parameters:
+        raise InputError(
+            f"the matrices contain the frequency variable {variable}; name another one with s=.."
+        )
+    ring = symbols([variable, *parameters])
+    return responses(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters
+
+
+def fraction(sides: tuple[Tree, ...], expansion: Expansion) -> RationalFunction:
+    """Numerator over denominator; raises InputError where that is zero."""
+    top, bottom = map(expansion.value, sides)
+    if bottom.num.is_zero():
+        raise InputError("the denominator of the transfer function is zero")
+    return expansion.quotient(top, bottom)
+
+
 def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
     """The model of a transfer function in the ring of s and the parameters, s first."""
     if ratio.num.is_zero():
@@ -164,6 +192,11 @@ def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> M
         )
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
+    return entry_of(ratio, parameters, name)
+
+
+def entry_of(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
+    """The same without asking for parameters: of a matrix not every entry has some."""
     top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))
     if any(
         abs(number).bit_length() > LONGEST_NUMBER
@@ -189,8 +222,9 @@ def _coefficients(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
     return tuple(tuple(sorted(part, reverse=True)) for part in parts)
 
 
-def _parameters(entries: Iterable[Tree]) -> tuple[str, ...]:
-    found = tuple(sorted({name for entry in entries for name in names(entry)}))
+def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...]:
+    """All names but that of the frequency variable, sorted; raises InputError."""
+    found = tuple(sorted({n for entry in entries for n in names(entry)} - {variable}))
     if len(found) > MOST_SYMBOLS:
         raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(found)}")
     foreign = [name for name in found if not (name.isascii() and name.isprintable() and name)]
@@ -199,7 +233,8 @@ def _parameters(entries: Iterable[Tree]) -> tuple[str, ...]:
     return found
 
 
-def _variable(s: object) -> str:
+def frequency(s: object) -> str:
+    """The name of the frequency variable; raises InputError."""
     name = tree(s)
     if not isinstance(name, str):
         raise InputError(f"the frequency variable is a symbol or its name, not {shown(s)}")

@@ -4,6 +4,7 @@
       {"name": "two leaks", "A": [["-k12-k01", 0], ["k12", "-k02"]], "B": [1, 0], "C": [0, 1]},
       {"name": "low pass", "num": ["k"], "den": ["T", 1]},
       {"name": "notch", "G": "(s**2 + w**2)/(s**2 + 2*z*w*s + w**2)"},
+      {"name": "two sensors", "G": [["1/(m*s**2 + k)"], ["s/(m*s**2 + k)"]]},
       {"name": "drive", "chain": "3:1+b2", "damped": true}]}
 
 Numbers are read as they are written: 0.1 is 1/10 and never a float. What is not understood is
@@ -13,17 +14,19 @@ model that nobody meant.
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
 from disting.errors import InputError, listed, printable, shown
 from disting.files import write_whole
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.spelled import polynomial_text
 from disting.model.chain import Sensor
 from disting.model.family import Family
-from disting.model.names import chain_of
+from disting.model.names import DAMPED, chain_of
+from disting.model.shown import Shown, plural, summary
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -50,10 +53,10 @@ class _Number(str):
 
 
 @dataclass(frozen=True, slots=True)
-class ModelList:
+class ModelList(Shown):
     """Models with different names, in order."""
 
-    models: tuple[Model, ...]
+    models: tuple[AnyModel, ...]
     title: str = ""
 
     def __post_init__(self) -> None:
@@ -69,13 +72,19 @@ class ModelList:
         if self.title:
             _refuse_name(self.title, "the title", LONGEST_TITLE)
 
+    def __repr__(self) -> str:
+        title = f"{self.title}, " if self.title else ""
+        return summary(
+            self, f"{title}{plural(len(self), 'model')}: {', '.join(m.name for m in self)}"
+        )
+
     def __len__(self) -> int:
         return len(self.models)
 
-    def __iter__(self) -> Iterator[Model]:
+    def __iter__(self) -> Iterator[AnyModel]:
         return iter(self.models)
 
-    def __getitem__(self, name: str) -> Model:
+    def __getitem__(self, name: str) -> AnyModel:
         """The model of this name; raises InputError."""
         for model in self.models:
             if model.name == name:
@@ -153,7 +162,7 @@ def models_of(data: object) -> ModelList:
     return ModelList(models, _text(whole, "title", ""))
 
 
-def _model(entry: object, place: int, variable: str) -> Model:
+def _model(entry: object, place: int, variable: str) -> AnyModel:
     if not isinstance(entry, dict):
         raise InputError(f"model {place} is no object; write it in braces, with a name and {FORMS}")
     name = entry.get("name")
@@ -168,7 +177,7 @@ def _model(entry: object, place: int, variable: str) -> Model:
     return found
 
 
-def _of_kind(entry: Plain, name: str, variable: str) -> Model:
+def _of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
     kinds = [kind for kind in KINDS if kind in entry]
     if len(kinds) != 1:
         raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")
@@ -178,20 +187,26 @@ def _of_kind(entry: Plain, name: str, variable: str) -> Model:
         case "A":
             _refuse_missing(given, ("B", "C"))
             a, b, c, d = given["A"], given["B"], given["C"], given.get("D", 0)
-            return Model.from_state_space(a, b, c, d, s=variable, name=name)
+            return _single(MatrixModel.from_state_space(a, b, c, d, s=variable, name=name))
         case "num":
             return Model.from_transfer_function(
                 given["num"], given.get("den", 1), s=variable, name=name
             )
         case "G":
             if isinstance(given["G"], list):
-                raise InputError('"G" is one expression; lists are "num" and "den"')
+                return MatrixModel.from_transfer_functions(given["G"], s=variable, name=name)
             return Model.from_transfer_function(given["G"], s=variable, name=name)
     return _of_chain(given, name)
 
 
+def _single(model: MatrixModel) -> AnyModel:
+    """The transfer function of one input and one output, else the matrix."""
+    (entry, *others) = model.cells
+    return model if others or entry is None else replace(entry, name=model.name)
+
+
 def _of_chain(given: Plain, name: str) -> Model:
-    damped = given.get("damped", False)
+    damped = given.get("damped", DAMPED)
     if not isinstance(damped, bool):
         raise InputError('"damped" is true or false')
     quantity = _text(given, "sensor", Sensor.ACCELERATION.value)
@@ -210,7 +225,24 @@ def _of_chain(given: Plain, name: str) -> Model:
     return Model.from_chain(chain, name=name)
 
 
-def _written(model: Model) -> dict[str, object]:
+def _written(model: AnyModel) -> dict[str, object]:
+    """As `_of_entry`; a matrix as its expressions, parameters that they lack beside them."""
+    if isinstance(model, Model):
+        return {"name": model.name, **_of_entry(model)}
+    rows = [["0" if e is None else _ratio(_of_entry(e)) for e in row] for row in model.rows]
+    return {"name": model.name, "G": rows}
+
+
+def _ratio(sides: Mapping[str, list[str]]) -> str:
+    """Numerator over denominator as one expression in s."""
+    top, bottom = (
+        " + ".join(f"({c})*s**{k}" for k, c in enumerate(reversed(sides[name])))
+        for name in ("num", "den")
+    )
+    return f"({top})/({bottom})"
+
+
+def _of_entry(model: Model) -> dict[str, list[str]]:
     """Coefficients of falling powers; parameters that they lack stand there times zero."""
     num, den = (
         [polynomial_text(p, model.parameters) for p in reversed(side)]
@@ -226,7 +258,7 @@ def _written(model: Model) -> dict[str, object]:
     for j, name in enumerate(model.parameters):
         if j not in used:
             den[-1] += f" + 0*{name}"
-    return {"name": model.name, "num": num, "den": den}
+    return {"num": num, "den": den}
 
 
 def _plain(content: bytes) -> object:
@@ -277,7 +309,7 @@ def _object(data: object, known: Iterable[str], what: str) -> Plain:
     return data
 
 
-def _refuse_s(model: Model) -> None:
+def _refuse_s(model: AnyModel) -> None:
     """What is told of a model is written in s, whatever the file calls it."""
     if "s" in model.parameters:
         raise InputError("s is a parameter, but stands for the frequency variable; rename it")

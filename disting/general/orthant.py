@@ -19,6 +19,7 @@ from typing import Any
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.domain import Domain
 
@@ -80,17 +81,25 @@ class Orthant:
             {(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms}
         )
 
-    def equations(self, given: Model, other: Model) -> list[fmpz_mpoly]:
+    def equations(self, given: AnyModel, other: AnyModel) -> list[fmpz_mpoly]:
         """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for
         generic p (see `cases`).
         """
-        here, there = self._invariants(given, 0), self._invariants(other, self.n_given)
-        return [b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True)]
+        found: list[fmpz_mpoly] = []
+        for one, searched in zip(given.entries, other.entries, strict=True):
+            here, there = self._invariants(one, 0), self._invariants(searched, self.n_given)
+            every = (b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True))
+            found += [e for e in every if e not in found]
+        return found
 
-    def monic(self, model: Model) -> list[RationalFunction]:
+    def monic(self, model: AnyModel) -> list[RationalFunction]:
         """All coefficients over the leading one, in the p."""
-        sides = [self.lifted(c, 0) for c in (*model.numerator_terms, *model.denominator_terms)]
-        return [RationalFunction(c, sides[-1]) for c in sides[:-1]]
+        found: list[RationalFunction] = []
+        for entry in model.entries:
+            sides = [self.lifted(c, 0) for c in (*entry.numerator_terms, *entry.denominator_terms)]
+            every = (RationalFunction(c, sides[-1]) for c in sides[:-1])
+            found += [ratio for ratio in every if ratio not in found]
+        return found
 
     def _invariants(self, model: Model, first: int) -> list[RationalFunction]:
         """Coefficients of G over the leading one, the numerator without the multiple of the
@@ -111,9 +120,10 @@ class Orthant:
             *monic,
         ]
 
-    def lead(self, other: Model) -> fmpz_mpoly:
-        """Leading denominator coefficient of the searched model."""
-        return self.lifted(other.denominator_terms[-1], self.n_given)
+    def lead(self, other: AnyModel) -> fmpz_mpoly:
+        """Leading denominator coefficients of the searched model, multiplied."""
+        leads = dict.fromkeys(entry.denominator_terms[-1] for entry in other.entries)
+        return self.product(self.lifted(lead, self.n_given) for lead in leads)
 
     def occurring(self, polynomials: Iterable[fmpz_mpoly]) -> list[int]:
         """Positions of the unknowns that occur in any of the polynomials."""

@@ -1,15 +1,16 @@
-"""The transfer function of a state space with rational entries, by two determinants without any
+"""The transfer functions of a state space with rational entries, by two determinants without any
 division.
 
 Multiplying row i of s I - A and of B by the common denominator r_i of their entries, and C and D
 by theirs, q, makes all entries polynomials. With P = diag(r) (s I - A) and the polynomial B', C',
-D'
+D', of one input and one output,
 
     G = C (s I - A)^-1 B + D = det [[P, B'], [-C', D']] / (q det P)
 
-and both determinants share the minors of the rows [P, B'].
+and both determinants share the minors of the rows [P, B'], those of all outputs too.
 """
 
+from collections.abc import Iterator
 from functools import reduce
 
 from flint import fmpz_mpoly
@@ -21,25 +22,36 @@ from disting.general.minors import minors
 from disting.general.trees import Tree
 
 
-def response(space: StateSpace, expansion: Expansion, s: fmpz_mpoly) -> RationalFunction:
-    """G(s) in lowest terms; the ring of the expansion holds s and the parameters. Raises
-    InputError if it grows too large.
+def responses(
+    space: StateSpace, expansion: Expansion, s: fmpz_mpoly
+) -> tuple[tuple[RationalFunction, ...], ...]:
+    """G(s) in lowest terms, outputs x inputs; the ring of the expansion holds s and the
+    parameters. Raises InputError if it grows too large.
     """
-    one = expansion.one
+    columns = [list(_of_input(space, j, expansion, s)) for j in range(space.shape[1])]
+    return tuple(zip(*columns, strict=True))
+
+
+def _of_input(
+    space: StateSpace, at: int, expansion: Expansion, s: fmpz_mpoly
+) -> Iterator[RationalFunction]:
+    """Yield the transfer functions from one input to all outputs."""
     dynamics = [
-        _cleared([*row, force], expansion) for row, force in zip(space.a, space.b, strict=True)
+        _cleared([*row, force[at]], expansion) for row, force in zip(space.a, space.b, strict=True)
     ]
-    output, scale = _cleared([*space.c, space.d], expansion)
     rows = [[-entry for entry in row[:-1]] + [row[-1]] for row, _ in dynamics]
     for i, (_, common) in enumerate(dynamics):
         rows[i][i] += expansion.times(common, s)
-    above = minors(rows, {0: one}, expansion.times)
-    whole = minors([[*(-entry for entry in output[:-1]), output[-1]]], above, expansion.times)
-    n = len(rows)
+    one, n = expansion.one, len(rows)
     zero = one - one
-    return expansion.ratio(
-        whole.get((2 << n) - 1, zero), expansion.times(scale, above.get((1 << n) - 1, zero))
-    )
+    above = minors(rows, {0: one}, expansion.times)
+    for sensor, through in zip(space.c, space.d, strict=True):
+        output, scale = _cleared([*sensor, through[at]], expansion)
+        last = [[*(-entry for entry in output[:-1]), output[-1]]]
+        whole = minors(last, above, expansion.times)
+        yield expansion.ratio(
+            whole.get((2 << n) - 1, zero), expansion.times(scale, above.get((1 << n) - 1, zero))
+        )
 
 
 def _cleared(entries: list[Tree], expansion: Expansion) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from disting.general.between import Path, odd_path, path, without_equations
 from disting.general.cases import Case, orders, searched
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
@@ -25,8 +25,8 @@ class Way:
     lies in one.
     """
 
-    given: Model
-    other: Model
+    given: AnyModel
+    other: AnyModel
     parted: Parted
     covering: tuple[Section, ...]
 
@@ -73,7 +73,7 @@ class Way:
         return {i: values[name] for i, name in enumerate(self.given.parameters)}
 
 
-def way(given: Model, other: Model, domain: Domain) -> Way | None:
+def way(given: AnyModel, other: AnyModel, domain: Domain) -> Way | None:
     """What is known one way, or None if the search grew too large. Both models have the same
     degrees.
 
@@ -99,7 +99,7 @@ def _left(parted: Parted) -> tuple[int, int]:
     )
 
 
-def _parted(ring: Orthant, given: Model, other: Model, order: tuple[int, ...]) -> Parted:
+def _parted(ring: Orthant, given: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Parted:
     search = searched(ring, given, other, order)
     found, others = list[Section](), list[Case]()
     for case in search.cases:

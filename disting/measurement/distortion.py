@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.measurement.arrays import Complex, Real, applied
+from disting.model.shown import plural, summary
 
 ROUNDING = 1e-9  # share of the response that is not worth a word
 FEWEST = 4  # lines of a kind that are summed up
@@ -37,6 +38,9 @@ class Distortion:
     noise: Real | None
     even: NDArray[np.bool_]
     told_apart: bool
+
+    def __repr__(self) -> str:
+        return summary(self, plural(len(self.omega), "line"))
 
     @property
     def kinds(self) -> tuple[tuple[str, Real, NDArray[np.bool_]], ...]:

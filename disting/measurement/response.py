@@ -2,8 +2,9 @@
 quantity and origin.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,10 @@ from disting.measurement.arrays import (
 from disting.measurement.distortion import Distortion
 from disting.measurement.units import agree, differentiated
 from disting.model.chain import Sensor, as_sensor
+from disting.model.shown import Shown, plural, summary
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 ASSUMED_ACCELERATION = (
     'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
@@ -43,7 +48,7 @@ UNNAMED = Signal()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FrequencyResponse:
+class FrequencyResponse(Shown):
     """Measured response at n_f frequencies; immutable, equal if its numbers, sensor and signals
     are equal.
 
@@ -98,6 +103,18 @@ class FrequencyResponse:
         object.__setattr__(self, "output", Signal(*self.output))
         object.__setattr__(self, "notes", (*self.notes, *[SORTED] * moved))
 
+    def __repr__(self) -> str:
+        low, high = self.frequency[0], self.frequency[-1]
+        unit = (
+            f" [{self.output.unit}/{self.input.unit}]"
+            if self.output.unit and self.input.unit
+            else ""
+        )
+        return summary(
+            self,
+            f"{plural(len(self), 'line')}, {low:.4g} to {high:.4g} Hz, {self.sensor.value}{unit}",
+        )
+
     def __reduce__(self) -> tuple[Any, ...]:
         # arrays stay read-only in a copy
         return FrequencyResponse, tuple(getattr(self, field.name) for field in fields(self))
@@ -118,6 +135,15 @@ class FrequencyResponse:
 
     def __hash__(self) -> int:
         return hash((self.sensor, self.omega.tobytes(), self.G.tobytes()))
+
+    def plot(self, ax: "Axes | Sequence[Axes] | None" = None, **style: Any) -> tuple["Axes", ...]:
+        """Bode diagram with matplotlib: amplitude and phase [degree] over frequency [Hz].
+
+        `ax`: two axes, or one for the amplitude alone, such as those that another `plot` returned;
+        without them a new figure. `style` as `Axes.plot` takes it. Returns the axes. Raises
+        DistingError where matplotlib is missing.
+        """
+        return tuple(self._presenter.plot(self, ax, style))
 
     @property
     def frequency(self) -> Real:

@@ -11,6 +11,7 @@ from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.closed_loop import follows_output
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.model.chain import Sensor, as_sensor
+from disting.model.shown import plural, summary
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +51,11 @@ class TimeSeries:
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
+
+    def __repr__(self) -> str:
+        samples = f"{plural(len(self), 'sample')} at {self.sampling_rate:.6g} Hz"
+        seconds = len(self) / self.sampling_rate
+        return summary(self, f"{samples}, {seconds:.4g} s, {self.sensor.value}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         # arrays stay read-only in a copy
@@ -96,45 +102,26 @@ class TimeSeries:
         period is found, periods are missing, too few lines are left, or `period` and `segment` are
         both given.
         """
-        if segment is not None and (period is not None or lines is not None):
-            raise InputError(
-                "period and lines belong to a periodic excitation, segment to any other: give one"
-                " of them"
-            )
-        if segment is None and least_coherence is not None:
-            raise InputError(
-                "least_coherence belongs to Welch's method: give segment= [samples] too"
-            )
+        given = (self.u, self.y, self.sampling_rate)
         # what is not finite then is refused below
         with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
+                if least_coherence is not None:
+                    raise InputError(
+                        "least_coherence belongs to Welch's method: give segment= [samples] too"
+                    )
                 excitation = self.u if self.reference is None else self.reference
-                found = periodic.estimate(
-                    self.u, self.y, self.sampling_rate, period, transient, lines, band, excitation
-                )
+                found = periodic.estimate(*given, period, transient, lines, band, excitation)
             else:
-                found = welch.estimate(
-                    self.u,
-                    self.y,
-                    self.sampling_rate,
-                    segment,
-                    band,
-                    self.reference,
-                    least_coherence,
-                )
-        if len(found.omega) < checks.FEWEST:
-            said = "; ".join(
-                (*found.notes, *([f"band {band[0]:g}..{band[1]:g} Hz"] if band else []))
-            )
-            raise InputError(
-                f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed:"
-                f" {said}"
-            )
-        doubt = (
-            follows_output(self.u, self.y)
-            if segment is not None and self.reference is None
-            else None
-        )
+                if period is not None or lines is not None:
+                    raise InputError(
+                        "period and lines belong to a periodic excitation, segment to any other:"
+                        " give one of them"
+                    )
+                found = welch.estimate(*given, segment, band, self.reference, least_coherence)
+        _refuse_few(found, band)
+        in_doubt = segment is not None and self.reference is None
+        doubt = follows_output(self.u, self.y) if in_doubt else None
         response = FrequencyResponse(
             omega=found.omega,
             G=found.G,
@@ -159,6 +146,15 @@ def said(sensor: Sensor | str | None) -> tuple[Sensor, tuple[str, ...]]:
     return Sensor.POSITION, (
         'output taken as a position; if not, give sensor="velocity" or sensor="acceleration"',
     )
+
+
+def _refuse_few(found: periodic.Estimated, band: tuple[float, float] | None) -> None:
+    if len(found.omega) < checks.FEWEST:
+        within = [f"band {band[0]:g}..{band[1]:g} Hz"] if band else []
+        raise InputError(
+            f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed:"
+            f" {'; '.join((*found.notes, *within))}"
+        )
 
 
 def _samples(values: Any, name: str) -> Real:

@@ -47,23 +47,14 @@ def estimate(
 
     Lines of a coherence below `least_coherence` are left out (default: that of chance).
     """
-    from scipy.signal import csd
-
     count = _segments(len(u), segment)
     low, high = band or (0.0, np.inf)
     grid: Real = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
 
     def spectrum(a: Real, b: Real) -> Complex:
-        """S_ab by Welch's method, shape (n_f,), at the lines that are kept."""
-        options = {
-            "fs": rate,
-            "window": "hann",
-            "nperseg": segment,
-            "noverlap": segment // 2,
-            "detrend": "constant",
-        }
-        return np.asarray(csd(a, b, **options)[1][kept])
+        """S_ab at the lines that are kept."""
+        return _cross_spectrum(a, b, rate, segment)[kept]
 
     uu, yy, uy = spectrum(u, u).real, spectrum(y, y).real, spectrum(u, y)
     rr, ru, ry = (
@@ -94,6 +85,20 @@ def estimate(
         coherence=coherence[good],
         notes=tuple(notes),
     )
+
+
+def _cross_spectrum(a: Real, b: Real, rate: float, segment: int) -> Complex:
+    """S_ab by Welch's method, shape (n_f,), at all multiples of rate/segment."""
+    from scipy.signal import csd
+
+    options = {
+        "fs": rate,
+        "window": "hann",
+        "nperseg": segment,
+        "noverlap": segment // 2,
+        "detrend": "constant",
+    }
+    return np.asarray(csd(a, b, **options)[1])
 
 
 def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], level: float) -> str:

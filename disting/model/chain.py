@@ -13,7 +13,10 @@ from functools import lru_cache
 
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.constraints import Indices, violated
+from disting.model.shown import Drawn
 from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
+
+PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said
 
 
 class Sensor(StrEnum):
@@ -30,7 +33,7 @@ class Sensor(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(Drawn):
     """One chain model; immutable and hashable, its content is its identity.
 
     Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1
@@ -69,6 +72,15 @@ class Chain:
             raise ConstraintViolation(_refusal(self.indices, broken.equation, broken.text))
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
+
+    def __repr__(self) -> str:
+        ports = self.indices[1:] if self.indices[1:] != PORTS else ()
+        given = [repr(i) for i in (self.n_masses, *ports)]
+        given += [f"sensor={self.sensor.value!r}"] * (self.sensor is not Sensor.ACCELERATION)
+        given += ["damped=True"] * self.damped
+        given += [f"ground_dampers={self.ground_dampers}"] * bool(self.ground_dampers)
+        given += ["lag=True"] * self.lag + ["dead_time=True"] * self.dead_time
+        return f"Chain({', '.join(given)})"
 
     @property
     def indices(self) -> Indices:

@@ -8,14 +8,17 @@ from itertools import product
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
+from disting.model.shown import Shown
 
 # of a family that a command or a text may ask for: it has 1.4 million models, listed in half a
 # minute
 MOST_MASSES = 40
+# masses; larger families are long to list, so their chains are named by their indices
+NUMBERED_UP_TO = 8
 
 
 @dataclass(frozen=True)
-class Family:
+class Family(Shown):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
 
     The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation).
@@ -35,6 +38,11 @@ class Family:
             or self.n_masses < 1
         ):
             raise InputError(f"a family has at least one mass, not {shown(self.n_masses)}")
+
+    def __repr__(self) -> str:
+        damped = ", damped=True" * self.damped
+        sensor = "" if self.sensor is Sensor.ACCELERATION else f", sensor={str(self.sensor)!r}"
+        return f"Family({self.n_masses}{damped}{sensor})"
 
     @cached_property
     def models(self) -> tuple[Chain, ...]:

@@ -1,42 +1,144 @@
-"""Chains as users write them: 3:1+b2 is model 1 of 3 masses, with a damper from mass 2 to the
-ground; +lag stands for a first-order lag, +delay for a dead time.
+"""One name for a model, read and written here: 3:1+b2+lag+delay is model 1 of 3 masses, with a
+damper from mass 2 to the ground, a first-order lag and a dead time.
+
+Where the number of masses is known, A1+b2 does. Damping of the springs and the sensor quantity are
+no part of a name; they are said once for all models that are named together.
 """
 
 import re
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from disting.errors import InputError, shown
-from disting.model.chain import Chain
-from disting.model.family import MOST_MASSES, Family
+from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.family import MOST_MASSES, NUMBERED_UP_TO, Family
 
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
+NAME = re.compile(rf"(?:(\d{{1,3}}):[Aa]?|[Aa])(\d{{1,7}})({EXTRAS})")
+WORDS = ("lag", "delay")
+# what a name means where nothing else is said: springs of machines are damped, and so are the
+# structures that a fit names
+DAMPED = True
+LONGEST = 60  # characters of a text that is looked at for what it may mean
 
 
-def chain_of(model: Chain | str, family: Family) -> Chain:
+@dataclass(frozen=True, slots=True)
+class Name:
+    """What a name says: `masses`, 0 where it is left to what is known; `extras` such as +b2+lag."""
+
+    masses: int
+    number: int
+    extras: str
+
+    def __str__(self) -> str:
+        masses = f"{self.masses}:" if self.masses else "A"
+        return f"{masses}{self.number}{self.extras}"
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is a model of the numbered list itself."""
+        return not self.extras
+
+    def chain(self, family: Family) -> Chain:
+        """The model, with the family's damping and sensor, and its size if none is said."""
+        return extended(sized(family, self.masses or family.n_masses)[self.number], self.extras)
+
+
+def read(text: str) -> Name:
+    """What a text names; raises InputError, which says what may have been meant.
+
+    >>> read("3:1+b2+lag"), read("A4").masses
+    (Name(masses=3, number=1, extras='+b2+lag'), 0)
+    """
+    match = NAME.fullmatch(_joined(text))
+    if match is None:
+        meant = _meant(text)
+        raise InputError(
+            "a model is written masses:number, for instance 3:4 or 3:4+b1+lag, or A4 where the"
+            f" number of masses is known, not {shown(text)}"
+            + f"; did you mean {meant}?"
+            * bool(meant)
+        )
+    return Name(int(match[1] or 0), int(match[2]), match[3])
+
+
+def chain_of(model: Chain | str, family: Family, *, masses: int = 0) -> Chain:
     """A chain as it is; text such as 3:11 is model 11 of the 3-mass family, with damping and
     sensor of the given family.
 
-    Raises InputError.
+    A11 is model 11 of `masses` masses; 0: it is not known of how many. Raises InputError.
 
     >>> chain_of("3:1+b1+b3+lag", Family(3)).parameters
     ('m1', 'm2', 'm3', 'k12', 'k23', 'b1', 'b3', 'T1')
     """
     if isinstance(model, Chain):
         return model
-    match = re.fullmatch(rf"(\d{{1,2}}):(\d{{1,6}})({EXTRAS})", str(model).strip())
-    if not match:
+    name = read(str(model))
+    if not (name.masses or masses):
         raise InputError(
-            "a model is a Chain or written masses:number, for instance 3:4 or 3:4+b1+lag, not"
-            f" {shown(model)}"
+            f"A{name.number}: the number of masses is not known here; write it before the number,"
+            f" for instance 3:{name.number}{name.extras}"
         )
-    return extended(sized(family, match[1])[int(match[2])], match[3])
+    return name.chain(replace(family, n_masses=masses or 1))
 
 
-def sized(family: Family, masses: str) -> Family:
-    """The family with as many masses as the text says; raises InputError."""
-    if int(masses) > MOST_MASSES:
+def chains_named(
+    models: Sequence[Chain | str], *, damped: bool | None = None, sensor: Sensor | str | None = None
+) -> list[Chain]:
+    """Models that are named together: what one of them does not say is taken from the others.
+
+    A4 has as many masses as those that say it. `damped` and `sensor` are of those given as text;
+    where they are not said (None), they are those of the first `Chain`, or damped chains whose
+    acceleration is measured. Raises InputError.
+
+    >>> [name_of(chain) for chain in chains_named(["3:1", "A4+b2"])]
+    ['3:1', '3:4+b2']
+    >>> chains_named([Family(3)[1], "A4"])[1].damped
+    False
+    """
+    given = next((m for m in models if isinstance(m, Chain)), Chain(1, damped=DAMPED))
+    family = Family(
+        1,
+        given.damped if damped is None else damped,
+        given.sensor if sensor is None else as_sensor(sensor),
+    )
+    sizes = {m.n_masses if isinstance(m, Chain) else read(str(m)).masses for m in models} - {0}
+    if len(sizes) == 1:
+        return [chain_of(m, family, masses=min(sizes)) for m in models]
+    return [chain_of(m, family) for m in models]
+
+
+def name_of(chain: Chain) -> str:
+    """The name of a chain, wholly; its indices instead of a number for chains without one.
+
+    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)))
+    '3:4+b1'
+    """
+    plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
+    family = Family(chain.n_masses, chain.damped, chain.sensor)
+    try:
+        number = family.number(plain) if chain.n_masses <= NUMBERED_UP_TO else 0
+    except InputError:
+        number = 0
+    return (f"{chain.n_masses}:{number}" if number else f"({plain})") + extras_of(chain)
+
+
+def extras_of(chain: Chain) -> str:
+    """What stands behind the number: +b1+lag."""
+    words = [*(f"b{i}" for i in chain.ground_dampers), *["lag"] * chain.lag]
+    return "".join(f"+{word}" for word in [*words, *["delay"] * chain.dead_time])
+
+
+def damping_option(damped: bool) -> str:
+    """How a command line says it."""
+    return "--damped" if damped else "--undamped"
+
+
+def sized(family: Family, masses: int) -> Family:
+    """The family with as many masses; raises InputError where they are too many to be numbered."""
+    if masses > MOST_MASSES:
         raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {masses}")
-    return replace(family, n_masses=int(masses))
+    return replace(family, n_masses=masses)
 
 
 def extended(chain: Chain, extras: str) -> Chain:
@@ -44,3 +146,29 @@ def extended(chain: Chain, extras: str) -> Chain:
     words = extras.split("+")[1:]
     dampers = tuple(int(word[1:]) for word in words if word[0] == "b")
     return replace(chain, ground_dampers=dampers, lag="lag" in words, dead_time="delay" in words)
+
+
+def _joined(text: str) -> str:
+    """Without blanks at the ends and around + and the colon."""
+    return re.sub(r"\s*([:+])\s*", r"\1", text.strip())
+
+
+def _meant(text: str) -> str:
+    """The name that a text may have been meant for; "" if none is near."""
+    if len(text) > LONGEST:
+        return ""
+    head, *words = _joined(text.replace("_", " ")).lower().split("+")
+    head = re.sub(r"^a?(\d{1,2})\s*[.;,/\- ]\s*a?(\d{1,6})$", r"\1:\2", head)
+    near = [_word(word.replace(" ", "")) for word in words]
+    found = "+".join([head, *near])
+    return found if NAME.fullmatch(found) and found != text else ""
+
+
+def _word(word: str) -> str:
+    """The extra that a word is near to."""
+    from difflib import get_close_matches  # where something is wrong, and nowhere else
+
+    damper = re.fullmatch(r"[bd]?0*([1-9]\d?)", word)
+    near = get_close_matches(word, (*WORDS, "deadtime", "dead-time"), 1, 0.6)
+    found = f"b{damper[1]}" if damper else near[0] if near else word
+    return "delay" if found.startswith("dead") else found

@@ -11,8 +11,8 @@ from disting.model.settings import Settings
 
 T = TypeVar("T")
 Models = tuple[Any, ...]
-"""One chain or general model, or an ordered pair of them: frozen, and its `repr` tells all of
-it.
+"""One chain or general model, or an ordered pair of them: frozen dataclasses, whose fields tell all
+of them.
 """
 
 

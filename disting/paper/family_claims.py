@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from disting.behaviour.sample import Representation
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 from disting.model.family import Family
@@ -66,8 +65,7 @@ def collocated(findings: Findings) -> Found:
 
 def coefficients(findings: Findings, *, damped: bool) -> list[int]:
     """Non-constant coefficients of the 3-mass models."""
-    subjects = [findings.engine.subject("", chain) for chain in Family(3, damped)]
-    return [len(s.profile(Representation.TF, 0).form) for s in subjects]
+    return [len(p.form) for p in findings.engine.profiles_of(Family(3, damped))]
 
 
 def sensors(findings: Findings) -> Found:
@@ -93,7 +91,8 @@ def sensors(findings: Findings) -> Found:
 
 
 def _series(findings: Findings, chain: Chain, count: int) -> frozenset[str]:
-    return findings.engine.subject("", chain).profile(Representation.MARKOV, count).form
+    (found,) = findings.engine.profiles_of([chain], markov=count)
+    return found.form
 
 
 FAMILY_CLAIMS = (

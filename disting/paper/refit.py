@@ -13,7 +13,8 @@ from types import MappingProxyType
 import numpy as np
 
 from disting.fit.cost import Cost
-from disting.fit.estimate import Task, estimates
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimates
 from disting.fit.modes import oscillating, poles, zeros
 from disting.fit.plant import Plant, Real
 from disting.measurement import FrequencyResponse

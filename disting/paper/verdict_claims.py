@@ -5,7 +5,6 @@ from itertools import combinations
 
 import numpy as np
 
-from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome as Holding
 from disting.conditions.necessary import DEPENDENCES
 from disting.conditions.sufficient import condition_7
@@ -120,8 +119,7 @@ def determinable(findings: Findings) -> Found:
 
 def more_markov_than_parameters(findings: Findings) -> Found:
     """Whether condition 7 decides anything from all 12 Markov parameters, undamped."""
-    subjects = [findings.engine.subject("", chain) for chain in Family(3)]
-    profiles = [s.profile(Representation.MARKOV, 12) for s in subjects]
+    profiles = findings.engine.profiles_of(Family(3), markov=12)
     more = [len(p.form) > p.rank for p in profiles]
     holds = [condition_7(*pair).outcome is Holding.HOLDS for pair in combinations(profiles, 2)]
     said = (

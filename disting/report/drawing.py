@@ -32,14 +32,16 @@ JOINT = 36.0  # length of a spring
 PITCH = MASS + JOINT
 NOTE = 16.0  # height of the line that tells lag and dead time
 RISE = 33.0  # from the middle of the masses to the actuator's and to the sensor's bar
+LOWER = 25.0  # from one sensor's bar to that of a further one
 STEM = 11.0  # a ground damper hangs this far left of its mass's middle
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Where things are in the drawing of one chain."""
+    """Where things are in the drawing of one chain; `more`: bars of further sensors."""
 
     chain: Chain
+    more: int = 0
 
     @property
     def axis(self) -> float:
@@ -55,7 +57,7 @@ class Layout:
     @property
     def height(self) -> float:
         """Height of the drawing."""
-        return self.axis + 46 + 32 * bool(self.chain.ground_dampers)
+        return self.axis + 46 + LOWER * self.more + 32 * bool(self.chain.ground_dampers)
 
     def middle(self, node: int) -> float:
         """x of a mass's middle, of the wall's face for the ground."""
@@ -76,14 +78,16 @@ def chain_png(chain: Chain, *, scale: float = 3) -> bytes:
     return png(draw(chain), scale=scale)
 
 
-def draw(chain: Chain) -> Scene:
-    """The drawing of a chain; each of its elements is one layer, named like its parameter."""
-    at = Layout(chain)
+def draw(chain: Chain, more: int = 0) -> Scene:
+    """The drawing of a chain, with room for bars of `more` further sensors; each of its elements
+    is one layer, named like its parameter; the force is the last.
+    """
+    at = Layout(chain, more)
     elements = (Layer(e.parameter, _element(e, at)) for e in chain.structure.elements)
     return Scene(
         at.width,
         at.height,
-        (*_ground(at), *elements, _gap(at), _force(at), _sensor(at), *_notes(at)),
+        (*_ground(at), *elements, _gap(at), _sensor(at), *_notes(at), _force(at)),
         describe(chain),
     )
 
@@ -183,49 +187,59 @@ def _gap(at: Layout) -> Layer:
 
 
 def _force(at: Layout) -> Layer:
-    """Bar with arrows that push apart what it connects; the ground's end is fixed to the wall."""
-    chain, y = at.chain, at.axis - RISE
-    x0, x1 = at.middle(chain.act_minus), at.middle(chain.act_plus)
+    return Layer("force", force_bar(at, (at.chain.act_minus, at.chain.act_plus)))
+
+
+def force_bar(at: Layout, ends: tuple[int, int]) -> tuple[Shape, ...]:
+    """Bar with arrows that push apart what it connects, minus and plus mass; the ground's end is
+    fixed to the wall.
+    """
+    y = at.axis - RISE
+    x0, x1 = map(at.middle, ends)
     centre = (x0 + x1) / 2
-    posts = [
-        _post(at.middle(node), at.axis - MASS / 2, y - 4, Ink.FORCE)
-        for node in (chain.act_minus, chain.act_plus)
-        if node
-    ]
+    posts = [_post(at.middle(i), at.axis - MASS / 2, y - 4, Ink.FORCE) for i in ends if i]
     back = (
         arrow((centre, y), (x0 + 1, y), Ink.FORCE)
-        if chain.act_minus
+        if ends[0]
         else (Path(((centre, y), (x0 + 2, y)), Ink.FORCE, line=2),)
     )
     sign = (
         Circle(centre, y, 9, Ink.PAPER, Ink.FORCE),
         Text(centre, y, "F", 12, Ink.FORCE, bold=True),
     )
-    return Layer("force", (*posts, *back, *arrow((centre, y), (x1 - 1, y), Ink.FORCE), *sign))
+    return (*posts, *back, *arrow((centre, y), (x1 - 1, y), Ink.FORCE), *sign)
 
 
 def _sensor(at: Layout) -> Layer:
-    """Bar from the reference (open dot, or the wall) to the measured mass (filled dot)."""
-    chain, y = at.chain, at.axis + RISE
-    x0, x1 = at.middle(chain.meas_minus), at.middle(chain.meas_plus)
+    ends = at.chain.meas_minus, at.chain.meas_plus
+    return Layer("sensor", sensor_bar(at, ends, at.axis + RISE, "y"))
+
+
+def sensor_bar(
+    at: Layout, ends: tuple[int, int], y: float, sign: str, aside: float = 0.0
+) -> tuple[Shape, ...]:
+    """Bar from the reference (open dot, or the wall) to the measured mass (filled dot); `aside`:
+    how far right of the middle of a mass it hangs.
+    """
+    x0, x1 = (at.middle(i) + aside * bool(i) for i in ends)
     centre = (x0 + x1) / 2
     posts = [
-        _post(at.middle(node), at.axis + MASS / 2, y, Ink.SENSOR)
-        for node in (chain.meas_minus, chain.meas_plus)
-        if node
+        _post(x, at.axis + MASS / 2, y, Ink.SENSOR)
+        for x, i in zip((x0, x1), ends, strict=True)
+        if i
     ]
     bar = [
         Path(((a, y), (b, y)), Ink.SENSOR, line=2)
-        for a, b in _pieces(x0 + 2 * (not chain.meas_minus), x1, _stems(at))
+        for a, b in _pieces(x0 + 2 * (not ends[0]), x1, _stems(at))
     ]
-    ends = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(chain.meas_minus) + [
+    dots = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(ends[0]) + [
         Circle(x1, y, 4.5, Ink.SENSOR)
     ]
-    sign = (
+    box = (
         Rect(centre - 8, y - 8, 16, 16, Ink.PAPER, Ink.SENSOR),
-        Text(centre, y - 1, "y", 12, Ink.SENSOR, bold=True),
+        Text(centre, y - 1, sign, 12 if len(sign) == 1 else 10.5, Ink.SENSOR, bold=True),
     )
-    return Layer("sensor", (*posts, *bar, *ends, *sign))
+    return (*posts, *bar, *dots, *box)
 
 
 def _post(x: float, y0: float, y1: float, ink: Ink) -> Path:

@@ -4,6 +4,8 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from disting.files import __version__
+
 
 def render(template: str, **values: object) -> str:
     """Text of a template."""
@@ -21,7 +23,7 @@ def source(template: str) -> str:
 def environment() -> Environment:
     """Templates of this package: a missing value is an error, a text is never taken for markup."""
     loader = PackageLoader("disting.report")
-    return Environment(
+    found = Environment(
         loader=loader,
         autoescape=True,
         undefined=StrictUndefined,
@@ -29,3 +31,5 @@ def environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+    found.globals["version"] = __version__  # every page names it
+    return found

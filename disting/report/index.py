@@ -62,12 +62,6 @@ def index(
     """HTML of the index: the catalogues in the order given, families with ground dampers, and
     further pages.
     """
-    sizes: dict[str, dict[str, object]] = {
-        c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
-    }
-    with_dampers: dict[str, dict[str, object]] = {
-        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
-    }
     masses = sorted({c.n_masses for c in catalogs})
     return render(
         "index.html",
@@ -75,13 +69,27 @@ def index(
         damper_cards=[damper_card(f) for f in dampers],
         example=example(catalogs),
         links=links,
-        sizes=script_json(sizes | with_dampers),
+        sizes=script_json(sizes(catalogs, dampers)),
         machines=script_json(machines(catalogs)),
         machine_parts=definitions(parts(catalogs)),
         machine_sizes=masses,
         machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,
     )
+
+
+def sizes(
+    catalogs: Sequence[Catalog], dampers: Sequence[DamperFamily]
+) -> dict[str, dict[str, object]]:
+    """What a search needs of each page of pairs, by its name: how many models there are, and the
+    folder of their pages where they have any.
+    """
+    with_dampers: dict[str, dict[str, object]] = {
+        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
+    }
+    return {
+        c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
+    } | with_dampers
 
 
 def card(catalog: Catalog) -> Card:

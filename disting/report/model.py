@@ -20,8 +20,9 @@ from disting.questions.identifiability import Level
 from disting.questions.inclusion import Inclusion
 from disting.report.drawing import draw
 from disting.report.environment import render
+from disting.report.experiment_drawing import definitions
 from disting.report.formulas import Correspondence, combinations, correspondence, written
-from disting.report.next_steps import advice, found_for, page_of
+from disting.report.next_steps import advice, drawn, found_for, page_of
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
 from disting.report.words import plural, rule_in_words, short_title
@@ -44,8 +45,9 @@ class Drawing:
 
     @cached_property
     def definition(self) -> Markup:
-        """The drawing itself."""
-        return Markup(f'<g id="chain-{self.number}">{body(self.scene, PAGE_PALETTE)}</g>')
+        """The drawing itself; all but the force is a part of its own, rest-5 of chain-5."""
+        drawn = body(self.scene, PAGE_PALETTE, f"rest-{self.number}")
+        return Markup(f'<g id="chain-{self.number}">{drawn}</g>')
 
     @property
     def width(self) -> str:
@@ -166,6 +168,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         for other, v in verdicts.items()
         if seen[other] is not Relation.DISTINGUISHABLE
     ]
+    told = advice(found_for(catalog), number)
     over_complex = {other: catalog.relation(number, other, View.EXACT) for other in verdicts}
     return render(
         "model.html",
@@ -193,7 +196,8 @@ def model_page(catalog: Catalog, number: int) -> str:
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
         ),
         limits=limits(number, verdicts),
-        advice=advice(found_for(catalog), number),
+        advice=told,
+        additions=definitions(drawn([told] if told else [])),
         next_name=page_of(catalog),
         motion=motion_of(catalog),
         last=len(catalog.family),

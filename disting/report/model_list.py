@@ -12,7 +12,7 @@ from pathlib import Path
 from disting.catalogs.export import decisions_csv, decisions_json
 from disting.errors import InputError
 from disting.files import write_whole
-from disting.general import GlobalIdentifiability, Model, ModelList
+from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
 from disting.general.global_identifiability import IDENTIFIABILITY
 from disting.report.domains import VIEWS, over
 from disting.report.environment import render
@@ -73,6 +73,17 @@ class Card:
         return str(self.known.count or "not known")
 
 
+def refuse_matrices(found: ModelList, path: str) -> None:
+    """Raises InputError for models with several inputs or outputs: a page has one formula each."""
+    several = next((m for m in found if isinstance(m, MatrixModel)), None)
+    if several is not None:
+        outputs, inputs = several.shape
+        raise InputError(
+            f"{path}: a page shows models with one input and one output, and {several.name} has"
+            f" {inputs} and {outputs}: ask 'disting verdicts' and 'disting models' of the file"
+        )
+
+
 def judged(
     found: ModelList,
     engine: Engine,
@@ -81,7 +92,8 @@ def judged(
     progress: Progress = silent,
 ) -> JudgedList:
     """Decide all pairs over positive and over complex parameters, and what is identifiable."""
-    subjects = [engine.general_subject(model.name, model) for model in found]
+    models = tuple(model for model in found if isinstance(model, Model))
+    subjects = [engine.general_subject(model.name, model) for model in models]
     decided = {
         view: engine.decisions(
             subjects, Query(view, inclusion=False), executor=executor, progress=progress
@@ -91,7 +103,7 @@ def judged(
     asked = [(subject.profiled,) for subject in subjects]
     engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
     known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
-    return JudgedList(found.models, decided, known)
+    return JudgedList(models, decided, known)
 
 
 def write_model_list(found: JudgedList, title: str, name: str, out: Path) -> list[Path]:
@@ -148,7 +160,7 @@ def model_list_page(
         compared=n_pairs,
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
         told=list(_told(found)) if n_pairs <= LISTED_PAIRS else [],
-        payload=payload(found, domains, VIEWS, names=names, next={}),
+        payload=payload(found, domains, VIEWS, names=names, next={}, sketches={}),
         site=site,
         guide=guide,
         plural=plural,

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from disting.catalogs import Catalog
 from disting.catalogs.next_files import NextCatalog
 from disting.report.environment import render
+from disting.report.experiment_drawing import definitions
 from disting.report.model import Drawing, folder_of, model_of
-from disting.report.next_steps import Advice, advice_of, named
+from disting.report.next_steps import Advice, advice_of, menu_of, named
 from disting.report.words import plural, short_title
 from disting.verdict.further_words import anywhere
 
@@ -34,5 +35,6 @@ def next_page(catalog: Catalog, found: NextCatalog) -> str:
         family=short_title(catalog),
         folder=folder_of(catalog),
         groups=groups,
+        additions=definitions(menu_of(found)),
         plural=plural,
     )

@@ -3,7 +3,7 @@
 What is told is what `disting next` tells, with its default costs.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -11,6 +11,8 @@ from disting.catalogs import Catalog
 from disting.catalogs.files import SHIPPED_SIZES as CATALOGUES
 from disting.catalogs.next_files import SHIPPED_SIZES, NextCatalog, name_of, next_catalog
 from disting.experiments.menu import Item, Kind
+from disting.model.chain import Chain
+from disting.report.experiment_drawing import Sketch, sketch
 from disting.verdict import View
 from disting.verdict.further import Further
 from disting.verdict.further_words import anywhere, conclusion, in_words, left_over
@@ -25,19 +27,25 @@ TITLES = {
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """One experiment at one mass: whether it surely tells the structure apart, and in words."""
+    """One experiment at one mass: whether it surely tells the structure apart, in words, and drawn
+    where there is anything to be seen.
+    """
 
     sure: bool
     text: str
+    sketch: Sketch | None
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
     """What to measure next if it is this structure: a row a kind with its cost and a cell a
-    mass, the structures it is to be told from, what is surely enough anywhere, and the least sets.
+    mass, the structures it is to be told from, what is surely enough anywhere, and the least sets;
+    `items`: what is drawn.
     """
 
     number: int
+    chain: Chain
+    items: tuple[Item, ...]
     others: tuple[int, ...]
     rows: tuple[tuple[str, str, tuple[Cell, ...]], ...]
     anywhere: str
@@ -75,6 +83,32 @@ def for_pairs(found: NextCatalog | None) -> dict[str, str]:
     return dict(_sentences(found)) if found else {}
 
 
+def sketches_for_pairs(found: NextCatalog | None) -> dict[str, list[Sketch]]:
+    """The drawings beside these sentences: for either model the cheapest sets that are surely
+    enough, else the one that leaves least.
+    """
+    told: dict[str, list[Sketch]] = {}
+    for members in found.groups if found else ():
+        for low, high in combinations(members, 2):
+            assert found is not None
+            pair = named(found, (low, high))
+            told[f"{low}-{high}"] = [
+                sketch(number, pair.chains[k], option.items)
+                for k, number in enumerate((low, high))
+                for option in pair.least(k) or filter(None, [pair.best(k)])
+            ]
+    return told
+
+
+def menu_of(found: NextCatalog | None) -> Iterator[tuple[Chain, Item]]:
+    """Yield what is worth doing on any model of a group."""
+    for members in found.groups if found else ():
+        assert found is not None
+        whole = named(found, members)
+        for k, chain in enumerate(whole.chains):
+            yield from ((chain, item) for item in whole.items(k))
+
+
 def named(found: NextCatalog, members: tuple[int, ...]) -> Further:
     """What to measure next for structures of one group, called as pages call them."""
     whole = found.further(members)
@@ -98,14 +132,30 @@ def advice_of(found: Further, structure: int, members: tuple[int, ...]) -> Advic
         (
             TITLES[kind],
             f"{found.costs.cost(kind):g}",
-            tuple(_cell(found, structure, Item(kind, at)) for at in masses),
+            tuple(_cell(found, structure, members, Item(kind, at)) for at in masses),
         )
         for kind in found.kinds
     )
     others = tuple(m for m in members if m != members[structure])
-    return Advice(members[structure], others, rows, anywhere(found), conclusion(found, structure))
+    return Advice(
+        members[structure],
+        found.chains[structure],
+        tuple(found.items(structure)),
+        others,
+        rows,
+        anywhere(found),
+        conclusion(found, structure),
+    )
 
 
-def _cell(found: Further, structure: int, item: Item) -> Cell:
-    sure = item in found.items(structure) and not left_over(found, structure, item)
-    return Cell(sure, "surely" if sure else in_words(found, structure, item))
+def drawn(advice: Iterable[Advice]) -> Iterator[tuple[Chain, Item]]:
+    """Yield what a page with this advice draws."""
+    return ((one.chain, item) for one in advice for item in one.items)
+
+
+def _cell(found: Further, structure: int, members: tuple[int, ...], item: Item) -> Cell:
+    worth = item in found.items(structure)
+    sure = worth and not left_over(found, structure, item)
+    text = "surely" if sure else in_words(found, structure, item)
+    chain = found.chains[structure]
+    return Cell(sure, text, sketch(members[structure], chain, (item,)) if worth else None)

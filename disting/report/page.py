@@ -14,8 +14,9 @@ from disting.model.chain import Chain
 from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
+from disting.report.experiment_drawing import definitions
 from disting.report.model import Drawing, folder_of, model_of, motion_of
-from disting.report.next_steps import for_pairs, found_for, page_of
+from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
 from disting.verdict import Relation, View
@@ -86,6 +87,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         models=models,
         sample=example(catalog),
         dampers=dampers,
+        additions=definitions(menu_of(further)),
         motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
         payload=payload(
@@ -96,6 +98,10 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
             dampers=bool(dampers),
             motion=motion_of(catalog),
             next=for_pairs(further),
+            sketches={
+                pair: [[s.box, s.parts, s.label] for s in sketches]
+                for pair, sketches in sketches_for_pairs(further).items()
+            },
         ),
         plural=plural,
     )

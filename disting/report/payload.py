@@ -8,7 +8,7 @@ neighbours are counted (`packed`).
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from markupsafe import Markup
@@ -21,6 +21,7 @@ from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, probability
 from disting.verdict import Verdict, View
+from disting.verdict.shown import shown
 
 CERTAINTIES = {
     "proven": "Proven by exact computation.",
@@ -40,9 +41,32 @@ SHARES = {
         "Whether {0} with positive parameters have a positive equivalent {1} is not known"
     ),
 }
-Entry = tuple[str, str, str, str, str, str, str, str]
-"""relation, decided_by, representation, certainty in words, domain, why, formula, what decided
-in words
+SYMBOLS = {
+    r"\bb\d": "b0, b1, …: coefficients of the numerator, b0 that of s⁰; gain and antiresonances",
+    r"\ba\d": (
+        "a0, a1, …: coefficients of the denominator, the highest made 1; resonances and damping"
+    ),
+    r"\bG\d": (
+        "G1, G2, …: Markov parameters, the series of the transfer function in 1/s; how the motion"
+        " begins after a blow"
+    ),
+    r"\bn \+ m": "n, m: degrees of numerator and denominator",
+    "Φ": "Φ: all coefficients of the transfer function, as functions of the parameters",
+    r"\bp₀": "p₀: one choice of parameters of one model",
+    r"∂|rank": (
+        "rank: how many of these quantities can be set freely; the rest follows from them by laws"
+    ),
+    r"N_R|determinable": (
+        "determinable parameters (N_R): how many numbers a measurement determines, the rank of Φ"
+    ),
+    r"N_R = .*\{": "{…}: the coefficients that depend on the parameters",
+    "∅": "∅: no parameters at all",
+    "Td": "Td: the dead time",
+}
+"""Symbols and words of formulas and sentences, as patterns, and what they mean."""
+Entry = tuple[str, str, str, str, str, str, str, str, str]
+"""relation, decided_by, representation, certainty in words, domain, what a measurement shows, why,
+formula, what decided in words
 """
 
 
@@ -78,6 +102,7 @@ def payload(
         "blocks": {of.view.value: of.blocks for of in domains},
         "said": RELATIONS_SAID,
         "titles": VIEW_TITLES,
+        "symbols": list(SYMBOLS.items()),
         "signs": {rule.name: rule.sign for rule in RULES.values()},
         "texts": list(texts.numbers),
         "entries": rows,
@@ -132,7 +157,8 @@ def _entry(verdict: Verdict) -> Entry:
         certainty,
         verdict.domain,
     )
-    return *graded, why, formula, verdict.rule
+    sentence = shown(replace(verdict, left="{L}", right="{R}"))
+    return *graded, sentence, why, formula, verdict.rule
 
 
 def _shares(verdict: Verdict) -> Iterator[str]:

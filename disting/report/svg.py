@@ -34,10 +34,15 @@ def svg(scene: Scene, palette: Palette = FILE_PALETTE) -> str:
     )
 
 
-def body(scene: Scene, palette: Palette) -> str:
-    """The scene's elements without the enclosing svg element."""
+def body(scene: Scene, palette: Palette, all_but_last: str = "") -> str:
+    """The scene's elements without the enclosing svg element; `all_but_last`: id of a group of
+    all layers but the last one, "" for no such group.
+    """
     common = f'font-family="{FONT}" stroke-linejoin="round" stroke-linecap="round"'
-    return f"<g {common}>{''.join(_layer(layer, palette) for layer in scene.layers)}</g>"
+    layers = [_layer(layer, palette) for layer in scene.layers]
+    if all_but_last:
+        layers[:-1] = [f'<g id="{all_but_last}">', *layers[:-1], "</g>"]
+    return f"<g {common}>{''.join(layers)}</g>"
 
 
 def number(value: float) -> str:

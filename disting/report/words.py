@@ -3,6 +3,7 @@
 from disting.catalogs import Catalog
 from disting.conditions.table import RULES
 from disting.model.domain import Domain
+from disting.model.shown import plural as plural
 from disting.report.decided import Decided
 from disting.verdict import Relation, View
 
@@ -82,15 +83,6 @@ def sign(decided_by: str) -> str:
     ('4', 'E', '')
     """
     return RULES[decided_by].sign if decided_by else ""
-
-
-def plural(count: int, one: str, many: str = "") -> str:
-    """Number and noun.
-
-    >>> plural(1, "pair"), plural(0, "pair"), plural(2, "mass", "masses")
-    ('1 pair', '0 pairs', '2 masses')
-    """
-    return f"{count} {one if count == 1 else many or one + 's'}"
 
 
 def listed(parts: list[str]) -> str:

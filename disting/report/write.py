@@ -2,7 +2,8 @@
 data beside them.
 """
 
-from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+import argparse
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -16,28 +17,28 @@ from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
-from disting.report.guide import guide_files
-from disting.report.index import Link, index
+from disting.report.guide import guide, guide_files
+from disting.report.index import Link, index, sizes
 from disting.report.matrix import figure, figure_png
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.motion import motion_page
 from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
 from disting.report.page import page
+from disting.report.search import ADDRESS, search_script
 from disting.report.svg import svg
 
 STYLE = "models/style.css"
-Files = Iterable[tuple[str, bytes]]
 
 
 @dataclass(frozen=True, slots=True)
 class SitePage:
-    """A page that the index leads to, with its `files`, made of all catalogues that are listed; a
-    page without is written by another command, and listed where it is in the folder already.
+    """A page that the index leads to beside those of the catalogues; if it is not written `always`,
+    another command writes it, and it is listed where it is in the folder already.
     """
 
     link: Link
-    files: Callable[[Sequence[Catalog]], Files] | None = None
+    always: bool = False
 
 
 PAGES: tuple[SitePage, ...] = (
@@ -45,9 +46,9 @@ PAGES: tuple[SitePage, ...] = (
         link=(
             "guide/index.html",
             "Guide",
-            "what a verdict says, how to read a fit, how it works, how fast and how reliable it is",
+            "first steps, how to do it, what the answers mean and rest on, every command and name",
         ),
-        files=lambda _: guide_files(),
+        always=True,
     ),
     SitePage(
         link=(
@@ -84,10 +85,13 @@ PAGES: tuple[SitePage, ...] = (
 
 
 def write_report(
-    catalogs: Sequence[Catalog], out: Path, dampers: Sequence[DamperFamily] = ()
+    catalogs: Sequence[Catalog],
+    out: Path,
+    dampers: Sequence[DamperFamily] = (),
+    commands: argparse.ArgumentParser | None = None,
 ) -> list[Path]:
     """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, the
-    guide, and index.html.
+    guide, with a reference of the `commands` where they are given, the search, and index.html.
 
     Of families with ground dampers, `dampers`, a page each. The same catalogues give the same
     bytes. `out` is made if it does not exist; other files in it stay as they are, and the index
@@ -100,12 +104,14 @@ def write_report(
         [*dampers, *_dampers_beside(dampers, out)],
         key=lambda f: (f.family.n_masses, f.family.damped),
     )
-    links = [p.link for p in PAGES if p.files or (out / p.link[0]).is_file()]
+    links = [p.link for p in PAGES if p.always or (out / p.link[0]).is_file()]
     names = {c.name for c in listed}
     with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
     files = [file for c in catalogs for file in _files(c, with_dampers)]
     files += [_damper_file(f, names) for f in dampers]
-    files += [file for p in PAGES if p.files for file in p.files(listed)]
+    parts = guide(commands)
+    files += guide_files(parts)
+    files.append((ADDRESS, search_script(parts, sizes(listed, families), links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
     start = index(listed, links, families)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]

@@ -57,6 +57,12 @@ class Excitation:
         if not all(0 < f < np.inf and 0 < a < np.inf for f, a in self.spectrum):
             raise InputError("a spectrum has positive frequencies [Hz] and positive amplitudes")
 
+    @property
+    def spectrum_csv(self) -> str:
+        """The spectrum as text, which `read_spectrum` reads back bit by bit."""
+        rows = (f"{float(f)!r},{float(a)!r}\n" for f, a in self.spectrum)
+        return "".join([",".join(HEADER) + "\n", *rows])
+
     def lines(self, samples: int, rate: float) -> Lines:
         """Numbers of the lines within the band, or nearest to those of the spectrum, multiples of
         rate/samples [Hz].
@@ -112,12 +118,6 @@ class Excitation:
         shares = sizes**2 / np.sum(sizes**2)
         below = np.append(0.0, np.cumsum(shares)[:-1])
         return np.asarray(-2 * np.pi * np.cumsum(below))
-
-
-def spectrum_text(hertz: Real, amplitudes: Real) -> str:
-    """CSV of a spectrum, which `read_spectrum` reads back bit by bit."""
-    rows = (f"{float(f)!r},{float(a)!r}\n" for f, a in zip(hertz, amplitudes, strict=True) if a > 0)
-    return "".join([",".join(HEADER) + "\n", *rows])
 
 
 def read_spectrum(path: Path) -> tuple[tuple[float, float], ...]:

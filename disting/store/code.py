@@ -27,7 +27,7 @@ def digest(module: str) -> str:
     """SHA-256 of the source of a module and of all that it imports here, of the shipped answers
     about rows, and of the versions of Python and the libraries.
 
-    >>> digest("disting.fit.estimate") == digest("disting.verdict.engine")
+    >>> digest("disting.fit.exchange") == digest("disting.verdict.engine")
     False
     """
     sources = _sources()

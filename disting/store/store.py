@@ -111,6 +111,9 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         if self._usable:
             _guard_forks(self)
 
+    def __repr__(self) -> str:
+        return f"<Store: {self._path if self._usable else 'keeps nothing'}>"
+
     @classmethod
     def open(cls, where: str | Path | None = None, *, wait_seconds: float = 10.0) -> Self:
         """Open the store at a file path, ":memory:" (private to this object), or "" or "off" (no

@@ -22,6 +22,7 @@ from disting.verdict.engine import Progress as Progress
 from disting.verdict.engine import silent as silent
 from disting.verdict.joint import classes_safety as classes_safety
 from disting.verdict.joint import family_safety as family_safety
+from disting.verdict.joint import joint_in_words as joint_in_words
 from disting.verdict.query import ALL_CONDITIONS as ALL_CONDITIONS
 from disting.verdict.query import Query as Query
 from disting.verdict.query import View as View

@@ -19,6 +19,7 @@ from disting.conditions.rule import Role, Stage
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
 from disting.model.domain import Domain
+from disting.model.shown import summary
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.compared import Compared
@@ -44,6 +45,10 @@ class Step:
 
     representation: Stage
     finding: Finding
+
+    def __repr__(self) -> str:
+        where = f", {self.representation}" if self.representation else ""
+        return summary(self, f"{self.finding.rule.in_words()}{where}: {self.finding.outcome}")
 
     @property
     def relation(self) -> Relation:
@@ -202,7 +207,12 @@ def _step(
         case Necessary() if representation in SUMMARIES:
             r = Representation(representation)
             n = count if r is Representation.MARKOV else 0
-            yield Step(representation, condition.check(left.profile(r, n), right.profile(r, n)))
+            sides = (
+                (left.profile(r, n), right.profile(r, n))
+                if condition.of_dependences
+                else (left.sketch(r, n), right.sketch(r, n))
+            )
+            yield Step(representation, condition.check(*sides))
         case Sufficient() if representation in SUMMARIES:
             r = Representation(representation)
             yield Step(

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from disting.algebra.colouring import Colouring, colouring
+from disting.algebra.content import written
 from disting.algebra.sampling import prime
 from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import Profile, profile
@@ -16,7 +17,7 @@ from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence
-from disting.evidence.positive import PositiveFinding, Values
+from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.model.chain import Chain
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
@@ -75,6 +76,15 @@ class ComparedChain:
             self._known[representation, count] = found
         return self._known[representation, count]
 
+    def sketch(self, representation: Representation, count: int) -> Profile:
+        """The profile: it costs little."""
+        return self.profile(representation, count)
+
+    @property
+    def transfer_profile(self) -> Profile:
+        """That of the transfer function."""
+        return self.profile(Representation.TF, 0)
+
     @property
     def parameters(self) -> tuple[str, ...]:
         """Names of the parameters."""
@@ -86,6 +96,15 @@ class ComparedChain:
         return self.chain.structure
 
     @property
+    def n_elements(self) -> int:
+        """Number of masses, springs and dampers."""
+        return len(self.chain.structure.elements)
+
+    def part_of(self, other: "ComparedChain") -> dict[int, int] | None:
+        """The numbering under which it is the other one with elements missing."""
+        return next(self.chain.structure.embeddings(other.chain.structure), None)
+
+    @property
     def n_states(self) -> int:
         """Order of the transfer function."""
         return self.chain.structure.n_states
@@ -93,7 +112,7 @@ class ComparedChain:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on this chain depend on."""
-        return self.name, repr(self.chain)
+        return self.name, written(self.chain)
 
     @property
     def profiled(self) -> Structure:
@@ -103,7 +122,7 @@ class ComparedChain:
     @property
     def rank(self) -> int:
         """Number of determinable parameters."""
-        return self.profile(Representation.TF, 0).rank
+        return self.transfer_profile.rank
 
     @cached_property
     def canonical(self) -> Form:
@@ -142,7 +161,7 @@ class ComparedChain:
         first, second = self.in_order(other)
         found = self.answerer(EXACTLY, (first, second), self.settings)
         found = found if first == self.canonical.chain else mirrored(found)
-        return resting_on_ranks(found, *(s.profile(Representation.TF, 0) for s in (self, other)))
+        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def admissible(
         self, other: "ComparedChain", domain: Domain, why: Evidence | None = None
@@ -166,6 +185,12 @@ class ComparedChain:
         canonical names.
         """
         return self._positive(self.canonical.chain, other.canonical.chain)
+
+    def has_same_positive(self, other: "ComparedChain") -> bool:
+        """Whether every positive model of either has a positive equivalent in the other, as far as
+        that is known.
+        """
+        return self.positive(other).share is other.positive(self).share is Share.ALWAYS
 
     def in_order(self, other: "ComparedChain") -> tuple[Chain, Chain]:
         """The canonical forms of both, in an order of their own, so that a pair is asked about

@@ -12,7 +12,7 @@ from disting.conditions.side import Side
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding
 from disting.experiments import MeasuredChain
-from disting.general import Model
+from disting.general import AnyModel
 from disting.model.domain import Domain
 from disting.model.question import Models, Question
 from disting.model.structure import Structure
@@ -20,7 +20,7 @@ from disting.questions.inclusion import Inclusions
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
-Profiled = Structure | Model | MeasuredChain
+Profiled = Structure | AnyModel | MeasuredChain
 """What profiles are computed of."""
 
 

@@ -5,24 +5,24 @@ from dataclasses import replace
 
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
-from disting.general import Model
-from disting.model.chain import Chain
-from disting.model.family import Family
+from disting.general import AnyModel, MatrixModel, Model
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named, name_of
 from disting.verdict.cascade import Step, steps
 from disting.verdict.compared import Compared
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
 
-# masses; larger families are long to list, so their chains are named by their indices
-NUMBERED_UP_TO = 8
 NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
 def compare(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
     query: Query | None = None,
     audit: bool = False,
@@ -31,7 +31,10 @@ def compare(
     """Verdict on two chains of any size (about 0.1 s for 5 masses; a look-up in the engine's store
     once it is there).
 
-    General models (`Model`) are compared likewise, with each other or with chains.
+    Chains are also named: "3:1+b2", "A4" of as many masses as the other one has; `damped` and
+    `sensor` say how names are meant, else they are taken from the chain beside them (see
+    `model.names`). General models (`Model`, `MatrixModel`) are compared likewise, with each other
+    or with chains.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
@@ -47,41 +50,61 @@ def compare(
     ('indistinguishable', 'distinguishable')
     >>> compare(a[1], a[11]).relation.value
     'indistinguishable'
+    >>> compare("3:1", "A11", damped=True).sentence[:31]
+    '3:1 and 3:11 are indistinguisha'
     >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
     'distinguishable'
     """
     engine = engine or Engine()
+    a, b = _read(left, right, damped, sensor)
     if experiments:
-        return _measured(left, right, experiments, query or Query(), audit, engine)
-    return engine.verdict(*_sides(left, right, engine), query or Query(), audited=audit)
+        return _measured(a, b, experiments, query or Query(), audit, engine)
+    return engine.verdict(*_sides(a, b, engine), query or Query(), audited=audit)
 
 
 def findings(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> tuple[Step, ...]:
-    """What every condition finds in every representation, in order, whether it decides or not.
+    """What every condition finds in every representation, in order, whether it decides or not; of
+    models as `compare` takes them.
 
     >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
-    return tuple(steps(*_sides(left, right, engine or Engine()), query or Query()))
+    a, b = _read(left, right, damped, sensor)
+    return tuple(steps(*_sides(a, b, engine or Engine()), query or Query()))
+
+
+def _read(
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
+    damped: bool | None,
+    sensor: Sensor | str | None,
+) -> tuple[Chain | AnyModel, Chain | AnyModel]:
+    """Names as the chains that they mean."""
+    given = [m for m in (left, right) if isinstance(m, Chain | str)]
+    chains = iter(chains_named(given, damped=damped, sensor=sensor))
+    a, b = (next(chains) if isinstance(m, Chain | str) else m for m in (left, right))
+    return a, b
 
 
 def _measured(
-    left: Chain | Model,
-    right: Chain | Model,
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
     query: Query,
     audit: bool,
     engine: Engine,
 ) -> Verdict:
     """The verdict under experiments, with what is to be known of those that tell nothing."""
-    if isinstance(left, Model) or isinstance(right, Model):
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
         raise InputError(NOT_CHAINS)
     pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
     chains = zip((left, right), zip(*pairs, strict=True), strict=True)
@@ -101,47 +124,44 @@ def _measured(
     return replace(found, notes=(*found.notes, *notes))
 
 
-def _sides(left: Chain | Model, right: Chain | Model, engine: Engine) -> tuple[Compared, Compared]:
+def _sides(
+    left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
+) -> tuple[Compared, Compared]:
     """Two chains as chains, whatever else as two general models; by two names."""
-    if isinstance(left, Model) or isinstance(right, Model):
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
         models = [_model(left), _model(right)]
+        refuse_ports(models)
         names = [m.name for m in models]
         if names[0] == names[1]:
             names = [f"{names[0]} 1", f"{names[1]} 2"]
         return engine.general_subject(names[0], models[0]), engine.general_subject(
             names[1], models[1]
         )
-    names = [name_of(chain, short=left.n_masses == right.n_masses) for chain in (left, right)]
-    if names[0] == names[1] and left != right:
-        names = [f"the model with {chain}" for chain in (left, right)]
-    return engine.subject(names[0], left), engine.subject(names[1], right)
+    here, there = names_of(left, right)
+    return engine.subject(here, left), engine.subject(there, right)
 
 
-def _model(given: Chain | Model) -> Model:
-    if isinstance(given, Model):
-        return given
-    return Model.from_chain(given, name=name_of(given, short=False))
-
-
-def name_of(chain: Chain, *, short: bool) -> str:
-    """A4 (short) or 3:4, with ground dampers, lag and dead time added; the indices for chains
-    without a number.
-
-    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)), short=False)
-    '3:4+b1'
+def names_of(left: Chain, right: Chain) -> tuple[str, str]:
+    """What two chains are called beside each other: by their names, those that have one name, of
+    which one is damped, in full.
     """
-    plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
-    family = Family(chain.n_masses, chain.damped, chain.sensor)
-    try:
-        number = family.number(plain) if chain.n_masses <= NUMBERED_UP_TO else 0
-    except InputError:
-        number = 0
-    head = (f"A{number}" if short else f"{chain.n_masses}:{number}") if number else f"({plain})"
-    return "+".join(
-        [
-            head,
-            *(f"b{i}" for i in chain.ground_dampers),
-            *["lag"] * chain.lag,
-            *["delay"] * chain.dead_time,
-        ]
-    )
+    names = name_of(left), name_of(right)
+    if names[0] == names[1] and left != right:
+        return f"the model with {left}", f"the model with {right}"
+    return names
+
+
+def refuse_ports(models: Sequence[AnyModel]) -> None:
+    """Raises InputError for models of which not all have the same inputs and outputs."""
+    shapes = {m.shape if isinstance(m, MatrixModel) else (1, 1): m.name for m in models}
+    if len(shapes) > 1:
+        told = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
+        raise InputError(
+            f"models are compared that have the same outputs and inputs: {' and '.join(told)}"
+        )
+
+
+def _model(given: Chain | AnyModel) -> AnyModel:
+    if not isinstance(given, Chain):
+        return given
+    return Model.from_chain(given, name=name_of(given))

@@ -19,6 +19,7 @@ from disting.conditions.table import NECESSARY, RULES
 from disting.errors import ContradictionError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
+from disting.model.shown import Shown, plural, summary
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
 from disting.verdict.cascade import Step, decide, verdict_of
 from disting.verdict.chains import ComparedChain
@@ -34,7 +35,7 @@ Numbers = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
-class Decisions:
+class Decisions(Shown):
     """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` STAGES.
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs
@@ -54,6 +55,13 @@ class Decisions:
     inclusions: dict[tuple[int, int], Inclusions] = field(default_factory=dict)
     shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
     equal: dict[tuple[int, int], Finding] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        size = len(self.subjects)
+        pairs = plural(size * (size - 1) // 2, "pair")
+        return summary(
+            self, f"{plural(size, 'model')}, {pairs}, over {self.query.view.domain} parameters"
+        )
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:

@@ -13,16 +13,18 @@ from concurrent.futures import Executor, Future, as_completed
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from disting.algebra.content import written
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.profile_json import profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.stacked_profiles import profile as measured_profile
-from disting.general import ComparedModel, Model
-from disting.general.profiles import profile as general_profile
+from disting.general import AnyModel, ComparedModel, MatrixModel, Model
+from disting.general.any_model import profile_of as general_profile
 from disting.model.chain import Chain
 from disting.model.question import Models, Question
 from disting.model.settings import Settings
+from disting.model.shown import summary
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
@@ -57,6 +59,9 @@ class Engine:
     memo: dict[str, Profile] = field(default_factory=dict)
     answers: dict[str, Any] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return summary(self, f"seed {self.settings.seed!r}, {self.store!r}")
+
     def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
         return ComparedChain(
@@ -67,7 +72,7 @@ class Engine:
             answerer=self.answer,
         )
 
-    def general_subject(self, name: str, model: Model) -> ComparedModel:
+    def general_subject(self, name: str, model: AnyModel) -> ComparedModel:
         """The same for a general model."""
         return ComparedModel(
             name=name,
@@ -114,7 +119,7 @@ class Engine:
         """
         if audited:
             return audit(left, right, query)
-        content = [*left.content, *right.content, repr(query), self.settings.to_dict()]
+        content = [*left.content, *right.content, written(query), self.settings.to_dict()]
         key = _key("verdict", *map(str, content))
         for text in self.store.get_many([key]).values():
             return Verdict.from_dict(json.loads(text))
@@ -148,14 +153,18 @@ class Engine:
         self,
         chains: Iterable[Chain],
         *,
+        markov: int = 0,
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> list[Profile]:
-        """Transfer-function profiles of chains, in order."""
+        """Profiles of chains, in order: of the transfer functions, or of the `markov` Markov
+        parameters after G_0.
+        """
+        r = Representation.MARKOV if markov else Representation.TF
         subjects = [self.subject("", chain) for chain in chains]
         profiled: set[Profiled] = {s.profiled for s in subjects}
-        self.prefetch(profiled, Representation.TF, 0, executor, progress)
-        return [s.profile(Representation.TF, 0) for s in subjects]
+        self.prefetch(profiled, r, markov, executor, progress)
+        return [s.profile(r, markov) for s in subjects]
 
     def identifiabilities(
         self,
@@ -188,7 +197,7 @@ class Engine:
         """Bring the profiles of these models into memory: from the store, the rest computed,
         each batch stored at once.
         """
-        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=repr)}
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=written)}
         self.memo |= self._stored([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
@@ -232,17 +241,17 @@ class Engine:
 
 def profile_key(what: Profiled, r: Representation, count: int, settings: Settings) -> str:
     """Content address of a profile."""
-    return _key("profile", repr(what), r.value, str(count), repr(settings))
+    return _key("profile", written(what), r.value, str(count), written(settings))
 
 
 def question_key(question: Question[Any], models: Models, settings: Settings) -> str:
     """Content address of an answer."""
-    return _key(question.name, *map(repr, models), repr(settings))
+    return _key(question.name, *map(written, models), written(settings))
 
 
 def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:
     """The profile of a chain's structure, of a general model or of a chain under experiments."""
-    if isinstance(what, Model):
+    if isinstance(what, Model | MatrixModel):
         return general_profile(what, r, count, settings)
     if isinstance(what, MeasuredChain):
         return measured_profile(what, r, count, settings)

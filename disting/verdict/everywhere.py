@@ -8,7 +8,10 @@ from enum import StrEnum
 
 from disting.errors import InputError
 from disting.experiments import Experiment, Named, Places, moved, named, ways
-from disting.model.chain import Chain
+from disting.general import MatrixModel, Model
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named
+from disting.model.shown import plural, summary
 from disting.verdict.comparison import NOT_CHAINS, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
@@ -32,6 +35,11 @@ class Everywhere:
 
     verdicts: tuple[tuple[Places, Verdict], ...]
 
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.answer}, {plural(len(self.verdicts), 'way')} to place the experiments"
+        )
+
     @property
     def answer(self) -> Answer:
         """Whether they tell the models apart."""
@@ -44,10 +52,12 @@ class Everywhere:
 
 
 def compare_everywhere(
-    left: Chain,
-    right: Chain,
+    left: Chain | str,
+    right: Chain | str,
     also: Sequence[str | Experiment],
     *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
     places: Places = (),
     query: Query | None = None,
     engine: Engine | None = None,
@@ -58,15 +68,16 @@ def compare_everywhere(
     Experiments name masses of the left chain, as `Experiment` or as text such as "sensor=3/2,
     lock=1", where 3/2 is mass 3 of the left chain and 2 of the right one; `places` names more such
     pairs. Masses of the right chain that are not named are tried, each in every place that is
-    left over. Raises InputError.
+    left over. Chains are named as for `compare`. Raises InputError.
 
     >>> from disting import Family
     >>> a = Family(3, damped=True)
     >>> compare_everywhere(a[1], a[11], ["sensor=2"]).answer.value
     'surely'
     """
-    if not (isinstance(left, Chain) and isinstance(right, Chain)):
+    if isinstance(left, Model | MatrixModel) or isinstance(right, Model | MatrixModel):
         raise InputError(NOT_CHAINS)
+    left, right = chains_named([left, right], damped=damped, sensor=sensor)
     engine = engine or Engine()
     asked = [named(e) if isinstance(e, str) else Named(e) for e in also]
     found = []

@@ -14,9 +14,11 @@ from itertools import combinations
 from disting.errors import InputError
 from disting.experiments.menu import Costs, Item, Kind, kinds
 from disting.model.chain import Chain
+from disting.model.shown import Shown, plural, summary
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
-from disting.verdict.placed import Placed, placed
+from disting.verdict.placed import Placed
+from disting.verdict.placing import placed
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,13 +33,18 @@ class Option:
 
 
 @dataclass(frozen=True)
-class Further:
+class Further(Shown):
     """The menu on structures `chains`, called `names`, that one measurement cannot tell apart."""
 
     names: tuple[str, ...]
     chains: tuple[Chain, ...]
     tables: Mapping[Kind, Placed]
     costs: Costs = field(default_factory=Costs)
+
+    def __repr__(self) -> str:
+        kinds = ", ".join(self.kinds)
+        size = plural(self.n_masses, "mass", "masses")
+        return summary(self, f"{plural(len(self.chains), 'structure')} of {size}: {kinds}")
 
     def only(self, structures: Sequence[int]) -> "Further":
         """Some of the structures, counted from 0, in this order."""

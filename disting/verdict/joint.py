@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
+from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
 from disting.conditions.rule import Stage
 from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions
@@ -46,6 +46,23 @@ def classes_safety(found: Classes) -> int:
         together &= (one == other) | (one < 0) | (other < 0)
     decisions = int(np.triu(together, 1).sum()) - len(found.open_groups)
     return joint_safety([LEAST_SAFETY] * (3 * len(found) + len(found) - len(first) + decisions))
+
+
+def joint_in_words(safety: int) -> str:
+    """How surely everything that is said of a family holds together.
+
+    >>> joint_in_words(121)
+    'all of it together is wrong with a probability of at most 2^-121'
+    >>> joint_in_words(USELESS)
+    'no error bound is left for all of it together'
+    """
+    if safety == USELESS:
+        return "no error bound is left for all of it together"
+    return (
+        f"all of it together is wrong with a probability of at most 2^-{safety}"
+        if safety
+        else "nothing is left to chance"
+    )
 
 
 def _safeties(decided: Decisions) -> Iterator[int]:

@@ -1,66 +1,25 @@
-"""One kind of further experiment on a group of structures that one measurement cannot tell apart:
-every mass of every structure against every mass of every other one.
-
-A spot is a mass of a structure at which the experiment is made. As in `grouping`, no pair is
-looked at where a bucket decides:
-
-1. A spot where the experiment repeats what is known, or where the sensor never moves, needs no
-   profile: two such spots are alike because their structures are, and one that repeats is unlike
-   one that is proven to show something new.
-2. A profile of the stacked summary a spot: columns of conditions 1 to 5.
-3. Spots of one bucket: free choice (7), equal colours looked at for a renaming (6); to have equal
-   closures of the image is transitive, so they form classes.
-4. The first class of a bucket is compared with all others by the exact decision; those that are
-   not the same are a bucket of their own. So c classes cost fewer than c of them a member.
-
-All of it is over generic complex parameters: what is told apart there is so over positive ones.
+"""What one kind of further experiment leaves together of structures that one measurement cannot
+tell apart, as it is found (`placing`), shipped and looked up.
 """
 
-from collections import defaultdict
-from collections.abc import Hashable, Iterable, Sequence
-from concurrent.futures import Executor
-from dataclasses import dataclass, field, replace
-from math import ceil, log2
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from disting.algebra.certainty import Certainty
-from disting.behaviour.profile import Profile, Unsearched
-from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
-from disting.conditions.sufficient import FREE_CHOICE, RENAMING, condition_6, condition_7
 from disting.conditions.table import NECESSARY
-from disting.experiments import ComparedMachine, MeasuredChain
-from disting.experiments.exact_under import LIMITS, by_ideals
-from disting.experiments.listing import by_list
-from disting.experiments.menu import Gain, Item, Kind, gain, measured
-from disting.model.chain import Chain
-from disting.model.question import Question
-from disting.model.settings import Settings
-from disting.questions.same.exact import resting_on_ranks
-from disting.verdict.engine import Engine, Progress, silent
+from disting.experiments.menu import Gain, Kind
+from disting.model.shown import plural, summary
 from disting.verdict.everywhere import Answer
 from disting.verdict.result import Relation
 
 Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
-QUICK = replace(LIMITS, entries=300_000)
-"""A matrix takes less than a second: there are hundreds of pairs."""
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
 NOT_KNOWN = -1
-
-
-def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
-    """The exact decision within limits that are soon reached."""
-    found = by_list(left, right, settings)
-    return by_ideals(left, right, settings, QUICK) if found is None else found
-
-
-QUICKLY = Question(
-    "exact decisions under experiments, quickly", quick_finding, finding_to_json, finding_from_json
-)
 
 
 @dataclass(frozen=True)
@@ -82,6 +41,14 @@ class Placed:
     links: tuple[str, ...]
     open: frozenset[tuple[int, int]]
     safety: int
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.kind}, {plural(len(self.gains), 'place')}")
+
+    @cached_property
+    def _alike(self) -> dict[tuple[Spot, int], tuple[int, ...]]:
+        """What was asked for: pairs of experiments ask for each of them again and again."""
+        return {}
 
     @property
     def structures(self) -> int:
@@ -128,10 +95,12 @@ class Placed:
         """Masses of another structure at which it is not told from this one at this spot; what is
         undecided included.
         """
-        masses = range(1, self.n_masses + 1)
-        return tuple(
-            j for j in masses if self.look_up(spot, (other, j))[0] is not Relation.DISTINGUISHABLE
-        )
+        if (spot, other) not in self._alike:
+            masses = range(1, self.n_masses + 1)
+            found = (self.look_up(spot, (other, j))[0] for j in masses)
+            apart = Relation.DISTINGUISHABLE
+            self._alike[spot, other] = tuple(j for j, r in enumerate(found, 1) if r is not apart)
+        return self._alike[spot, other]
 
     def answer(self, spot: Spot, other: int) -> Answer:
         """Whether the experiment at a spot tells its structure from another one, wherever the
@@ -151,164 +120,3 @@ class Placed:
 
     def _at(self, spot: Spot) -> int:
         return spot[0] * self.n_masses + spot[1] - 1
-
-
-def placed(
-    chains: Sequence[Chain],
-    kind: Kind,
-    engine: Engine,
-    *,
-    executor: Executor | None = None,
-    progress: Progress = silent,
-) -> Placed:
-    """What this kind of experiment leaves together of chains of one size that are
-    indistinguishable, over complex parameters, as they are measured now.
-    """
-    work = _Work.of(chains, kind, engine)
-    new = [s for s, g in enumerate(work.gains) if g is Gain.NEW]
-    engine.prefetch({work.sides[s].measured for s in new}, Representation.TF, 0, executor, progress)
-    profiles = {s: work.sides[s].profile(Representation.TF, 0) for s in new}
-    for column, condition in enumerate(NECESSARY, 1):
-        work.fill(column, {s: condition.key(p) for s, p in profiles.items()})
-    work.safeties += [p.safety for p in profiles.values()]
-    work.join_known(profiles)
-    work.decide(profiles, executor, progress)
-    return work.finished()
-
-
-@dataclass
-class _Work:
-    """All spots, and what is known of them so far: columns, and a forest of parents."""
-
-    kind: Kind
-    engine: Engine
-    n_masses: int
-    sides: list[ComparedMachine]
-    gains: list[Gain]
-    columns: list[list[int]]
-    parent: list[int]
-    links: list[str]
-    open: set[tuple[int, int]] = field(default_factory=set)
-    apart: set[tuple[int, int]] = field(default_factory=set)
-    safeties: list[int] = field(default_factory=list)
-
-    @staticmethod
-    def of(chains: Sequence[Chain], kind: Kind, engine: Engine) -> "_Work":
-        """Only what is gained is known."""
-        n = chains[0].n_masses
-        sides, gains, firsts = [], [], []
-        for number, chain in enumerate(chains):
-            for i in range(1, n + 1):
-                item = Item(kind, i)
-                name = f"structure {number}, mass {i}"
-                sides.append(engine.measured_subject(name, measured(chain, item)))
-                found = gain(chain, item)
-                gains.append(found or Gain.NEW)
-                firsts.append(NOT_KNOWN if found is None else list(Gain).index(found))
-        columns = [[first, *[NOT_KNOWN] * (len(TESTS) - 1)] for first in firsts]
-        size = len(sides)
-        work = _Work(kind, engine, n, sides, gains, columns, list(range(size)), [""] * size)
-        for same in (Gain.REPEATS, Gain.SILENT):
-            alike = [s for s in range(size) if gains[s] is same]
-            for s in alike[1:]:
-                work.unite(alike[0], s, REPEATS)
-            # where it is not known whether something new is seen, neither is this
-            work.open |= {(alike[0], s) for s in range(size) if alike and firsts[s] == NOT_KNOWN}
-        return work
-
-    def fill(self, column: int, values: dict[int, Hashable]) -> None:
-        """Numbers of buckets; a bucket in which a value is not known is not split."""
-        numbers: dict[Hashable, int] = {}
-        for bucket in self.buckets(values):
-            if not any(isinstance(values[s], Unsearched) for s in bucket):
-                for s in bucket:
-                    self.columns[s][column] = numbers.setdefault(values[s], len(numbers))
-
-    def buckets(self, chosen: Iterable[int]) -> list[list[int]]:
-        """The chosen spots by all columns."""
-        found: dict[tuple[int, ...], list[int]] = defaultdict(list)
-        for s in chosen:
-            found[tuple(self.columns[s])].append(s)
-        return list(found.values())
-
-    def asked(self, chosen: Iterable[int]) -> list[list[int]]:
-        """Roots by buckets, where those hold more than one structure."""
-        found = []
-        for bucket in self.buckets(chosen):
-            if len({s // self.n_masses for s in bucket}) > 1:
-                roots = list(dict.fromkeys(map(self.root, bucket)))
-                found += [roots] if len(roots) > 1 else []
-        return found
-
-    def join_known(self, profiles: dict[int, Profile]) -> None:
-        """Free choice and renamings."""
-        for bucket in self.asked(profiles):
-            prints: dict[str, int] = {}
-            for s in bucket:
-                if condition_7(profiles[bucket[0]], profiles[s]).outcome is Outcome.HOLDS:
-                    self.unite(bucket[0], s, FREE_CHOICE.name)
-                    continue
-                first = prints.setdefault(self.sides[s].colouring.fingerprint, s)
-                found = condition_6(self.sides[first], self.sides[s], True) if first != s else None
-                if found is not None and found.outcome is Outcome.HOLDS:
-                    self.unite(first, s, RENAMING.name)
-
-    def decide(
-        self, profiles: dict[int, Profile], executor: Executor | None, progress: Progress
-    ) -> None:
-        """The first of each bucket against the others, until nothing is left."""
-        rounds = self.asked(s for s, g in enumerate(self.gains) if g is Gain.NEW)
-        while rounds:
-            pairs = [(bucket[0], s) for bucket in rounds for s in bucket[1:]]
-            models = {(a, b): (self.sides[a].measured, self.sides[b].measured) for a, b in pairs}
-            self.engine.answer_all(
-                QUICKLY, list(models.values()), executor=executor, progress=progress
-            )
-            for (a, b), asked in models.items():
-                found = self.engine.answer(QUICKLY, asked, self.engine.settings)
-                found = resting_on_ranks(found, profiles[a], profiles[b])
-                if found.outcome is Outcome.HOLDS:
-                    self.unite(a, b)
-                else:
-                    (self.apart if found.outcome is Outcome.FAILS else self.open).add((a, b))
-                if found.certainty is Certainty.BOUNDED:
-                    self.safeties.append(found.safety)
-            rest = [[s for s in bucket[1:] if self.root(s) == s] for bucket in rounds]
-            rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
-
-    def _members(self, roots: Iterable[int]) -> list[int]:
-        chosen = set(roots)
-        return [s for s in range(len(self.sides)) if self.root(s) in chosen]
-
-    def root(self, s: int) -> int:
-        """Representative of a class."""
-        while self.parent[s] != s:
-            s = self.parent[s]
-        return s
-
-    def unite(self, first: int, s: int, rule: str = "") -> None:
-        """One class of two, for this reason; by the exact decision where none is named."""
-        a, b = self.root(first), self.root(s)
-        self.parent[max(a, b)] = min(a, b)
-        if rule:
-            self.links[first] = self.links[s] = f"{rule}/{first}"
-
-    def finished(self) -> Placed:
-        """What was found; classes are numbered as they come."""
-        roots = [self.root(s) for s in range(len(self.sides))]
-        number = {r: k for k, r in enumerate(dict.fromkeys(roots))}
-        kept, apart = (
-            {tuple(sorted((number[self.root(a)], number[self.root(b)]))) for a, b in pairs}
-            for pairs in (self.open, self.apart)
-        )
-        lost = ceil(log2(len(self.safeties))) if self.safeties else 0
-        return Placed(
-            self.kind,
-            self.n_masses,
-            tuple(self.gains),
-            tuple(map(tuple, self.columns)),
-            tuple(number[r] for r in roots),
-            tuple(self.links),
-            frozenset((a, b) for a, b in kept - apart if a != b),
-            min(self.safeties) - lost if self.safeties else 0,
-        )

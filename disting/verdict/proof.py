@@ -14,7 +14,8 @@ from disting.algebra.fractionfree import OutOfTimeError
 from disting.behaviour.symbolic import rank_is_at_most
 from disting.conditions.necessary import DEPENDENCES, RANK
 from disting.evidence.conditions import Ranks
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.verdict.decisions import Decisions
@@ -26,16 +27,24 @@ SECONDS = 10.0  # for one proof
 Claim = tuple[Structure, tuple[str, ...], int]
 
 
-def prove(verdict: Verdict, left: Chain, right: Chain, seconds: float = SECONDS) -> Verdict:
+def prove(
+    verdict: Verdict,
+    left: Chain | str,
+    right: Chain | str,
+    seconds: float = SECONDS,
+    *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
+) -> Verdict:
     """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as
-    it is.
+    it is; the chains as `compare` takes them.
 
     >>> from disting import Family, compare
     >>> a = Family(3, damped=True)
     >>> compare(a[1], a[7]).certainty.value, prove(compare(a[1], a[7]), a[1], a[7]).certainty.value
     ('bounded', 'proven')
     """
-    claim = _claim(verdict, left, right)
+    claim = _claim(verdict, *chains_named([left, right], damped=damped, sensor=sensor))
     return (
         replace(verdict, certainty=Certainty.PROVEN, safety=0)
         if claim and _holds(claim, seconds)

@@ -74,6 +74,14 @@ class Query:
                 f"the number of Markov parameters is 1 or more, or 0 for all, not {self.markov}"
             )
 
+    def __repr__(self) -> str:
+        given = [] if self.view is View.POSITIVE else [f"View.{self.view.name}"]
+        given += [f"conditions={self.conditions}"] * (self.conditions != ALL_CONDITIONS)
+        given += [f"markov={self.markov}"] * bool(self.markov) + ["inclusion=False"] * (
+            not self.inclusion
+        )
+        return f"Query({', '.join(given)})"
+
     def asks(self, rule: Rule) -> bool:
         """Whether this condition may decide."""
         return rule.name in self.conditions

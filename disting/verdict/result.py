@@ -10,7 +10,9 @@ from disting.evidence.kinds import GROUNDS, Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
+from disting.evidence.real import BothWays
 from disting.model.domain import Domain
+from disting.model.shown import Shown, summary
 from disting.questions.inclusion import (
     Inclusion,
     Inclusions,
@@ -46,7 +48,7 @@ WHERE = {Stage.TF: "transfer function", Stage.MARKOV: "Markov parameters"}
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Shown):
     """Relation of a pair with its proof.
 
     `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided;
@@ -84,6 +86,12 @@ class Verdict:
                 "exactly a decided verdict names condition, representation, certainty and evidence"
             )
 
+    def __repr__(self) -> str:
+        # the names are short ones in catalogues, of any length in lists of one's own
+        names = " and ".join(n if len(n) <= 30 else f"{n[:29]}…" for n in (self.left, self.right))
+        how = f" ({self.certainty})" if self.certainty else ""
+        return summary(self, f"{names} are {self.told} over {self.domain} parameters{how}")
+
     def __bool__(self) -> bool:
         raise TypeError("a verdict is not true or false; look at its relation")
 
@@ -101,12 +109,18 @@ class Verdict:
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
             return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
-        sometimes = f"are sometimes indistinguishable{over}, depending on their values"
-        says = sometimes if self.relation is Relation.SOMETIMES else f"are {self.relation}{over}"
+        depending = ", depending on their values" * (self.relation is Relation.SOMETIMES)
+        says = f"are {self.told}{over}{depending}"
         return (
             f"{self.left} and {self.right} {says} ({self.rule}):"
             f" {self.evidence.sentence(self.left, self.right)}"
         )
+
+    @property
+    def told(self) -> str:
+        """The relation as a sentence says it."""
+        sometimes = self.relation is Relation.SOMETIMES
+        return "sometimes indistinguishable" if sometimes else self.relation.value
 
     @property
     def rule(self) -> str:
@@ -119,6 +133,11 @@ class Verdict:
             return f"{rule.in_words()}, {where}"
         grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence and rule is EXACT else ""
         return ", ".join(filter(None, [rule.in_words(self.domain).removeprefix("the "), grounds]))
+
+    @property
+    def proves_shares(self) -> bool:
+        """Whether the evidence itself tells which positive models have positive equivalents."""
+        return isinstance(self.evidence, BothWays)
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""

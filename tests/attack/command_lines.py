@@ -96,12 +96,12 @@ def compare(draw):
         "--damped",
         "--json",
         "--no-cache",
-        ("--sensor", one_of(*SENSORS)),
+        ("--quantity", one_of(*SENSORS)),
         ("--domain", one_of(*DOMAINS)),
     )
     more = (
         ("--conditions", one_of("1-9", "1,3", "9-1", "5")),
-        ("--range", lambda d: f"k12={limits(d)}"),
+        ("--bound", lambda d: f"k12={limits(d)}"),
     )
     return ["compare", model(draw), model(draw), *flags(draw, *options, *more)]
 
@@ -110,7 +110,7 @@ def verdicts(draw):
     options = (
         "--damped",
         "--prove",
-        ("--sensor", one_of(*SENSORS)),
+        ("--quantity", one_of(*SENSORS)),
         ("--domain", one_of(*DOMAINS)),
         ("--markov", one_of("1", "12", "0", "x")),
     )
@@ -159,7 +159,7 @@ def simulate(draw):
         for name in ("samples", "periods", "seed")
     )
     rest = (
-        ("--sensor", one_of(*SENSORS)),
+        ("--quantity", one_of(*SENSORS)),
         ("--excitation", one_of("schroeder", "chirp", "random-phase")),
     )
     more = (

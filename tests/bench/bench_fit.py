@@ -14,7 +14,8 @@ import pytest
 
 from disting.fit.candidates import figure_1
 from disting.fit.cost import Cost
-from disting.fit.estimate import Task, estimates
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimates
 from disting.fit.select import select
 from disting.fit.swarm import by_swarm, search_box
 from disting.measurement import FrequencyResponse

@@ -113,19 +113,19 @@ def test_csv_with_names(capsys):
 
 
 def test_summary_of_the_command(capsys):
-    assert main(["verdicts", "1-3", "--no-cache"]) == 0
+    assert main(["verdicts", "1-3", "--no-cache", "--undamped"]) == 0
     assert (
         "over complex parameters: 45 smaller models are limits of larger ones"
         in capsys.readouterr().out
     )
-    assert main(["verdicts", "3", "--no-cache"]) == 0
+    assert main(["verdicts", "3", "--no-cache", "--undamped"]) == 0
     assert "limits of larger" not in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("sizes", ["0", "3-1", "1-", "a", "1-2-3"])
 def test_bad_sizes(sizes, capsys):
     with pytest.raises(SystemExit) as left:
-        main(["verdicts", sizes])
+        main(["verdicts", sizes, "--undamped"])
     assert left.value.code == 2
     assert "sizes are written like 4 or 1-4" in capsys.readouterr().err
 

@@ -195,9 +195,9 @@ def test_the_table_speaks_of_positive_parameters_and_says_what_is_known_of_compl
 
 
 def test_a_whole_family_says_that_positive_parameters_are_not_asked(capsys):
-    assert main(["dampers", "2", "--no-cache"]) == 0
+    assert main(["dampers", "2", "--no-cache", "--undamped"]) == 0
     assert "positive parameters are not asked here: 'disting compare'" in capsys.readouterr().out
-    assert main(["dampers", "2", "--domain", "positive"]) == 2
+    assert main(["dampers", "2", "--domain", "positive", "--undamped"]) == 2
     assert "over complex parameters" in capsys.readouterr().err
 
 

@@ -6,6 +6,7 @@ from itertools import combinations
 import pytest
 
 from disting.catalogs import catalog
+from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import shipped_folder
 from disting.catalogs.next_files import (
     SHIPPED_SIZES,
@@ -22,6 +23,7 @@ from disting.verdict.further import further
 from disting.verdict.further_words import to_dict
 
 FAMILIES = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
+DAMPED_OR_NOT = pytest.mark.parametrize("damped", [False, True])
 
 
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
@@ -42,6 +44,41 @@ def test_shipped_bytes_are_what_is_computed(damped):
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_all_shipped_bytes_are_what_is_computed(n, damped):
     assert verify_next(catalog(n, damped=damped), shipped_folder(), Engine()) == []
+
+
+@DAMPED_OR_NOT
+def test_every_group_with_dampers_to_the_ground_is_there(damped):
+    stored = damper_catalog(3, damped=damped)
+    found = next_catalog(3, damped=damped, dampers=True)
+    names = [tuple(found.named(i)[0] for i in group) for group in found.groups]
+    every = [tuple(stored.text(stored.place(m)) for m in members) for members in stored.classes()]
+    assert names == [group for group in every if "+" in "".join(group)]
+    for group in found.groups:
+        whole = found.further(group)
+        assert whole.chains == tuple(stored.found.chains[i] for i in group)
+        assert not any(table.open for table in whole.tables.values())
+
+
+@pytest.mark.slow
+@DAMPED_OR_NOT
+def test_all_bytes_with_dampers_to_the_ground_are_what_is_computed(damped):
+    assert verify_next(damper_catalog(3, damped=damped), shipped_folder(), Engine()) == []
+
+
+def test_a_group_with_dampers_to_the_ground_is_what_is_computed():
+    stored = next_catalog(3, damped=False, dampers=True)
+    numbers = [stored.number(1, (1,)), stored.number(4, (2,))]
+    assert stored.group(numbers[0]) == tuple(numbers)
+    fresh = further([stored.named(i) for i in numbers], Engine())
+    assert stored.further(numbers).tables == fresh.tables
+    assert stored.further(numbers).names == ("3:1+b1", "3:4+b2")
+
+
+def test_five_masses_are_looked_up():
+    """The group of 16 that one force and one sensor at one place cannot tell apart."""
+    found = next_catalog(5).further((1, 73))
+    assert found.names == ("5:1", "5:73") and all(found.anywhere(kind) for kind in found.kinds)
+    assert len(next_catalog(5).group(1)) == 16
 
 
 def test_a_pair_out_of_a_group_is_what_is_computed_of_the_pair():
@@ -80,7 +117,7 @@ def test_more_structures_are_never_told_apart_by_less():
 
 def test_a_damaged_file_is_refused(tmp_path):
     text = build_next(catalog(2), Engine())
-    path = write(text, 2, False, tmp_path)
+    path = write(text, tmp_path)
     assert path.name == f"{name_of(2, False)}.jsonl" and read(tmp_path, 2, False).groups == (
         (1, 3),
     )
@@ -102,6 +139,6 @@ def test_a_record_without_its_masses_is_refused(spoil, tmp_path):
 def test_verification_finds_a_wrong_line(tmp_path):
     records = [json.loads(line) for line in build_next(catalog(2), Engine()).splitlines()]
     records[1]["sensor"]["safety"] += 1
-    write("".join(json.dumps(r, separators=(",", ":")) + "\n" for r in records), 2, False, tmp_path)
+    write("".join(json.dumps(r, separators=(",", ":")) + "\n" for r in records), tmp_path)
     (said,) = verify_next(catalog(2), tmp_path, Engine())
     assert "line 2 is not what is computed now" in said

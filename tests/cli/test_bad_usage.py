@@ -9,7 +9,7 @@ import pytest
 from disting.cli import main
 from tests.cli.process import disting
 
-CHAIN = ("equivalents", "3:1", "--to", "3:11", "--set")
+CHAIN = ("equivalents", "3:1", "--undamped", "--to", "3:11", "--set")
 REPORTS = Path(__file__).parents[2] / "reports"
 DEMO = ("fit", "--demo", "--masses", "1")
 WORDS = [
@@ -20,22 +20,26 @@ WORDS = [
     (("compare", "3:1+c", "3:1"), "for instance 3:4 or 3:4+b1+lag"),
     (("compare", "3:1+b4", "3:1"), "ground dampers sit at masses 1 to 3"),
     (("dampers", "41"), "1 to 40 masses"),
-    (("compare", "3:1", "3:2", "--range", "k12=1..2", "--json"), "leave --json or --range away"),
-    (("compare", "3:1", "3:2", "--range", "k12=5"), "a range is written like"),
-    (("compare", "3:1", "3:2", "--range", "x9=1..2"), "no parameter"),
-    (("compare", "3:1", "3:2", "--range", "k12=3..1"), "positive and not empty"),
+    (("compare", "3:1", "3:2", "--bound", "k12=1..2", "--json"), "leave --json or --bound away"),
+    (("compare", "3:1", "3:2", "--bound", "k12=5"), "a range is written like"),
+    (("compare", "3:1", "3:2", "--bound", "x9=1..2"), "no parameter"),
+    (("compare", "3:1", "3:2", "--bound", "k12=3..1"), "positive and not empty"),
     (("models", "0"), "at least 1"),
     (("models", "-3"), "at least 1"),
     (("models", "3.5"), "at least 1"),
-    (("models", "41"), "at most 40"),
+    (("models", "26"), "at most 25"),
     (("models", "9" * 5000), "a whole number"),
+    (("models", "3", "--also", "sensor=3/2"), "write sensor=3 alone"),
+    (("models", "3", "--also", "sensor=4"), "no mass 4"),
+    (("models", "3", "--also", "sensor"), "an experiment is written"),
+    (("models", "1", "--also", "lock=1"), "leave one that moves"),
     (("verdicts", "3-41"), "at most 40 masses"),
     (("verdicts", "4-1"), "sizes are written like"),
     (("verdicts", "3", "--conditions", "0-5"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "5-3"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "5-"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "exact"), "conditions are written like"),
-    (("verdicts", "3", "--sensor", "force"), "invalid choice"),
+    (("verdicts", "3", "--quantity", "force"), "is none of"),
     (("verdicts", "3", "--csv", "-", "--json", "-"), "not both"),
     (("verdicts", "3", "--markov", "-4"), "at least 1"),
     (("verdicts", "3", "--jobs", "0"), "at least 1"),
@@ -48,6 +52,10 @@ WORDS = [
     ((*CHAIN, "m1=nan,m2=2,m3=3,k12=1,k23=1"), "a number such as"),
     ((*CHAIN, "m1=1,m2=2,m3=3,k12=1e-300,k23=1"), "choose other units"),
     ((*CHAIN, "m1=1,m2=2,m3=3,k12=1,k23=" + "9" * 100), "choose other units"),
+    (
+        ("equivalents", "3:2", "--to", "3:5", "--formulas", "--also", "sensor=2"),
+        "leave one of them away",
+    ),
     (("equivalents", "99:1", "--to", "3:1", "--set", "m1=1"), "at most 40 masses"),
     (("simulate", "--seed", "-1"), "at least 0"),
     (("simulate", "--quantum", "nan"), "finite and not negative"),

@@ -17,12 +17,12 @@ def test_models_lists_the_family():
 
 
 def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
-    listed = called("models", 6, "--no-cache").stdout
+    listed = called("models", 6, "--no-cache", "--undamped").stdout
     assert "· not asked (--identifiability asks)" in listed and "A98" not in listed
     rows = [
         line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line
     ]
-    assert len(rows) == 157 and {row[10] for row in rows} == {"·"}
+    assert len(rows) == 157 and {row[8] for row in rows} == {"·"}
 
 
 def test_compare_explains_one_pair():
@@ -34,32 +34,36 @@ def test_compare_explains_one_pair():
 
 
 def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
-    shipped = json.loads(called("compare", "3:2", "3:5", "--json").stdout)
+    shipped = json.loads(called("compare", "3:2", "3:5", "--json", "--undamped").stdout)
     found = (shipped["relation"], shipped["decided_by"], shipped["certainty"], shipped["domain"])
     assert found == ("indistinguishable", "admissible", "theorem", "positive")
-    paper = json.loads(called("compare", "3:2", "3:5", "--domain", "complex", "--json").stdout)
+    paper = json.loads(
+        called("compare", "3:2", "3:5", "--domain", "complex", "--json", "--undamped").stdout
+    )
     assert (paper["relation"], paper["decided_by"], paper["domain"]) == (
         "indistinguishable",
         "6",
         "complex",
     )
-    computed = json.loads(called("compare", "3:2", "3:5", "--json", "--sensor", "velocity").stdout)
+    computed = json.loads(
+        called("compare", "3:2", "3:5", "--json", "--quantity", "velocity", "--undamped").stdout
+    )
     assert computed["relation"] == "indistinguishable"
-    mixed = json.loads(called("compare", "2:1", "3:1", "--json").stdout)
+    mixed = json.loads(called("compare", "2:1", "3:1", "--json", "--undamped").stdout)
     assert (mixed["left"], mixed["right"], mixed["relation"]) == ("2:1", "3:1", "distinguishable")
 
 
 def test_compare_reads_ground_dampers_lag_and_dead_time():
     found = json.loads(called("compare", "3:1+b1", "3:4+b3+lag", "--damped", "--json").stdout)
     assert (found["left"], found["right"], found["relation"]) == (
-        "A1+b1",
-        "A4+b3+lag",
+        "3:1+b1",
+        "3:4+b3+lag",
         "distinguishable",
     )
     found = json.loads(called("compare", "3:1+delay", "3:11+delay", "--damped", "--json").stdout)
     assert (found["left"], found["right"], found["relation"]) == (
-        "A1+delay",
-        "A11+delay",
+        "3:1+delay",
+        "3:11+delay",
         "indistinguishable",
     )
 
@@ -100,18 +104,30 @@ def test_verdicts_csv_contract_and_subsets():
     conditions = rows(called("verdicts", 3, "--damped", "--conditions", "1-9", "--csv", "-").stdout)
     assert sum(r["relation"] == "undecided" and r["decided_by"] == "" for r in conditions) == 6
     paper = rows(
-        called("verdicts", 3, "--conditions", "1-5", "--representation", "tf", "--csv", "-").stdout
+        called(
+            "verdicts",
+            3,
+            "--conditions",
+            "1-5",
+            "--representation",
+            "tf",
+            "--csv",
+            "-",
+            "--undamped",
+        ).stdout
     )
     assert {r["decided_by"] for r in paper} == {"1", "4", "5", ""}
     eight = rows(
-        called("verdicts", 3, "--representation", "markov", "--markov", 8, "--csv", "-").stdout
+        called(
+            "verdicts", 3, "--representation", "markov", "--markov", 8, "--csv", "-", "--undamped"
+        ).stdout
     )
     assert {r["representation"] for r in eight} == {"markov", ""}
 
 
 def test_verdicts_json_has_evidence(tmp_path):
     path = tmp_path / "v.json"
-    done = called("verdicts", 2, "--json", path)
+    done = called("verdicts", 2, "--json", path, "--undamped")
     assert done.returncode == 0
     assert done.stdout.startswith(
         "3 models, 3 pairs, over positive parameters: 2 distinguishable, 1 indistinguishable, 0"
@@ -186,7 +202,7 @@ def test_the_exact_decision_settles_what_conditions_leave_open():
 
 
 def test_ranges_and_positive_parameters_are_told_both_ways():
-    done = called("compare", "4:2", "4:6").stdout.splitlines()
+    done = called("compare", "4:2", "4:6", "--undamped").stdout.splitlines()
     assert done[0] == "SOMETIMES"
     assert (
         done[-1]
@@ -195,18 +211,18 @@ def test_ranges_and_positive_parameters_are_told_both_ways():
     )
     assert any("77 of 100 random points have one: empirically 68% to 84%" in line for line in done)
     apart = called("compare", "3:6", "3:7", "--damped").stdout.splitlines()
-    assert apart[-1].startswith("positive: A7 in A6 never. No generic positive parameters of A7")
+    assert apart[-1].startswith("positive: 3:7 in 3:6 never. No generic positive parameters of 3:7")
     inside = called(
-        "compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2"
+        "compare", "3:1", "3:4", "--bound", "k12=0..1000", "--bound", "m1=0.5..2", "--undamped"
     ).stdout.splitlines()
-    for line, start in zip(inside[-2:], ("A1 in A4", "A4 in A1"), strict=True):
+    for line, start in zip(inside[-2:], ("3:1 in 3:4", "3:4 in 3:1"), strict=True):
         assert line.startswith(f"within the ranges: {start} sometimes")
     for wrong, says in (
         ("k12=5", "written like"),
         ("x9=1..2", "no parameter"),
         ("k12=3..1", "not empty"),
     ):
-        refused = called("compare", "3:1", "3:4", "--range", wrong)
+        refused = called("compare", "3:1", "3:4", "--bound", wrong, "--undamped")
         assert refused.returncode == 2 and says in refused.stderr
 
 
@@ -218,18 +234,20 @@ def test_a_verdict_is_over_positive_parameters_where_nothing_is_said_and_over_co
         ("--conditions", "1-9"): "complex",
     }
     for given, domain in domains.items():
-        told = called("compare", "4:3", "4:7", *given).stdout
+        told = called("compare", "4:3", "4:7", "--undamped", *given).stdout
         assert (
             f" over {domain} parameters (" in told and f"\ndomain     {domain} parameters" in told
         )
-    table = rows(called("verdicts", 3, "--representation", "tf", "--csv", "-").stdout)
+    table = rows(called("verdicts", 3, "--representation", "tf", "--csv", "-", "--undamped").stdout)
     assert {r["domain"] for r in table} == {"complex"}
-    refused = called("compare", "4:3", "4:7", "--conditions", "1-9", "--domain", "positive")
+    refused = called(
+        "compare", "4:3", "4:7", "--conditions", "1-9", "--domain", "positive", "--undamped"
+    )
     assert refused.returncode == 2 and "--domain positive" in refused.stderr
 
 
 def test_verdicts_names_the_domain_and_what_depends_on_the_values():
-    told = called("verdicts", 4).stdout.splitlines()
+    told = called("verdicts", 4, "--undamped").stdout.splitlines()
     head = "29 models, 406 pairs, over positive parameters"
     assert told[0] == f"{head}: 357 distinguishable, 48 indistinguishable, 1 sometimes, 0 undecided"
     paper = called("verdicts", 3, "--damped", "--domain", "complex").stdout.splitlines()
@@ -243,14 +261,16 @@ def test_verdicts_names_the_domain_and_what_depends_on_the_values():
 
 def test_a_pair_in_the_other_order_draws_each_model_under_its_own_name():
     """A stored verdict names the lower number first: drawings, ranges and proofs follow it."""
-    told = called("compare", "4:4", "4:1").stdout.splitlines()
-    assert told[2:4] == ["  A1  [1FS]~[2]~[3]~[4]", "  A4  [1F]~[2]~[3]~[4S]"]
+    told = called("compare", "4:4", "4:1", "--undamped").stdout.splitlines()
+    assert told[2:4] == ["  4:1  [1FS]~[2]~[3]~[4]", "  4:4  [1F]~[2]~[3]~[4S]"]
     turned = called(
-        "compare", "3:4", "3:1", "--range", "k12=0..1000", "--range", "m1=0.5..2"
+        "compare", "3:4", "3:1", "--bound", "k12=0..1000", "--bound", "m1=0.5..2", "--undamped"
     ).stdout
     assert (
         turned
-        == called("compare", "3:1", "3:4", "--range", "k12=0..1000", "--range", "m1=0.5..2").stdout
+        == called(
+            "compare", "3:1", "3:4", "--bound", "k12=0..1000", "--bound", "m1=0.5..2", "--undamped"
+        ).stdout
     )
 
 

@@ -10,7 +10,8 @@ VALUES = "m1=1,m2=2,m3=3,k12=100,k23=70"
 
 
 def equivalents(*arguments):
-    return called("equivalents", *arguments)
+    kind = () if "--damped" in arguments else ("--undamped",)
+    return called("equivalents", *arguments, *kind)
 
 
 def test_one_structure():

@@ -12,7 +12,7 @@ LONG = "9" * 100_000
 @pytest.mark.parametrize(
     "command",
     [
-        ("compare", "3:1", "3:4", "--range", "k12=0..1e999999999"),
+        ("compare", "3:1", "3:4", "--bound", "k12=0..1e999999999"),
         ("compare", "3:1\x1b[2J\x07", "3:4"),
         ("compare", LONG, "3:4"),
         ("models", LONG),

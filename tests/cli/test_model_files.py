@@ -115,14 +115,14 @@ def test_names_are_no_formulas_of_a_spreadsheet(tmp_path):
 
 BAD = [
     (("verdicts", "MODELS", "--damped"), "belongs to numbered chains"),
-    (("verdicts", "MODELS", "--sensor", "velocity"), '"sensor" at the chains'),
+    (("verdicts", "MODELS", "--quantity", "velocity"), '"sensor" at the chains'),
     (("verdicts", "MODELS", "--prove"), "--prove belongs to numbered chains"),
     (("verdicts", "no.json"), "no.json cannot be read (No such file or directory)"),
     (("verdicts", "ONE"), "has one model: there is nothing to compare"),
     (("compare", "MODELS:nobody", "3:1"), "no model is called 'nobody'"),
     (("compare", "MODELS:", "3:1"), "no model is called ''"),
     (("compare", "MODELS:drive", "3:1", "--prove"), "belongs to numbered chains"),
-    (("compare", "MODELS:drive", "3:1", "--range", "m1=1..2"), "belongs to numbered chains"),
+    (("compare", "MODELS:drive", "3:1", "--bound", "m1=1..2"), "belongs to numbered chains"),
     (("compare", "MODELS:drive", "MODELS:by hand", "--damped"), "belongs to numbered chains"),
     (("compare", "MODELS:drive", "3:1+delay"), "no rational function"),
 ]  # fmt: skip

@@ -17,7 +17,7 @@ from tests.fit.drives import response
 
 GUIDE = Path(__file__).parents[2] / "disting" / "guide" / "plan.md"
 VALUES = "m1=0.0045,m2=0.005,k12=550,d12=0.08,b1=0.1"
-PAIR = ("2:1+b1", "2:1+b2", "--damped", "--set", VALUES, "--range", "5..300")
+PAIR = ("2:1+b1", "2:1+b2", "--damped", "--set", VALUES, "--band", "5..300")
 MODEL, RIVAL = (Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2))
 NUMBERS = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08, "b1": 0.1}
 
@@ -36,7 +36,7 @@ def test_answer_comes_first_with_what_is_needed(written):
         "not enough: 2:1+b2 is excluded with a probability of 75 % if the machine is 2:1+b1 (level"
         " 1 %); 1.68 times the periods are needed for 95 %"
     )
-    assert verdict.startswith("verdict: A1+b1 and A1+b2 are distinguishable over positive")
+    assert verdict.startswith("verdict: 2:1+b1 and 2:1+b2 are distinguishable over positive")
     text = "\n".join(rest)
     assert "  noise of a line at most 23 %\n  1.68 times the periods\n" in text
     assert "1 surplus parameter (within 2:1+b1+b2)" in text and ": agreed" in text
@@ -71,7 +71,7 @@ def test_written_spectrum_is_run_by_the_command_that_is_named(written, tmp_path)
 def test_indistinguishable_pair_is_impossible_and_next_is_named():
     values = "m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3"
     done = called(
-        "plan", "3:1", "3:11", "--damped", "--set", values, "--noise", "0.02", "--range", "0.1..10"
+        "plan", "3:1", "3:11", "--damped", "--set", values, "--noise", "0.02", "--band", "0.1..10"
     )
     assert done.returncode == 0
     first, verdict = done.stdout.splitlines()[:2]
@@ -163,7 +163,7 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
     ("arguments", "words"),
     [
         ((*PAIR,), "--noise 0.02, or --noise FRF.csv"),
-        ((*PAIR[:5], "--noise", "0.02"), "--range 5..300"),
+        ((*PAIR[:5], "--noise", "0.02"), "--band 5..300"),
         ((*PAIR, "--noise", "0"), "the noise of a line lies"),
         ((*PAIR, "--noise", "nan"), "the noise of a line lies"),
         ((*PAIR, "--noise", "0.1", "--lines", "3"), "at least 8 lines"),
@@ -172,7 +172,7 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
         (("nothing.json",), "is no JSON file of a fit"),
         (("fit.json", "2:1"), "names structures and values itself"),
         ((*PAIR, "--noise", "nothing.csv"), "nothing.csv"),
-        ((*PAIR[:3], "--set", "m1=1", "--noise", "0.1", "--range", "1..2"), "is missing"),
+        ((*PAIR[:3], "--set", "m1=1", "--noise", "0.1", "--band", "1..2"), "is missing"),
     ],
 )
 def test_bad_input_is_one_sentence_with_the_remedy(arguments, words):

@@ -9,7 +9,6 @@ import pytest
 from disting import Chain, Engine, Family, Outcome, Query, View, compare
 from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
 from disting.behaviour.sample import Representation
-from disting.cli.common import joint_in_words
 from disting.conditions.finding import Finding
 from disting.conditions.rule import EXACT
 from disting.general import Model
@@ -17,7 +16,7 @@ from disting.general.exact import exact_finding
 from disting.general.profiles import profile
 from disting.model.settings import Settings
 from disting.questions.same.exact import by_synthesis, resting_on_ranks
-from disting.verdict import family_safety
+from disting.verdict import family_safety, joint_in_words
 from disting.verdict.result import error_bound
 from tests.conditions.handmade import handmade
 

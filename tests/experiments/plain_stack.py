@@ -2,7 +2,8 @@
 fibre of the stacked coefficients by a Gröbner basis modulo a prime. No code of the package.
 """
 
-from sympy import GF, QQ, Poly, Rational, Symbol, groebner, symbols, zeros
+from sympy import GF, QQ, Matrix, Poly, Rational, Symbol, groebner, symbols, zeros
+from sympy.polys.matrices import DomainMatrix
 
 S = Symbol("s")
 PRIME = 2147483029
@@ -64,6 +65,64 @@ def has_equivalent(given, point, searched):
         gap = Poly(n1 * d2 - n2 * d1, S, *names.values()).clear_denoms()[1]
         equations += Poly(gap.as_expr(), S).all_coeffs()
     product, extra = 1, symbols("extra")
+    for symbol in names.values():
+        product *= symbol
+    whole = [e for e in equations if e != 0] + [extra * product - 1]
+    basis = groebner(whole, extra, *names.values(), domain=GF(PRIME), order="grevlex")
+    return basis.exprs != [1]
+
+
+def responses(chain, values, at, **experiment):
+    """G at the number `at`, and its derivatives by the parameters: A(s) is linear in each one, and
+    dG = -x' dA y with A x = sensor, A y = force; a lag and the sensor's order are factors.
+    """
+    changes = {k: experiment[k] for k in ("locked", "inertias", "springs") if k in experiment}
+    matrix, moving = stiffness(chain, values, **changes)
+    act = experiment.get("force") or (chain.act_plus, chain.act_minus)
+    meas = experiment.get("sensor") or (chain.meas_plus, chain.meas_minus)
+    ends = [[sum(w * (i == p) for p, w in zip(e, (1, -1), strict=True)) for i in moving]
+            for e in (act, meas)]  # fmt: skip
+    inverse = matrix.subs(S, at).inv()
+    y, x = (inverse * Matrix(e) for e in ends)
+    factor = Rational(at) ** chain.sensor.order / (1 + values.get("T1", 0) * at)
+    plain = sum(a * b for a, b in zip(ends[1], y, strict=True))
+    slopes = []
+    for name in chain.parameters:
+        if name == "T1":
+            slopes.append(-at * factor**2 / Rational(at) ** chain.sensor.order * plain)
+            continue
+        unit = {n: int(n == name) for n in values}
+        slope = stiffness(chain, unit, locked=changes.get("locked", ()))[0].subs(S, at)
+        slopes.append(-factor * (x.T * slope * y)[0])
+    return factor * plain, slopes
+
+
+def determined(chain, point, experiments):
+    """Rank of all responses' derivatives at a point, and the parameters whose unit vector lies in
+    their row space: more numbers s than any of the functions has zeros.
+    """
+    numbers = [Rational(k, 3) for k in range(1, 4 * chain.n_masses + 6)]
+    rows = [responses(chain, point, at, **e)[1] for e in experiments for at in numbers]
+    matrix = DomainMatrix.from_Matrix(Matrix(rows)).convert_to(QQ)
+    n, rank = len(chain.parameters), matrix.rank()
+    kernel = matrix.nullspace().to_Matrix()
+    seen = [name for j, name in enumerate(chain.parameters) if not any(kernel[:, j])] if rank < n \
+        else list(chain.parameters)  # fmt: skip
+    return rank, seen
+
+
+def has_other(chain, point, experiments, name):
+    """Whether other parameters, none of them zero and `name` not the given one, give all transfer
+    functions at the point.
+    """
+    names = {n: Symbol(n) for n in chain.parameters}
+    equations = []
+    for experiment in experiments:
+        n1, d1 = transfer(chain, point, **experiment)
+        n2, d2 = transfer(chain, names, **experiment)
+        gap = Poly(n1 * d2 - n2 * d1, S, *names.values()).clear_denoms()[1]
+        equations += Poly(gap.as_expr(), S).all_coeffs()
+    extra, product = symbols("extra"), names[name] - point[name]
     for symbol in names.values():
         product *= symbol
     whole = [e for e in equations if e != 0] + [extra * product - 1]

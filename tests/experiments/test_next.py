@@ -6,6 +6,7 @@ import json
 from itertools import combinations, product
 
 import pytest
+from sympy import Rational
 
 from disting import Experiment, Family, Query, View, compare
 from disting.behaviour.sample import Representation
@@ -14,10 +15,12 @@ from disting.cli.run import main
 from disting.errors import InputError
 from disting.experiments.menu import Costs, Gain, Item, Kind, gain, kinds, measured
 from disting.experiments.stacked_profiles import profile
+from disting.model.names import chain_of
 from disting.verdict import Engine, Relation
 from disting.verdict.everywhere import Answer
 from disting.verdict.further import Further, further
 from disting.verdict.further_words import conclusion, rows
+from tests.experiments.plain_stack import has_equivalent
 from tests.experiments.test_truth import SAME
 
 A = Family(3, damped=True)
@@ -175,6 +178,55 @@ def test_command(capsys, monkeypatch):
     assert plain["structures"] == ["3:2", "3:5"] and plain["anywhere"] == ["sensor", "force"]
 
 
+DAMPERS = [
+    (names, kind, i, j)
+    for names in (("3:1+b1", "3:4+b2"), ("3:8+b1", "3:11+b2"))
+    for kind in (Kind.SENSOR, Kind.LOCK)
+    for i, j in product((1, 2, 3), repeat=2)
+]
+
+
+def agrees_with_other_code(names, kind, i, j):
+    """Tables of structures with dampers to the ground, against one fibre by plain SymPy."""
+    chains = [chain_of(name, Family(3)) for name in names]
+    stored = next_catalog(3, dampers=True)
+    numbers = [
+        stored.number(int(name[2:].split("+")[0]), chain.ground_dampers)
+        for name, chain in zip(names, chains, strict=True)
+    ]
+    said = stored.further(numbers).tables[kind].look_up((0, i), (1, j))[0]
+    further = [{"sensor": (at, 0)} if kind is Kind.SENSOR else {"locked": (at,)} for at in (i, j)]
+    point = {p: Rational(11 + 3 * k * k, 7 + 2 * k) for k, p in enumerate(chains[0].parameters)}
+    sides = [(chain, [{}, one]) for chain, one in zip(chains, further, strict=True)]
+    same = has_equivalent(sides[0], point, sides[1])
+    return same is (said is Relation.INDISTINGUISHABLE)
+
+
+@pytest.mark.parametrize("case", DAMPERS[1::5], ids=str)
+def test_truth_with_dampers_to_the_ground(case):
+    assert agrees_with_other_code(*case)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", DAMPERS, ids=str)
+def test_all_truth_with_dampers_to_the_ground(case):
+    assert agrees_with_other_code(*case)
+
+
+def test_command_with_dampers_to_the_ground(capsys, monkeypatch):
+    """3:4 is 3:4 mirrored, and so are its dampers."""
+    monkeypatch.setenv("DISTING_CACHE", "off")
+    assert main(["next", "3:4+b3", "--damped", "--json", "-"]) == 0
+    plain = json.loads(capsys.readouterr().out)
+    assert plain["structures"] == ["3:4+b3", "3:4+b1"]
+    same = {
+        (r["at_left"], r["at_right"])
+        for r in plain["pairs"]
+        if (r["experiment"], r["relation"]) == ("inertia", "indistinguishable")
+    }
+    assert same == {("1", "3"), ("2", "2"), ("3", "1")}
+
+
 @pytest.mark.parametrize(
     ("arguments", "status", "says"),
     [
@@ -182,6 +234,9 @@ def test_command(capsys, monkeypatch):
         (["3:3"], 0, "told from all other structures"),
         (["3:1", "4:1"], 2, "different numbers of masses"),
         (["7:1"], 2, "name all structures"),
+        (["3:2+lag"], 2, "name all structures"),
+        (["3:1+b1"], 0, "told from all other structures"),
+        (["3:4+b1+b3", "3:4+b3+b1"], 2, "are the same structure"),
         (["3:1", "--cost", "gold=1"], 2, "costs are those of"),
     ],
 )

@@ -105,9 +105,9 @@ def told(capsys, *arguments):
 def test_command_line(capsys):
     code, out = told(capsys, "3:1", "3:11", "--also", "sensor=3/2", "--also", "lock=2/1")
     assert code == 0 and out.out.startswith("DISTINGUISHABLE")
-    assert "experiment 3  mass 2 locked" in out.out and "masses 2/1, 3/2 of A1/A11" in out.out
+    assert "experiment 3  mass 2 locked" in out.out and "masses 2/1, 3/2 of 3:1/3:11" in out.out
     code, out = told(capsys, "3:2", "3:5", "--also", "sensor=2", "--domain", "complex")
-    assert code == 0 and out.out.startswith("DEPENDS ON THE PLACES: A2 and A5")
+    assert code == 0 and out.out.startswith("DEPENDS ON THE PLACES: 3:2 and 3:5")
     code, out = told(capsys, "3:2", "3:5", "--also", "lock=2/2", "--domain", "complex")
     assert code == 0 and "nothing is learned from experiment 2" in out.out
 
@@ -126,7 +126,7 @@ def test_command_line_as_json(capsys):
         (("--also", "sensor=7"), "there is no mass 7 in a chain with masses 1 to 3"),
         (("--also", "lock=1+2+3"), "leave one that moves"),
         (("--also", "inertia=1:-2"), "a known inertia is positive"),
-        (("--also", "sensor=1", "--prove"), "leave --prove and --range away"),
+        (("--also", "sensor=1", "--prove"), "leave --prove and --bound away"),
     ],
 )
 def test_command_line_errors_are_one_sentence(capsys, also, said):

@@ -11,7 +11,8 @@ import pytest
 from disting.errors import InputError
 from disting.fit.candidates import figure_1, variants, whole_family
 from disting.fit.cost import Case, Cost
-from disting.fit.estimate import Task, estimate_from_json, estimate_to_json, estimates, with_smaller
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimate_from_json, estimate_to_json, estimates, with_smaller
 from disting.fit.modes import poles, zeros
 from disting.fit.neighbours import carried, neighbours
 from disting.fit.pairs import conspicuous, paired

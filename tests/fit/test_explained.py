@@ -10,7 +10,7 @@ import pytest
 from disting.fit.candidates import figure_1
 from disting.fit.cost import Cost
 from disting.fit.explained import chi2, explanation, yardstick
-from disting.fit.export import selection_to_dict
+from disting.fit.plain import selection_to_dict
 from disting.fit.scatter import between, scatter
 from disting.fit.select import select
 from disting.fit.telling import first_lines, suspicions
@@ -207,3 +207,22 @@ def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
     )
     lowest = min(c.j_test for c in found.candidates)
     assert not found.explanation.explains and found.described.j_test == lowest
+
+
+def test_what_explains_the_data_goes_before_what_does_not():
+    """Few repeats of a quiet machine: the loud lines above the resonance hide in the cost what the
+    simpler candidate misses at the quiet ones below it.
+    """
+    right, wrong = (Chain(2, damped=True, dead_time=True, ground_dampers=at) for at in ((1,), ()))
+    values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.075, "b1": 0.12, "Td": 3e-4}
+    source = np.random.default_rng(0)
+    omega = 2 * np.pi * np.arange(20.0, 251.0)
+    exact = response(right, values, omega).G
+    sigma = 4e-5 * omega**2  # of a position that is noisy, as acceleration
+    error = sigma * (source.normal(size=omega.size) + 1j * source.normal(size=omega.size))
+    data = FrequencyResponse(omega, exact + error / np.sqrt(2), deviation=sigma)
+    found = select(data, [right, wrong])
+    sizes = {c.chain: c.chi2 for c in found.candidates}
+    assert sizes[right] < 3 < sizes[wrong]
+    assert found.selected.chain == right and [m.name for m in found.members] == ["2:1+b1+delay"]
+    assert first_lines(found)[0].startswith("2:1+b1+delay explains this data")

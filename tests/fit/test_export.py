@@ -7,16 +7,14 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.export import (
-    candidate_to_dict,
-    model_from_dict,
     predicted,
-    read_model,
     state_space,
     to_control,
     to_control_transfer_function,
     write_mat,
 )
 from disting.fit.modes import oscillating, poles, zeros
+from disting.fit.plain import candidate_to_dict, model_from_dict, read_model
 from disting.fit.select import select
 from disting.model.chain import Chain
 from tests.fit.drives import CHAINS, OMEGA, response, truth

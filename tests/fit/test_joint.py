@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting.errors import InputError
+from disting.experiments.stacked_profiles import rank_by
 from disting.fit.alternatives import representatives
 from disting.fit.cost import Case, Cost, lines_by_deviation
 from disting.fit.descent import fine
@@ -20,8 +21,7 @@ from disting.fit.members import QUANTILE
 from disting.fit.noise import expected
 from disting.fit.practical import covariance
 from disting.fit.select import select
-from disting.fit.setup import Setup
-from disting.fit.structural import stacked_rank
+from disting.fit.setup import Setup, measured_chain
 from disting.fit.together import (
     behaves_alike,
     is_same_under_all,
@@ -214,7 +214,7 @@ RANKS = [
 @pytest.mark.parametrize(("chain", "setups", "rank"), RANKS)
 def test_the_rank_of_a_stack_is_that_of_differences(chain, setups, rank):
     free = tuple(name for name in chain.parameters if name != "Td")
-    assert stacked_rank(chain, setups, free, "test") == rank
+    assert rank_by(measured_chain(chain, setups), free, "test") == rank
     cost = stack(chain, list(setups), OMEGA[::8])
     values = {n: v for n, v in truth(chain, 2).items() if n in free}
     columns = cost.of(cost.plant(chain.structure, 1), np.array(list(values.values())))[1]

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 from disting.fit.admissible import Rule, undetermined
 from disting.fit.alternatives import limits_of
 from disting.fit.candidates import as_listed, reference
-from disting.fit.export import predicted, selection_to_dict
+from disting.fit.export import predicted
 from disting.fit.members import members, twins
+from disting.fit.plain import selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.select import select
 from disting.fit.telling import commands, first_lines, renamed

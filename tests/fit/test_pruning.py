@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disting import Engine, Query, View, compare
-from disting.cli.fit import _told
+from disting.cli.fit_told import told
 from disting.fit.alternatives import alternatives, representatives, stands_for
 from disting.fit.candidates import figure_1
 from disting.fit.modes import physical
@@ -38,7 +38,7 @@ def test_a_given_mass_is_known_to_the_verdicts_that_prune():
     assert mirrored.j_train > 10 * found.selected.j_train
     (other,) = found.alternatives
     assert other.relation is Relation.UNDECIDED and "m1 may not take every value" in other.sentence
-    assert "tell it apart" not in "".join(_told(found, found.test))
+    assert "tell it apart" not in "".join(told(found, found.test))
 
 
 def test_bounds_prune_only_where_they_cut_nothing():
@@ -99,7 +99,7 @@ def test_a_selection_of_given_values_alone():
     train = response(Chain(1, damped=True), {"m1": 2.0}, noise=0.01)
     found = select(train, [Chain(1, damped=True)], fixed={"m1": 2.0})
     assert found.selected.j_test == pytest.approx(found.selected.j_train)
-    assert "m1   = 2           given" in "\n".join(_told(found, train))
+    assert "m1   = 2           given" in "\n".join(told(found, train))
     (inertia,) = [r for r in physical(found.selected, found.task) if r.name == "total inertia"]
     assert (inertia.value, inertia.standard_error) == (2.0, 0.0)
     assert importance_bars(found.selected, found.thresholds) is None

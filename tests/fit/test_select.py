@@ -12,8 +12,9 @@ from disting.errors import InputError
 from disting.fit.admissible import Rule
 from disting.fit.candidates import figure_1, variants
 from disting.fit.cost import lines_by_deviation
-from disting.fit.export import model_from_dict, predicted, selection_to_dict
+from disting.fit.export import predicted
 from disting.fit.modes import oscillating, physical, poles, zeros
+from disting.fit.plain import model_from_dict, selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.repeatability import repeatability
 from disting.fit.select import select

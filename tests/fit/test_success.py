@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from disting.fit.cost import Cost
-from disting.fit.estimate import Task, estimates
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimates
 from disting.fit.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

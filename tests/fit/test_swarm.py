@@ -3,7 +3,8 @@
 import pytest
 
 from disting.fit.cost import Cost
-from disting.fit.estimate import Task, estimates
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimates
 from disting.fit.swarm import by_swarm, search_box
 from disting.model.chain import Chain
 from tests.fit.drives import response, truth

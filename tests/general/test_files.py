@@ -130,7 +130,7 @@ REFUSED = {
     "not of type dict": one(num={"s": 1}, den=["a", 1]),
     "is no expression": one(G="k/(s +"),
     "is no rational expression": one(G="exp(a)"),
-    '"G" is one expression': one(G=["k"]),
+    "a matrix of transfer functions is a list of rows": one(G=["k"]),
     "contain the frequency variable s": one(num=["s"], den=["a", 1]),
     "s is a parameter": '{"s": "p", "models": [{"name": "x", "G": "1/(p + s)"}]}',
     "is the name of the frequency variable": '{"s": "2*p", "models": [{"name": "x", "G": "a"}]}',

@@ -59,7 +59,7 @@ def visit(window, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-de
     assert all(
         re.fullmatch(
             re.escape(site.as_uri())
-            + r"/([\w-]+\.html|(?:models|guide)/style\.css|guide/[\w-]+\.html|models/[\w-]+/\d+\.html)",
+            + r"/(search\.js|[\w-]+\.html|(?:models|guide)/style\.css|guide/[\w-]+\.html|models/[\w-]+/\d+\.html)",
             r,
         )
         for r in requests

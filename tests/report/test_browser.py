@@ -11,6 +11,7 @@ import pytest
 from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict import View
+from disting.verdict.shown import shown
 from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
@@ -67,6 +68,9 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
     verdict = catalog(3, damped=True).verdict(1, 4)
     assert verdict.evidence is not None
     assert tab.inner_text("#detail h3") == "A1 and A4"
+    assert tab.inner_text("#detail .shown") == shown(verdict)
+    assert not tab.is_visible("#detail .why")
+    tab.click("#detail summary")
     assert tab.inner_text("#detail .why") == verdict.evidence.sentence("A1", "A4")
     assert tab.inner_text("#detail .formula") == verdict.evidence.formula
     for side, number in (("left", 1), ("right", 4)):
@@ -195,7 +199,7 @@ def test_other_fragments_select_nothing(visit) -> None:  # type: ignore[no-untyp
 def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A5")
     assert tab.inner_text("#detail h3") == "A5"
-    assert "indistinguishable from 1 (A2)" in tab.inner_text("#detail .why")
+    assert "indistinguishable from 1 (A2)" in tab.inner_text("#detail .shown")
     follow_link(tab, '#detail [data-slot="link"] a')
     assert tab.inner_text("h1").startswith("Model A5")
     follow_link(tab, "text=Verdict and evidence")
@@ -211,6 +215,7 @@ def test_the_search_finds_models_and_pairs(visit) -> None:  # type: ignore[no-un
         ("3:2 3:5", pair),
         ("7 3", "A3 and A7"),
         ("2-5", pair),
+        ("3:2 A5", pair),
     ):
         tab.fill("#find", typed)
         tab.press("#find", "Enter")
@@ -223,6 +228,19 @@ def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[n
         tab.fill("#find", typed)
         tab.press("#find", "Enter")
         assert tab.inner_text("#trouble") and not tab.is_visible("#detail"), typed
+
+
+def test_the_search_says_where_what_no_page_shows_is_answered(visit) -> None:  # type: ignore[no-untyped-def]
+    for address, field, said in ((SMALL, "#find", "#trouble"), (START, "#models", "#said")):
+        tab = visit(address)
+        for typed, command in (
+            ("3:1 4:5", "disting compare 3:1 4:5 --damped"),
+            ("3:1+lag+b2 3:4+delay", "disting compare 3:1+b2+lag 3:4+delay --damped"),
+            ("3:1+delay", "disting compare 3:1+delay 3:.. --damped"),
+        ):
+            tab.fill(field, typed)
+            tab.press(field, "Enter")
+            assert tab.inner_text(said).endswith(f"a command answers: {command}"), typed
 
 
 def test_the_search_leads_to_other_catalogues(visit) -> None:  # type: ignore[no-untyped-def]

@@ -1,8 +1,9 @@
-"""The guide: every page is in the site, leads somewhere, lets no markup through; what it and
-the README show is true.
+"""The guide: every page is in the site, leads somewhere, lets no markup through; every command
+that it and the README show is one.
 """
 
 import argparse
+import json
 import re
 import shlex
 from functools import cache
@@ -13,40 +14,32 @@ from hypothesis import given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
+from disting.catalogs import catalog
 from disting.cli.parser import parser
-from disting.report.guide import GuidePage, guide_files, guide_page, guide_texts
+from disting.files import __version__
+from disting.model.drawing import text_drawing
+from disting.model.family import Family
+from disting.model.names import chain_of
+from disting.report import write_report
+from disting.report.guide import Part, guide, guide_files, guide_parts, guide_texts
+from disting.report.markdown import GuidePage, guide_page
 from tests.cli.process import called
 from tests.report.barriers import barriers
+from tests.report.guide_blocks import FOLDER, ROOT, TEXTS, blocks, fences
 from tests.report.outline import Outline
 
-ROOT = Path(__file__).parents[2]
-FOLDER, README = ROOT / "disting" / "guide", ROOT / "README.md"
-TEXTS = {
-    **{path.name: path.read_text(encoding="utf-8") for path in sorted(FOLDER.glob("*.md"))},
-    "README.md": README.read_text("utf-8"),
-}
-CHEAP = (
-    "compare 3:",
-    "compare 4:",
-    'compare "leaks.json',
-    "equivalents",
-    "dampers 3:",
-    "verdicts",
-    "models 3",
-)
 PLACEHOLDER = re.compile(r"[\[\]|]|\.\.|\b[A-Z]+\b")
 MARKUP = """<script>alert(1)</script> <b onclick="x()">bold</b> [a](javascript:alert(1)) ![i](http://a.b/c.png) {{ 7*7 }} &lt;"""
 
 
 @cache
+def parts() -> tuple[Part, ...]:
+    return guide(parser())
+
+
+@cache
 def written() -> dict[str, str]:
-    return {name: content.decode() for name, content in guide_files()}
-
-
-def fences(text: str) -> list[str]:
-    return [
-        token.content for token in MarkdownIt("commonmark").parse(text) if token.type == "fence"
-    ]
+    return {name: content.decode() for name, content in guide_files(parts())}
 
 
 def shown() -> list[tuple[str, str, bool]]:
@@ -71,23 +64,15 @@ def shown() -> list[tuple[str, str, bool]]:
     return [(name, line, whole) for name, line, whole in found if line.startswith("disting ")]
 
 
-def transcripts() -> list[tuple[str, str, str]]:
-    """Command and its output, of what is shown with output."""
-    found = []
-    for name, text in TEXTS.items():
-        for block in fences(text):
-            parts = re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]
-            found += [(name, *part.split("\n", 1)) for part in parts]
-    return found
-
-
 def test_the_readme_is_short() -> None:
     assert len(TEXTS["README.md"].splitlines()) <= 200
 
 
 def test_every_page_is_in_the_site_with_its_title_and_headings() -> None:
     pages = {f"guide/{path.stem}.html" for path in FOLDER.glob("*.md")}
-    assert len(pages) >= 10 and set(written()) == pages | {"guide/style.css"}
+    made = {name for name in written() if re.match("guide/(python-|commands)", name)}
+    assert len(pages) >= 20 and len(made) >= 8
+    assert set(written()) == pages | made | {"guide/style.css"}
     for address in pages:
         text = TEXTS[Path(address).stem + ".md"]
         outline = Outline(written()[address])
@@ -95,11 +80,14 @@ def test_every_page_is_in_the_site_with_its_title_and_headings() -> None:
             token for token in MarkdownIt("commonmark").parse(text) if token.type == "heading_open"
         ]
         assert outline.count("h1") == 1 and f"# {outline.texts['h1'][0]}\n" in text
-        # "All pages"
-        assert outline.count("h2") == sum(token.tag == "h2" for token in headings) + 1
+        assert outline.count("h2") == sum(token.tag == "h2" for token in headings)
         assert outline.count("h3") == sum(token.tag == "h3" for token in headings)
         assert outline.count("table") == len(re.findall(r"^\|[ :|-]*-[ :|-]*$", text, re.MULTILINE))
-        assert outline.count("pre") == len(fences(text)) + len(re.findall(r"\n\n    \S", text))
+        drawn = [content for kind, content in blocks(text) if kind == "picture"]
+        indented = len(re.findall(r"\n\n    \S", text))
+        assert outline.count("pre") == len(fences(text)) - len(drawn) + indented
+        images = len(re.findall(r"^!\[", text, re.MULTILINE))
+        assert outline.count("figure") == images + sum(len(d.splitlines()) for d in drawn)
         assert outline.count("a", **{"aria-current": "page"}) == 1
 
 
@@ -117,27 +105,53 @@ def test_no_link_and_no_anchor_is_dead() -> None:
         assert len(links) > len(ids)
         for link in links:
             target, _, anchor = link.partition("#")
-            page = f"guide/{target}" if target else name
+            page = f"guide/{target.removeprefix('../guide/')}" if target else name
             assert link == "../index.html" or (
                 page in ids and (not anchor or anchor in ids[page])
             ), (name, link)
 
 
-def test_the_readme_and_the_pages_lead_to_files_and_to_every_page() -> None:
+def test_links_lead_to_files_and_the_listing_to_every_page() -> None:
     for name, text in TEXTS.items():
         folder = ROOT if name == "README.md" else FOLDER
         targets = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", text)
         assert all((folder / target).is_file() for target in targets), name
-        if name in ("README.md", "index.md"):
-            pages = {path.name for path in FOLDER.glob("*.md")} - {"index.md"}
-            assert pages <= {Path(target).name for target in targets}
+    listed = set(re.findall(r"\]\(([\w-]+\.md)", TEXTS["index.md"]))
+    assert {path.name for path in FOLDER.glob("*.md")} - {"index.md"} == listed
+    assert "disting/guide/index.md" in TEXTS["README.md"]
 
 
-def test_the_order_is_that_of_the_listing() -> None:
+def test_four_parts_in_the_order_of_the_listing() -> None:
     listed = re.findall(r"^\| \[[^]]+\]\(([\w-]+)\.md\)", TEXTS["index.md"], re.MULTILINE)
-    assert list(guide_texts()) == ["index", *listed]
+    listing = guide_parts(guide_texts())
+    assert [title for title, _ in listing] == ["Start", "How-to", "Understanding", "Reference"]
+    assert [name for _, names in listing for name in names] == listed
     assert f'rel="next" href="{listed[0]}.html"' in written()["guide/index.html"]
-    assert 'rel="next"' not in written()[f"guide/{listed[-1]}.html"]
+    last = parts()[-1].pages[-1].name
+    assert last == "commands" and 'rel="next"' not in written()["guide/commands.html"]
+
+
+def test_pictures_are_the_chains_that_stand_beside_them() -> None:
+    named = [
+        re.split(r"\s{2,}", line.strip())
+        for text in TEXTS.values()
+        for kind, content in blocks(text)
+        for line in content.splitlines()
+        if kind == "picture"
+    ]
+    assert named
+    for model, *drawing in named:
+        name, _, option = model.partition(" ")
+        chain = chain_of(name, Family(1, damped=option == "--damped"))
+        assert "   ".join(drawing) == text_drawing(chain)
+
+
+def test_an_image_is_a_drawing_of_the_guide_or_words() -> None:
+    text = "# T\n\n![two](a.svg)\n\n![far](https://a.b/c.png)\n"
+    page = guide_page("a", text, ["a"], {"a.svg": "<svg></svg>"})
+    assert re.sub("</?p>|\n", "", page.body) == (
+        '<figure class="picture"><svg></svg><figcaption>two</figcaption></figure>far'
+    )
 
 
 def rendered(text: str) -> GuidePage:
@@ -212,47 +226,104 @@ def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
         ),
         {},
     )
-    for chosen in words[0].split("|") if commands and words else []:
+    named = words[0].split("|") if commands and words and words[0][0] != "-" else []
+    for chosen in named:
         assert chosen in commands or chosen == "...", words
         found |= known_options(words[1:], commands[chosen]) if chosen in commands else set()
     return found
 
 
-@pytest.mark.parametrize(
-    ("page", "command", "output"),
-    [t for t in transcripts() if t[1].startswith(tuple(f"disting {c}" for c in CHEAP))],
-)
-def test_what_is_shown_is_what_is_said(
-    page: str, command: str, output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for block in re.findall(r"^```json\n(.*?)^```", TEXTS[page], re.MULTILINE | re.DOTALL):
-        (tmp_path / "leaks.json").write_text(block, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    said = called(*shlex.split(command)[1:]).stdout
-    assert said.rstrip("\n") == output.rstrip("\n"), page
-
-
 def test_what_is_quoted_of_identifiability_is_what_is_said() -> None:
     quoted = re.findall(r"^A\d+: .*", TEXTS["models.md"], re.MULTILINE)
     said = called("models", "3", "--damped", "--identifiability").stdout.splitlines()
-    assert len(quoted) == 2 and set(quoted) <= set(said)
+    also = called("models", "3", "--damped", "--also", "sensor=1").stdout.splitlines()
+    assert len(quoted) == 4 and set(quoted[:2]) <= set(said) and set(quoted[2:]) <= set(also)
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("guide")
-    (folder / "guide").mkdir()
-    for name, content in guide_files():
-        (folder / name).write_bytes(content)
+    write_report([catalog(2), catalog(3, damped=True)], folder, commands=parser())
     return folder
 
 
 @pytest.mark.parametrize(
-    ("width", "scheme", "read"), [(390, "dark", "decisions"), (1280, "light", "fit")]
+    ("width", "scheme", "read"),
+    [(320, "dark", "decisions"), (320, "light", "commands"), (1280, "light", "python-disting")],
 )
 def test_pages_are_legible_and_only_boxes_scroll(visit, width: int, scheme: str, read: str) -> None:  # type: ignore[no-untyped-def]
-    for name in guide_texts() if width < 500 else [read]:
+    names = [page.name for part in parts() for page in part.pages]
+    for name in names if (width, scheme) == (320, "dark") else [read]:
         tab = visit(f"guide/{name}.html", width, scheme)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, name
     tab = visit(f"guide/{read}.html", width, scheme)
     assert barriers(tab) == []
+
+
+def found(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
+    """Titles of what is found."""
+    tab.fill("#finder", text)
+    return [item.inner_text() for item in tab.locator("#finds li .what").all()]
+
+
+def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("models/3-damped/4.html")
+    tab.keyboard.press("/")
+    tab.wait_for_function(
+        "document.querySelectorAll('#finds').length && document.activeElement.id === 'finder'"
+    )
+    tab.wait_for_selector('script[src$="search.js"]', state="attached")
+    tab.keyboard.type("closur")
+    tab.wait_for_selector("#finds li")
+    assert "closure" in found(tab, "closur")
+    assert found(tab, "gap")[0] == "gap"
+    assert "disting compare" in found(tab, "compare") and "compare" in found(tab, "compare")
+    assert found(tab, "Chain.parameters")[0] == "Chain.parameters"
+    assert any("disting fit --band" in title for title in found(tab, "--band"))
+    assert found(tab, "2:3") == ["A3 of 2 masses, undamped"]
+    assert found(tab, "A3")[:2] == ["A3 of 2 masses, undamped", "A3 of 3 masses, damped"]
+    assert found(tab, "nothing is called so") == []
+    assert tab.locator(".finder .nothing").inner_text() == "Nothing found"
+
+
+def test_the_keyboard_searches_and_goes(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit("index.html", 320, "dark")
+    tab.keyboard.press("/")
+    tab.keyboard.type("3:2 3:5")
+    tab.wait_for_selector("#finds li")
+    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
+    assert barriers(tab, context=".site") == []
+    tab.keyboard.press("ArrowDown")
+    assert tab.get_attribute("#finder", "aria-activedescendant") == "find-0"
+    assert tab.get_attribute("#find-0", "aria-selected") == "true"
+    tab.keyboard.press("Escape")
+    assert tab.get_attribute("#finder", "aria-expanded") == "false"
+    tab.keyboard.press("ArrowUp")
+    tab.keyboard.press("ArrowDown")
+    with tab.expect_navigation():
+        tab.keyboard.press("Enter")
+    assert tab.url.endswith("chains-3-damped.html#2-5")
+
+
+def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
+    text = (site / "search.js").read_text(encoding="utf-8")
+    data = json.loads(re.search(r"const DATA = (.*);\n", text)[1])  # type: ignore[index]
+    ids = {}
+    for address, _ in data["pages"]:
+        outline = Outline((site / address).read_text(encoding="utf-8"))
+        ids[address] = {a["id"] for _, a in outline.elements if "id" in a} | {""}
+    assert len(data["sections"]) > 500
+    for place, anchor, title, _ in data["sections"]:
+        assert title and anchor in ids[data["pages"][place][0]], (place, anchor)
+
+
+def test_every_page_of_the_site_has_the_same_bar(site: Path) -> None:
+    pages = sorted(site.rglob("*.html"))
+    assert len(pages) > 50
+    for path in pages:
+        outline = Outline(path.read_text(encoding="utf-8"))
+        links = [str(a["href"]) for tag, a in outline.elements if "href" in a]
+        root = "../" * (len(path.relative_to(site).parts) - 1)
+        for page in ("index", "guide/start", "guide/index", "guide/glossary"):
+            assert f"{root}{page}.html" in links, path
+        assert outline.count("link", rel="icon") == 1 and f"disting {__version__}" in outline.text

@@ -189,6 +189,8 @@ def test_a_pair_is_found_by_its_names_and_told(visit, vessels) -> None:  # type:
     tab.press("#find", "Enter")
     verdict = vessels.verdict(1, 2, View.POSITIVE)
     assert tab.inner_text("#detail h3") == "two leaks and exchange"
+    assert tab.inner_text("#detail .shown").startswith("Every machine two leaks has a twin")
+    tab.click("#detail summary")
     assert tab.inner_text("#detail .why") == verdict.evidence.sentence("two leaks", "exchange")
     assert (
         tab.inner_text('[data-slot="in-exact"]')
@@ -223,6 +225,7 @@ def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[n
     tab = visit("list-hostile.html#1-2")
     assert tab.inner_text("#detail h3") == f"{HOSTILE[0]} and {HOSTILE[1]}"
     tab = visit("list-hostile.html#5-6")
+    tab.click("#detail summary")
     assert tab.inner_text("#detail .why").startswith("{L} has a numerator of degree 0")
     assert "{R} and {L} a numerator" in tab.inner_text("#detail .why")
 

@@ -14,6 +14,7 @@ from disting.report import index, page
 from disting.report.payload import packed, script_json
 from disting.report.words import VIEW_TITLES
 from disting.verdict import View
+from disting.verdict.shown import shown
 from tests.report.outline import Outline
 
 HOSTILE = """</script><script>alert("1")</script><img src=x onerror='alert(2)'>&amp;{{ 7*7 }}"""
@@ -98,13 +99,15 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
     for left, right, verdict in shipped.pairs(View.MARKOV):
         place = (right - 1) * (right - 2) // 2 + left - 1
         entry = data["entries"][_unpacked(data["views"]["markov"])[place]]  # type: ignore[index]
-        relation, by, where, _, domain, why, formula, rule = (data["texts"][n] for n in entry)  # type: ignore[index]
+        relation, by, where, _, domain, said, why, formula, rule = (data["texts"][n] for n in entry)  # type: ignore[index]
         assert (domain, rule) == ("complex", verdict.rule)
         assert (relation, by, where) == (
             verdict.relation,
             verdict.decided_by,
             verdict.representation,
         )
+        named = said.replace("{L}", f"A{left}").replace("{R}", f"A{right}")
+        assert named == shown(verdict)
         if verdict.evidence:
             assert why.replace("{L}", f"A{left}").replace("{R}", f"A{right}") in verdict.sentence
             assert formula == verdict.evidence.formula
@@ -148,7 +151,10 @@ def test_nothing_is_fetched(render: object) -> None:
     text = render(catalog(3, damped=True))  # type: ignore[operator]
     assert "http:" not in text and "https:" not in text and "//" not in text.replace("// ", "")
     text = re.sub(r"<noscript>.*?</noscript>", "", text)  # a picture for those without a script
-    assert not re.search(r"url\(|@import|\bsrc=|<link|<iframe|fetch\(|XMLHttp|import\(", text)
+    assert not re.search(
+        r"url\(|@import|\bsrc=|<link(?! rel=.icon. href=.data:)|<iframe|fetch\(|XMLHttp|import\(",
+        text,
+    )
 
 
 def test_the_largest_page_is_small_and_complete(largest: str) -> None:

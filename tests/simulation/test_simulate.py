@@ -23,7 +23,7 @@ from disting.simulation import (
     matrices,
     simulate,
 )
-from disting.simulation.excitation import read_spectrum, spectrum_text
+from disting.simulation.excitation import read_spectrum
 
 BENCH = Bench(sampling_rate=1000.0, samples=1000, periods=3)
 BAND = Excitation(low=5.0, high=200.0)
@@ -59,9 +59,9 @@ def test_lines_that_fall_together_add_their_powers():
 
 
 def test_a_spectrum_is_read_back_bit_by_bit(tmp_path):
-    hertz, sizes = np.array([1 / 3, 10.0, 77.7]), np.array([0.1, 1 / 7, 1.0])
-    (tmp_path / "s.csv").write_text(spectrum_text(hertz, sizes), encoding="utf-8")
-    assert read_spectrum(tmp_path / "s.csv") == tuple(zip(hertz, sizes, strict=True))
+    lines = ((1 / 3, 0.1), (10.0, 1 / 7), (77.7, 1.0))
+    (tmp_path / "s.csv").write_text(Excitation(spectrum=lines).spectrum_csv, encoding="utf-8")
+    assert read_spectrum(tmp_path / "s.csv") == lines
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,13 @@ from disting.fibres.ideals.full_rows import same_by_full_rows as same_by_full_ro
 from disting.fibres.ideals.membership import Limits as Limits
 from disting.fibres.ideals.membership import decide as decide
 from disting.fibres.ideals.membership import decide_matched as decide_matched
+from disting.fibres.ideals.one_value import Values as Values
+from disting.fibres.ideals.one_value import one_value as one_value
+from disting.fibres.ideals.stacked import Fraction as Fraction
+from disting.fibres.ideals.stacked import StackedMap as StackedMap
+from disting.fibres.ideals.stacked import stacked_maps as stacked_maps
 from disting.fibres.ideals.system import CoefficientMap as CoefficientMap
+from disting.fibres.ideals.system import PolynomialMap as PolynomialMap
 from disting.fibres.ideals.system import Terms as Terms
 from disting.fibres.ideals.system import coefficient_map as coefficient_map
 from disting.fibres.ideals.system import normalised as normalised

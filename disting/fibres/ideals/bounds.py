@@ -112,6 +112,37 @@ def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BIT
     return _safety(Size(delta * first.degrees[0], int(found.bits + put_in) + 1), bits)
 
 
+def safety_of_one_value(model: PolynomialMap, bits: int = BITS) -> int:
+    """Bits of error probability of "a parameter has one value in generic fibres" from one empty
+    fibre of other values (see `one_value`): that of an empty fibre of the model in itself, with one
+    relation more.
+    """
+    shape, n = _shape([c + c for c in model.coordinates]), len(model.parameters)
+    degrees = shape.degrees[:n]
+    difference = Bounded(1, 1.0)
+    others = [difference] + [VARIABLE] * (2 * n - len(degrees))
+    found = relation([*(Bounded(d, shape.norm) for d in degrees), *others])
+    minor = sum(degrees)
+    minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
+    size = Size((n + 1) * found.weight + 2 * minor, int((n + 1) * found.bits + 2 * minor_bits) + 1)
+    return _safety(size, bits)
+
+
+def safety_of_other_values(model: PolynomialMap, bits: int = BITS) -> int:
+    """Bits of error probability of "a parameter has several values in generic fibres" from one
+    fibre of other values that is not empty (see `one_value`).
+
+    r + 1 forms in the coordinates, r <= n parameters, one of them with u q_j added, of degree 2 at
+    least; u and the q that are left over are variables.
+    """
+    shape, n = _shape(model.coordinates), len(model.parameters)
+    forms = sorted((*shape.degrees[: n + 1], 2), reverse=True)[: n + 1]
+    norm = shape.norm + _mixing(prod(forms) ** 2, len(shape.degrees) + 1)
+    found = relation([Bounded(d, norm) for d in forms] + [VARIABLE] * (n + 2 - len(forms)))
+    put_in = found.weight * norm + (len(forms) + 1) * log2(found.weight + 1)
+    return _safety(Size(found.weight, int(found.bits + put_in) + 1), bits)
+
+
 def _related(shape: _Shape, equations: int, combined: bool, variables: int) -> Relation:
     """The relation of so many equations, or as there are coordinates, and variables: one
     polynomial more than variables.

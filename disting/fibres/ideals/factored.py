@@ -40,7 +40,7 @@ from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
 from disting.algebra.groebner.modular import long_polynomial, null_space
 from disting.algebra.symbols import coefficients, symbols
 from disting.fibres.ideals.fibre_ideal import Polynomial, derivative, evaluated
-from disting.fibres.ideals.system import CoefficientMap, Terms, minors, separated
+from disting.fibres.ideals.system import CoefficientMap, Terms, determinants, separated
 from disting.model.row import Row
 
 Point = tuple[int, ...]
@@ -63,7 +63,7 @@ class FactoredMap:
     are 1.
 
     D is without its factor s^k. `whole`: the receptance with its gain, the last parameter, which
-    the others do not contain.
+    the others do not contain; of `monic_map` without the gain.
     """
 
     name: str
@@ -102,7 +102,8 @@ def factored(row: Row) -> FactoredMap:
     a, b = _ports(row)
     names = _names(row)
     ring = symbols(["s", *names, "g"])
-    theta, phi, den = _minors(row, ring)
+    added = [_entries(i, row, ring) for i in range(row.before, row.before + row.n_masses)]
+    theta, phi, den = determinants(row, added, ring)
     num = reduce(mul, (ring["s"] + ring[f"h{i}"] for i in range(a, b)), ring["g"] * theta * phi)
     power = min(e[0] for e in den.monoms())  # of the poles at zero, which no zero cancels
     at = {name: k for k, name in enumerate(names)}
@@ -192,35 +193,17 @@ def _names(row: Row) -> tuple[str, ...]:
     return (*("u0", "e0")[: 2 * row.grounded], *joints, *dampers)
 
 
-def _minors(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly, fmpz_mpoly]:
-    """theta, phi and D by the three-term recurrences."""
-    s, zero, one = ring["s"], 0 * ring["s"], ring["s"] ** 0
-    first, last, ports = row.before + 1, row.before + row.n_masses, _ports(row)
-    near = {
-        last: (zero, zero),
-        first - 1: (zero, ring.get(f"u{first - 1}", zero) + ring.get(f"e{first - 1}", zero) * s),
-    }
-    near |= {i: _entries(i, ports, ring) for i in range(first, last)}
-    diagonal = [
-        s * s + near[i - 1][1] + near[i][0] + ring.get(f"f{i}", zero) * s
-        for i in range(first, last + 1)
-    ]
-    squares = [near[i][0] * near[i][1] for i in range(first, last)]
-    leading, trailing = minors(diagonal, squares, one), minors(diagonal[::-1], squares[::-1], one)
-    return leading[ports[0] - first], trailing[last - ports[1]], leading[-1]
-
-
-def _entries(
-    joint: int, ports: tuple[int, int], ring: dict[str, fmpz_mpoly]
-) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+def _entries(joint: int, row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     """What a joint adds to the rows of the masses on its left and on its right."""
-    s = ring["s"]
-    if ports[0] <= joint < ports[1]:
-        return ring[f"e{joint}"] * (s + ring[f"h{joint}"]), ring[f"x{joint}"] * (
-            s + ring[f"h{joint}"]
-        )
-    one, ratio = ring[f"u{joint}"] + ring[f"e{joint}"] * s, ring[f"r{joint}"]
-    return (one, ratio * one) if joint < ports[0] else (ratio * one, one)
+    s, zero, (a, b) = ring["s"], 0 * ring["s"], _ports(row)
+    if a <= joint < b:
+        same = s + ring[f"h{joint}"]
+        return ring[f"e{joint}"] * same, ring[f"x{joint}"] * same
+    one = ring.get(f"u{joint}", zero) + ring.get(f"e{joint}", zero) * s
+    if joint == row.before:
+        return zero, one
+    ratio = ring[f"r{joint}"]
+    return (one, ratio * one) if joint < a else (ratio * one, one)
 
 
 def _by_power(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:

@@ -23,8 +23,10 @@ from disting.fibres.ideals.system import Terms, receptance_map
 from disting.model.row import Row, rows_of
 from disting.model.structure import Structure
 
+LABEL = "full rows"
 
-def same_by_full_rows(a: Structure, b: Structure, label: str = "full rows") -> FullRows | None:
+
+def same_by_full_rows(a: Structure, b: Structure, label: str = LABEL) -> FullRows | None:
     """The proof that two structures have equal closures row by row; None if there is none.
     `label` draws the points.
 
@@ -39,6 +41,11 @@ def same_by_full_rows(a: Structure, b: Structure, label: str = "full rows") -> F
     found = [_shared(here, there, label) for here, there in pairs]
     free = tuple(n for n in found if n is not None)
     return FullRows(free) if len(free) == len(found) and any(free) else None
+
+
+def same_receptances(row: Row, other: Row) -> bool:
+    """Whether the receptances of two rows have equal closures, by one of both reasons."""
+    return _shared(row.canonical, other.canonical, LABEL) is not None
 
 
 def _comparable(a: Structure, b: Structure) -> bool:

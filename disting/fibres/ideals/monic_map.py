@@ -13,69 +13,52 @@ Where e_i of a joint between the ports is zero, N has a smaller degree; no such 
 receptance of one where none is.
 """
 
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cache, reduce
 from operator import mul
 
-from flint import fmpz_mpoly
-
 from disting.algebra.symbols import symbols
-from disting.fibres.ideals.system import CoefficientMap, minors, separated
+from disting.fibres.ideals.factored import FactoredMap
+from disting.fibres.ideals.system import determinants, separated, terms, with_ratios
 from disting.model.row import Row
 
 
-@dataclass(frozen=True)
-class MonicMap:
-    """Psi in factors: parameters, the h_i in order, and the coefficients of theta, phi and D
-    without their leading ones.
-    """
-
-    parameters: tuple[str, ...]
-    heads: tuple[str, ...]
-    left: tuple[fmpz_mpoly, ...]
-    right: tuple[fmpz_mpoly, ...]
-    poles: tuple[fmpz_mpoly, ...]
-    whole: CoefficientMap
-
-
 @cache
-def monic_map(row: Row) -> MonicMap:
+def monic_map(row: Row) -> FactoredMap:
     """Psi of a damped row without dampers to the ground.
 
     >>> m = monic_map(Row(2, True, 1, 2, damped=True))
-    >>> m.parameters, [str(c) for c in m.right], len(m.poles)
-    (('u0', 'e0', 'h1', 'e1', 'r1'), [], 4)
+    >>> m.parameters, m.joints, m.right, len(m.poles)
+    (('u0', 'e0', 'h1', 'e1', 'r1'), (2,), (), 4)
     """
-    a, b, n = row.a, row.b, row.n_masses
+    row = replace(row, before=0)
+    between = range(row.a, row.b)
     names = tuple(
         x
         for i in row.joints
-        for x in (f"{'h' if a <= i < b else 'u'}{i}", f"e{i}", f"r{i}")[: 3 if i else 2]
+        for x in (f"{'h' if i in between else 'u'}{i}", f"e{i}", f"r{i}")[: 3 if i else 2]
     )
     ring = symbols(["s", *names])
-    s, zero, one = ring["s"], ring["s"] - ring["s"], ring["s"] ** 0
-    joint = {
-        i: ring[f"e{i}"] * (s + ring[f"h{i}"]) if a <= i < b else ring[f"u{i}"] + ring[f"e{i}"] * s
-        for i in row.joints
-    }
-    joint = {0: zero, n: zero} | joint
-    ratio = {i: ring.get(f"r{i}", one) for i in range(n)}
-    diagonal = [s * s + joint[i - 1] * ratio[i - 1] + joint[i] for i in range(1, n + 1)]
-    squares = [joint[i] * joint[i] * ratio[i] for i in range(1, n)]
-    leading, trailing = minors(diagonal, squares, one), minors(diagonal[::-1], squares[::-1], one)
-    left, right, poles = (
-        leading[a - 1],
-        trailing[n - b],
-        leading[n] if row.grounded else leading[n] // s**2,
-    )
-    heads = tuple(f"h{i}" for i in range(a, b))
-    zeros = reduce(mul, (s + ring[h] for h in heads), left * right)
-    sides = [separated(names, p, one).numerator[:-1] for p in (left, right, poles)]
-    return MonicMap(
+    s, zero = ring["s"], ring["s"] - ring["s"]
+    joints = [
+        ring[f"e{i}"] * (s + ring[f"h{i}"])
+        if i in between
+        else ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s
+        for i in range(row.n_masses)
+    ]
+    left, right, poles = determinants(row, with_ratios(row, joints, ring), ring)
+    poles = poles if row.grounded else poles // s**2
+    zeros = reduce(mul, (s + ring[f"h{i}"] for i in between), left * right)
+    coefficients = [
+        tuple(terms(c) for c in separated(names, p, s**0).numerator[:-1])
+        for p in (left, right, poles)
+    ]
+    return FactoredMap(
+        name=f"{row}, {' '.join(names)}",
         parameters=names,
-        heads=heads,
-        left=sides[0],
-        right=sides[1],
-        poles=sides[2],
+        joints=tuple(names.index(f"h{i}") for i in between),
+        left=coefficients[0],
+        right=coefficients[1],
+        poles=coefficients[2],
         whole=separated(names, zeros, poles),
     )

@@ -225,21 +225,41 @@ def unknowns(row: Row) -> tuple[str, ...]:
 def receptance_of_row(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     """Receptance (numerator, denominator) of a row; `ring` has s and the row's unknowns."""
     first, last = row.before + 1, row.before + row.n_masses
-    s, zero, one = ring["s"], ring["s"] - ring["s"], ring["s"] ** 0
-    joint = {
-        i: ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)
-    } | {last: zero}
-    ratio = {i: ring.get(f"r{i}", one) for i in range(first - 1, last)}
+    s, zero = ring["s"], ring["s"] - ring["s"]
+    joints = [ring.get(f"u{i}", zero) + ring.get(f"e{i}", zero) * s for i in range(first - 1, last)]
+    theta, phi, den = determinants(row, with_ratios(row, joints, ring), ring)
+    between = reduce(mul, joints[row.a : row.b], ring[f"g{first}"])
+    return between * theta * phi, den
+
+
+def with_ratios(
+    row: Row, joints: Sequence[fmpz_mpoly], ring: dict[str, fmpz_mpoly]
+) -> list[tuple[fmpz_mpoly, fmpz_mpoly]]:
+    """What the joints 0, 1, .. left of each mass add to the masses on their left and right: c_i and
+    r_i c_i.
+    """
+    one = ring["s"] ** 0
+    ratios = [ring.get(f"r{i + row.before}", one) for i in range(row.n_masses)]
+    return [(c, ratio * c) for c, ratio in zip(joints, ratios, strict=True)]
+
+
+def determinants(
+    row: Row, added: Sequence[tuple[fmpz_mpoly, fmpz_mpoly]], ring: dict[str, fmpz_mpoly]
+) -> tuple[fmpz_mpoly, fmpz_mpoly, fmpz_mpoly]:
+    """theta_(a-1), phi_(b+1) and D of a row by the three-term recurrences; `added`: what the joint
+    left of each mass adds to the masses on its left and right.
+    """
+    s, zero = ring["s"], ring["s"] - ring["s"]
+    below = [*(left for left, _ in added[1:]), zero]
     diagonal = [
-        s * s + joint[i - 1] * ratio[i - 1] + joint[i] + ring.get(f"f{i}", zero) * s
-        for i in range(first, last + 1)
+        s * s + right + left + ring.get(f"f{i + row.before}", zero) * s
+        for i, ((_, right), left) in enumerate(zip(added, below, strict=True), 1)
     ]
-    squares = [joint[i] * joint[i] * ratio[i] for i in range(first, last)]
-    leading = minors(diagonal, squares, one)
-    trailing = minors(diagonal[::-1], squares[::-1], one)
-    a, b = row.ports
-    between = reduce(mul, (joint[i + row.before] for i in range(a, b)), ring[f"g{first}"])
-    return between * leading[a - 1] * trailing[row.n_masses - b], leading[-1]
+    squares = [left * right for left, right in added[1:]]
+    leading, trailing = (
+        _minors(d, q, s**0) for d, q in ((diagonal, squares), (diagonal[::-1], squares[::-1]))
+    )
+    return leading[row.a - 1], trailing[row.n_masses - row.b], leading[-1]
 
 
 def receptance_map(row: Row) -> CoefficientMap:
@@ -248,7 +268,7 @@ def receptance_map(row: Row) -> CoefficientMap:
     return separated(names, *receptance_of_row(row, symbols(["s", *names])))
 
 
-def minors(
+def _minors(
     diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly
 ) -> list[fmpz_mpoly]:
     """1, d_1, d_1 d_2 - q_1, ..: the leading principal minors of a tridiagonal matrix."""

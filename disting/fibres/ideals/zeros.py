@@ -47,13 +47,12 @@ from itertools import combinations, permutations
 from math import log2
 from operator import mul
 
-from flint import fmpz_mpoly
-
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.algebra.groebner.modular import Polynomial as Modular
 from disting.algebra.groebner.modular import null_space, polynomial
 from disting.algebra.sampling import prime, residues
 from disting.fibres.ideals.bounds import safety_of_empty
+from disting.fibres.ideals.factored import FactoredMap
 from disting.fibres.ideals.fibre_ideal import (
     Polynomial,
     derivative,
@@ -61,8 +60,8 @@ from disting.fibres.ideals.fibre_ideal import (
     generic_rank,
     restricted,
 )
-from disting.fibres.ideals.monic_map import MonicMap, monic_map
-from disting.fibres.ideals.system import Terms, terms
+from disting.fibres.ideals.monic_map import monic_map
+from disting.fibres.ideals.system import Terms
 from disting.model.row import Row
 
 BITS = 192  # of the prime: one point is enough for 100 bits of any row of up to six masses
@@ -131,7 +130,7 @@ def branches(given: Row, searched: Row) -> list[Assignment]:
     7
     """
     row, found = monic_map(given), dict[tuple[tuple[int, ...], tuple[int, ...]], Assignment]()
-    orbit = [*range(len(row.heads)), *[-1] * len(row.left), *[-2] * len(row.right)]
+    orbit = [*range(len(row.joints)), *[-1] * len(row.left), *[-2] * len(row.right)]
     for branch in assignments(len(orbit), searched):
         key = (tuple(orbit[k] for k in branch.heads), tuple(sorted(orbit[k] for k in branch.left)))
         found.setdefault(key, branch)
@@ -201,7 +200,7 @@ def refute(given: Row, searched: Row, label: str, entries: int = ENTRIES) -> Bra
     for branch in tried:
         generators = equations(point, target, branch)
         basis = _basis(
-            generators, len(target.parameters) - len(target.heads), point.modulus, entries
+            generators, len(target.parameters) - len(target.joints), point.modulus, entries
         )
         if basis is None or not basis.is_one:
             return None
@@ -227,15 +226,14 @@ def confirms_branches(found: Branched) -> bool:
     return refute(found.given, found.searched, found.label) == found
 
 
-def given_point(row: MonicMap, label: str) -> GivenPoint | None:
+def given_point(row: FactoredMap, label: str) -> GivenPoint | None:
     """The first random point at which all zeros are simple and in the prime field; None if
     DRAWS have none.
     """
     modulus = prime(f"zeros:{label}", BITS)
     for draw in range(DRAWS):
         point = residues(f"zeros:{label}:{draw}", len(row.parameters), modulus)
-        values = dict(zip(row.parameters, point, strict=True))
-        factors: list[tuple[int, ...]] = [(-values[h] % modulus,) for h in row.heads]
+        factors: list[tuple[int, ...]] = [(-point[h] % modulus,) for h in row.joints]
         factors += [
             roots
             for side in (row.left, row.right)
@@ -243,21 +241,19 @@ def given_point(row: MonicMap, label: str) -> GivenPoint | None:
         ]
         zeros = tuple(z for roots in factors for z in roots)
         if len(set(zeros)) == len(zeros) == row.whole.degrees[0]:
-            poles = tuple(evaluated(terms(c), point, modulus) for c in row.poles)
+            poles = tuple(evaluated(c, point, modulus) for c in row.poles)
             return GivenPoint(
                 modulus, zeros, poles, tuple(_relations(row, point, factors, modulus))
             )
     return None
 
 
-def _at(side: Sequence[fmpz_mpoly], point: Sequence[int], modulus: int) -> Modular:
+def _at(side: Sequence[Terms], point: Sequence[int], modulus: int) -> Modular:
     """A monic factor at a point."""
-    return polynomial([*(evaluated(terms(c), point, modulus) for c in side), 1], modulus)
+    return polynomial([*(evaluated(c, point, modulus) for c in side), 1], modulus)
 
 
-def _roots(
-    side: Sequence[fmpz_mpoly], point: Sequence[int], modulus: int
-) -> tuple[int, ...] | None:
+def _roots(side: Sequence[Terms], point: Sequence[int], modulus: int) -> tuple[int, ...] | None:
     """Roots of a monic factor at the point if all are simple and in the prime field."""
     if not side:
         return ()
@@ -271,19 +267,14 @@ def _roots(
 
 
 def _relations(
-    row: MonicMap, point: Sequence[int], factors: Sequence[tuple[int, ...]], modulus: int
+    row: FactoredMap, point: Sequence[int], factors: Sequence[tuple[int, ...]], modulus: int
 ) -> Iterator[tuple[int, ...]]:
     """Relations between the derivatives of the zeros' coordinates and of D at the point."""
     size = len(row.parameters)
-    heads, sides = factors[: len(row.heads)], factors[len(row.heads) :]
-    columns = [
-        [int(name == head) for name in row.parameters]
-        for head, _ in zip(row.heads, heads, strict=True)
-    ]
+    sides = factors[len(row.joints) :]
+    columns = [[int(j == head) for j in range(size)] for head in row.joints]
     for side, zeros in zip((row.left, row.right), sides, strict=True):
-        slopes = [
-            [evaluated(derivative(terms(c), j), point, modulus) for j in range(size)] for c in side
-        ]
+        slopes = [[evaluated(derivative(c, j), point, modulus) for j in range(size)] for c in side]
         for weights in _functionals(zeros, modulus):
             columns.append(
                 [
@@ -292,9 +283,9 @@ def _relations(
                 ]
             )
     columns += [
-        [evaluated(derivative(terms(c), j), point, modulus) for j in range(size)] for c in row.poles
+        [evaluated(derivative(c, j), point, modulus) for j in range(size)] for c in row.poles
     ]
-    degrees = [max((sum(e) for e, _ in terms(c)), default=0) for c in row.poles]
+    degrees = [max((sum(e) for e, _ in c), default=0) for c in row.poles]
     order = sorted(
         range(len(columns)),
         key=lambda i: degrees[i - len(columns)] if i >= len(columns) - len(degrees) else 0,
@@ -316,37 +307,35 @@ def _functionals(zeros: Sequence[int], modulus: int) -> list[list[int]]:
     ]
 
 
-def equations(point: GivenPoint, row: MonicMap, branch: Assignment) -> list[Sparse]:
+def equations(point: GivenPoint, row: FactoredMap, branch: Assignment) -> list[Sparse]:
     """Equations of a branch in the parameters of the searched row without its h_i, which are
     numbers there.
     """
-    sides = [(row.left, branch.left), (row.right, branch.right)]
-    found = [(terms(c), -value) for c, value in zip(row.poles, point.poles, strict=True)]
+    size, sides = len(row.parameters), [(row.left, branch.left), (row.right, branch.right)]
+    found = [(c, -value) for c, value in zip(row.poles, point.poles, strict=True)]
     for side, chosen in sides:
         wanted = reduce(
             mul,
             (polynomial([-point.zeros[k], 1], point.modulus) for k in chosen),
             polynomial([1], point.modulus),
         )
-        found += [(terms(c), -int(wanted[i])) for i, c in enumerate(side)]
+        found += [(c, -int(wanted[i])) for i, c in enumerate(side)]
     for relation in point.relations:
-        weighted = list(zip(map(terms, row.poles), relation[len(point.zeros) :], strict=True))
+        weighted = list(zip(row.poles, relation[len(point.zeros) :], strict=True))
         for side, chosen in sides:
             functionals = _functionals([point.zeros[k] for k in chosen], point.modulus)
             weights = [
                 sum(relation[k] * f[i] for k, f in zip(chosen, functionals, strict=True))
                 for i in range(len(side))
             ]
-            weighted += zip(map(terms, side), weights, strict=True)
-        slopes = {h: relation[k] for h, k in zip(row.heads, branch.heads, strict=True)}
-        found += [
-            (_slope(weighted, j), slopes.get(name, 0)) for j, name in enumerate(row.parameters)
-        ]
+            weighted += zip(side, weights, strict=True)
+        slopes = {h: relation[k] for h, k in zip(row.joints, branch.heads, strict=True)}
+        found += [(_slope(weighted, j), slopes.get(j, 0)) for j in range(size)]
     values = {
-        h: -point.zeros[k] % point.modulus for h, k in zip(row.heads, branch.heads, strict=True)
+        h: -point.zeros[k] % point.modulus for h, k in zip(row.joints, branch.heads, strict=True)
     }
-    kept = [j for j, name in enumerate(row.parameters) if name not in values]
-    numbers, one = [values.get(name, 0) for name in row.parameters], (0,) * len(row.parameters)
+    kept = [j for j in range(size) if j not in values]
+    numbers, one = [values.get(j, 0) for j in range(size)], (0,) * size
     sums = (dict(some) | {one: dict(some).get(one, 0) + number} for some, number in found)
     return [restricted(g, kept, numbers, point.modulus) for g in sums]
 

@@ -12,6 +12,15 @@ from disting.questions.identifiability.analysis import as_given as as_given
 from disting.questions.identifiability.analysis import identifiabilities as identifiabilities
 from disting.questions.identifiability.analysis import identifiability as identifiability
 from disting.questions.identifiability.answer import Identifiability as Identifiability
+from disting.questions.identifiability.by_parameter import Local as Local
+from disting.questions.identifiability.by_parameter import (
+    ParameterIdentifiability as ParameterIdentifiability,
+)
+from disting.questions.identifiability.by_parameter import by_parameter as by_parameter
+from disting.questions.identifiability.by_parameter import decoded as decoded
+from disting.questions.identifiability.by_parameter import encoded as encoded
+from disting.questions.identifiability.by_parameter import joint as joint
+from disting.questions.identifiability.by_parameter import local as local
 from disting.questions.identifiability.check import confirms as confirms
 from disting.questions.identifiability.formula import Formula as Formula
 from disting.questions.identifiability.parts import Alternative as Alternative

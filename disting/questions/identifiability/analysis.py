@@ -12,7 +12,8 @@ from disting.behaviour.profile import minor_size
 from disting.behaviour.sample import Representation
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.result import Status
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sensor
+from disting.model.names import chains_named
 from disting.model.question import Question
 from disting.model.settings import Settings
 from disting.model.structure import Structure
@@ -27,16 +28,24 @@ from disting.questions.identifiability.tangent import Tangent, most_invariants, 
 from disting.questions.identifiability.uniqueness import combination
 
 
-def identifiability(chain: Chain, settings: Settings | None = None) -> Identifiability:
+def identifiability(
+    chain: Chain | str,
+    settings: Settings | None = None,
+    *,
+    damped: bool | None = None,
+    sensor: Sensor | str | None = None,
+) -> Identifiability:
     """Which parameters of the chain its behaviour determines, and how many parameter vectors have
     the same behaviour.
 
-    It is the same for all chains of one canonical form, up to names. Raises ContradictionError for
+    It is the same for all chains of one canonical form, up to names. A chain can be named, such as
+    "3:1+b2": `damped` and `sensor` say then how it is meant. Raises ContradictionError for
     a defect of the program.
 
     >>> identifiability(Chain(2, meas_plus=2)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'
     """
+    (chain,) = chains_named([chain], damped=damped, sensor=sensor)
     form = canonical(chain)
     return as_given(_canonically(form.chain, settings or Settings()), form, chain)
 

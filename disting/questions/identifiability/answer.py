@@ -7,6 +7,7 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.fibres.synthesis.result import Answer
+from disting.model.shown import Shown, summary
 from disting.questions.identifiability.as_json import decoded
 from disting.questions.identifiability.parts import (
     Alternative,
@@ -34,7 +35,7 @@ NUMBERS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Identifiability:
+class Identifiability(Shown):
     """Identifiability of one chain.
 
     `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the
@@ -74,10 +75,25 @@ class Identifiability:
                 " parameters"
             )
 
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
+
     @property
     def sentence(self) -> str:
         """The finding in plain English."""
         return _sentence(self)
+
+    @property
+    def freedom(self) -> int:
+        """Dimension of a generic fibre: so many parameters may be chosen freely."""
+        return len(self.parameters) - self.rank
+
+    @property
+    def levels(self) -> dict[str, Level]:
+        """By parameter: GLOBAL, LOCAL, NOT, or UNKNOWN where it is local and maybe more."""
+        of = {Answer.YES: Level.GLOBAL, Answer.NO: Level.LOCAL, Answer.UNKNOWN: Level.UNKNOWN}
+        singles = {c.text: of[c.unique] for c in self.singles}
+        return {name: singles.get(name, Level.NOT) for name in self.parameters}
 
     @property
     def combinations(self) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from math import lcm
 
 from flint import nmod_mat
 
-from disting.algebra.quotient import rational
+from disting.algebra.quotient import matrix, rational
 from disting.algebra.sampling import about, prime, residues
 from disting.behaviour.powers import powers
 from disting.behaviour.sample import Drawn, Representation, drawn, quotient, seen_at
@@ -43,6 +43,12 @@ class Tangent:
     def rank(self) -> int:
         """Rank of the Jacobian at this point."""
         return len(self.values) - len(self.kernel)
+
+    def rank_by(self, names: Sequence[str]) -> int:
+        """Rank of the columns of these parameters: the others are given."""
+        columns = [i for i, name in enumerate(self.values) if name in names]
+        rows = [[row[i] for i in columns] for row in self.rows]
+        return int(matrix(rows, len(columns), self.modulus).rank()) if columns else 0
 
     def sees(self, gradient: Sequence[int]) -> bool:
         """Whether the gradient lies in the row space."""

@@ -13,6 +13,7 @@ from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
+    MissingElements,
     Outside,
     RelativeDegrees,
     RowsInside,
@@ -38,12 +39,31 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
     A fibre is computed again. The ranks of the two models are taken from their profiles.
     """
     a, b = left.canonical.chain, right.canonical.chain
-    left_is_smaller, fresh = left.rank < right.rank, Witness("inclusion")
+    left_is_smaller = left.rank < right.rank
     match evidence:
         case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre():
             return a.n_masses != b.n_masses and confirms_across_sizes(evidence, left, right)
         case Counts() if a.n_masses != b.n_masses:
             return confirms_across_sizes(evidence, left, right)
+        case MissingElements():
+            part, whole = (a, b) if evidence.left_is_part else (b, a)
+            found = part.structure.embeddings(whole.structure)
+            return evidence.left_is_part == left_is_smaller and dict(evidence.numbering) in found
+        case Counts() | LargerProjection() | FullImage() | RelativeDegrees():
+            return _confirms_summary(evidence, a, b, left_is_smaller)
+        case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
+            return evidence.left_given == left_is_smaller and _confirms_fibre(evidence, a, b)
+
+
+def _confirms_summary(
+    evidence: Counts | LargerProjection | FullImage | RelativeDegrees,
+    a: Chain,
+    b: Chain,
+    left_is_smaller: bool,
+) -> bool:
+    """What degrees, ranks and values of the invariants say."""
+    fresh = Witness("inclusion")
+    match evidence:
         case Counts():
             small, large = ordered(evidence.left, evidence.right, left_is_smaller)
             return degrees_refute(small, large) and fresh.confirms(evidence, "tf", a, b)
@@ -63,19 +83,22 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
             return evidence.left_is_larger != left_is_smaller and _fall_apart(
                 smaller, larger, here, there
             )
+
+
+def _confirms_fibre(
+    evidence: Outside | RowsInside | ByRows | FibreAt | Solved | Refuted, a: Chain, b: Chain
+) -> bool:
+    """What the fibre of the given model, or its rows, say: computed again."""
+    fresh = Witness("inclusion")
+    match evidence:
         case Outside() | RowsInside():
-            given, other = (a, b) if left_is_smaller else (b, a)
-            return evidence.left_given == left_is_smaller and confirms_rows(evidence, given, other)
+            return confirms_rows(evidence, *((a, b) if evidence.left_given else (b, a)))
         case ByRows():
-            pair = (rational_part(a), rational_part(b))
-            return evidence.left_given == left_is_smaller and confirms_by_rows(evidence, *pair)
-        case FibreAt():
-            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
-        case Solved():
-            return evidence.left_given == left_is_smaller and fresh.confirms(evidence, "tf", a, b)
+            return confirms_by_rows(evidence, rational_part(a), rational_part(b))
+        case FibreAt() | Solved():
+            return fresh.confirms(evidence, "tf", a, b)
         case Refuted():
-            told = evidence.left_given == left_is_smaller and not evidence.tangent
-            return told and (
+            return not evidence.tangent and (
                 _refuted_again(a, b, evidence)
                 if _is_large(evidence, a, b)
                 else fresh.confirms(evidence, "tf", a, b)

@@ -21,6 +21,7 @@ from fractions import Fraction
 from flint import arb, fmpq
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, graded
+from disting.algebra.content import written
 from disting.errors import InputError, shown
 from disting.evidence.positive import BoxMap, Empirical, Excluded, Points, PositiveFinding, Share
 from disting.fibres.synthesis.construction import is_untested
@@ -135,7 +136,7 @@ def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
     points = [random_point(given, f"ranges:{seed}:{k}", limits.given) for k in range(tries)]
     answers = [equivalent_within(given, point, other, limits.other) for point in points]
     empirical = Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))
-    label, length = f"{seed}:{given!r}:{other!r}:{limits!r}", bits(other)
+    label, length = f"{seed}:{written(given)}:{written(other)}:{written(limits)}", bits(other)
 
     def near(wanted: Answer) -> Iterator[Point]:
         """Long points near the first places of this answer."""

@@ -46,6 +46,7 @@ from collections.abc import Iterator
 
 from flint import acb, ctx
 
+from disting.algebra.content import written
 from disting.algebra.sampling import residues
 from disting.evidence.positive import Values
 from disting.fibres.synthesis.ball import Ball, Imprecise, Poly, product, roots, shifted, splits
@@ -86,7 +87,7 @@ def real_witness(given: Chain, other: Chain, seed: str) -> Values:
     plain = is_plain(given) and is_plain(other) and given.n_masses == other.n_masses
     if not plain or always_real(given, other):
         return ()
-    label = f"real:{seed}:{given!r}:{other!r}"
+    label = f"real:{seed}:{written(given)}:{written(other)}"
     points = (_signed(random_point(given, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES))
     return next((spelled(p) for p in points if lacks_real(given, p, other)), ())
 

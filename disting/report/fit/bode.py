@@ -90,6 +90,7 @@ def bode(
     series = series_of(candidate, task, train, test, at)
     line = model_line(candidate, task, [s.measured for s in series], at)
     found = marks(results, line.omega) if at == 0 else []
+    inertias = asymptotes(candidate.chain, results, line.omega, train) if at == 0 else []
     what = name(candidate.chain) + (f", {task.cost.setups[at].text}" if at else "")
     strips = any(s.measured.coherence is not None for s in series)
     under = next((s for s in series if s.measured.distortion is not None), None)
@@ -104,13 +105,8 @@ def bode(
         panels[0].set_xscale("log")
         panels[0].set_xlim(low, high)
         logarithmic(panels[-1].xaxis, low, high)
-        inertias = asymptotes(candidate.chain, results, line.omega, train) if at == 0 else []
-        _amplitude(
-            panels[0],
-            line,
-            series,
-            [(_short(label) if is_narrow(figure) else label, y) for label, y in inertias],
-        )
+        names = _short if is_narrow(figure) else str
+        _amplitude(panels[0], line, series, [(names(label), y) for label, y in inertias])
         if under:
             beneath(panels[0], under, float(np.abs(line.G).min()))
             logarithmic(panels[0].yaxis, *panels[0].get_ylim())

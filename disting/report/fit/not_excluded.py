@@ -10,12 +10,10 @@ from markupsafe import Markup
 from disting.fit.members import Member, Twin
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.fit.onward import Link, Site, Step, step_to, steps_of
+from disting.report.fit.responses import drawing, fits_of, seen_together
 from disting.report.fit.table_rows import Row, intervals
-from disting.report.scene import PAGE_PALETTE
-from disting.report.svg import body, number
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +31,7 @@ class Same:
 @dataclass(frozen=True, slots=True)
 class Shown:
     """A structure of the set: its drawing, its page in the catalogue, parameters, what behaves
-    the same, what comes next.
+    the same, what comes next; where there are several responses, how much it reproduces of each.
     """
 
     member: Member
@@ -42,6 +40,7 @@ class Shown:
     parameters: Sequence[Row]
     same: Sequence[Same]
     steps: Sequence[Step]
+    fits: Sequence[tuple[str, str]]
 
 
 def shown_set(selection: Selection, measured: FrequencyResponse, site: Site | None) -> list[Shown]:
@@ -49,23 +48,15 @@ def shown_set(selection: Selection, measured: FrequencyResponse, site: Site | No
     return [
         Shown(
             m,
-            drawing(m.candidate.chain),
+            drawing(seen_together(m.candidate.chain, selection)),
             site.page(m.candidate.chain) if site else None,
             intervals(m, measured),
             [
-                Same(t, drawing(t.chain), site.page(t.chain) if site else None, step_to(m, t))
+                Same(t, drawing(draw(t.chain)), site.page(t.chain) if site else None, step_to(m, t))
                 for t in m.twins
             ],
             steps_of(selection, m),
+            fits_of(selection, m.candidate),
         )
         for m in selection.members
     ]
-
-
-def drawing(chain: Chain) -> Markup:
-    """The chain as an engineer sketches it."""
-    scene = draw(chain)
-    box = f"0 0 {number(scene.width)} {number(scene.height)}"
-    return Markup(
-        '<svg class="chain" width="{}" viewBox="{}" role="img" aria-label="{}">{}</svg>'
-    ).format(number(1.4 * scene.width), box, scene.title, Markup(body(scene, PAGE_PALETTE)))

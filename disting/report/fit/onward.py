@@ -16,6 +16,7 @@ from disting.fit.members import Member, Twin
 from disting.fit.select import Selection
 from disting.fit.telling import commands
 from disting.model.chain import Chain
+from disting.model.names import damping_option
 
 PURPOSES = {
     "compare": "Whether an experiment tells them apart, and why:",
@@ -110,5 +111,5 @@ def steps_of(selection: Selection, member: Member) -> list[Step]:
 
 def step_to(member: Member, twin: Twin) -> Step:
     """The command that compares a structure with one that behaves as it does."""
-    damped = " --damped" if twin.chain.damped else ""
+    damped = f" {damping_option(twin.chain.damped)}"
     return Step(SAME, f"disting compare {member.name} {twin.name}{damped}")

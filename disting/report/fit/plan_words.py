@@ -11,6 +11,7 @@ from disting.fit.named import Named
 from disting.fit.plan import LEVEL, POWER, Answer, Plan, is_trusted, joined, needed, power, typical
 from disting.fit.rival import Limit, Rival
 from disting.model.drawing import text_drawing
+from disting.model.names import damping_option
 from disting.report.fit.words import percent, readable
 from disting.verdict import Relation
 
@@ -102,7 +103,7 @@ def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
 
 def next_command(model: str, rival: str, damped: bool) -> str:
     """The command that tells which other experiment tells two structures apart."""
-    return f"disting next {model} {rival}{' --damped' * damped}"
+    return f"disting next {model} {rival} {damping_option(damped)}"
 
 
 def plan_command(found: Plan) -> str:
@@ -114,8 +115,8 @@ def plan_command(found: Plan) -> str:
     lines = ""
     if found.rival:
         hertz = found.rival.hertz
-        lines = f" --range {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
-    damped = " --damped" * found.model.damped
+        lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
+    damped = f" {damping_option(found.model.damped)}"
     return f"disting plan {model} {rival}{damped} --set {values} --noise {size:.3g}{lines}"
 
 

@@ -10,11 +10,13 @@ from disting.files import write_whole
 from disting.fit.candidates import as_listed
 from disting.fit.designed import Designed, designed_to_dict
 from disting.fit.plan import Plan, typical
+from disting.fit.plant import Real
+from disting.model.names import damping_option
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
-from disting.simulation.excitation import spectrum_text
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -25,14 +27,13 @@ def write_plan(found: Plan, best: Designed, folder: Path) -> str:
     folder.mkdir(parents=True, exist_ok=True)
     figure = plan_figure(found, best)
     text = json.dumps(designed_to_dict(found, best), indent=1, ensure_ascii=False, allow_nan=False)
-    amplitudes = np.sqrt(best.run.shares / best.run.shares.max())
     for name, content in (
         ("plan.svg", figure.svg),
         ("plan.png", figure.png),
         ("plan.pdf", figure.pdf),
         ("plan.json", [text, "\n"]),
         ("lines.csv", [_lines(found, best)]),
-        ("spectrum.csv", [spectrum_text(best.hertz, amplitudes)]),
+        ("spectrum.csv", [best.excitation(best.run.shares).spectrum_csv]),
     ):
         write_whole(folder / name, content)
     return simulation(found, best, folder / "spectrum.csv")
@@ -43,7 +44,7 @@ def simulation(found: Plan, best: Designed, path: Path) -> str:
     names = as_listed(found.model).renaming
     values = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in found.values.items())
     return (
-        f"disting simulate {found.names[0]}{' --damped' * found.model.damped} --set {values}"
+        f"disting simulate {found.names[0]} {damping_option(found.model.damped)} --set {values}"
         f" --spectrum {path} --rate {best.rate:g} --samples {best.samples}"
     )
 
@@ -71,37 +72,8 @@ def plan_figure(found: Plan, best: Designed) -> Drawn:
     def draw(figure: "Figure") -> None:
         """Two panels over one frequency axis."""
         upper, lower = figure.subplots(2, 1, sharex=True)
-        upper.plot(best.hertz, 100 * size, color=Tone.FIRST, label="difference |ln G|")
-        upper.plot(
-            best.hertz,
-            100 * noise,
-            color=Tone.SECOND,
-            linestyle=(0, (5, 3)),
-            label="noise of a line",
-        )
-        upper.axvspan(best.band.low, best.band.high, color=Tone.BODY, zorder=0.5, label="best band")
-        upper.set_xscale("log")
-        upper.set_ylabel("Difference [%]")
-        chosen = best.optimum.shares > 0
-        lower.vlines(
-            best.hertz[chosen],
-            0,
-            100 * best.optimum.shares[chosen],
-            color=Tone.THIRD,
-            linewidth=2.5,
-            label="share of the power, optimal",
-        )
-        lower.plot(
-            best.hertz,
-            100 * best.run.shares,
-            "o",
-            ms=2.5,
-            mfc="none",
-            mec=Tone.INK,
-            label="to be run",
-        )
-        lower.set_ylim(bottom=0)
-        lower.set_ylabel("Share of the power [%]")
+        _difference(upper, best, size, noise)
+        _shares(lower, best)
         lower.set_xlabel("Frequency [Hz]")
         logarithmic(lower.xaxis, best.hertz[0], best.hertz[-1])
         heading(figure, title)
@@ -109,3 +81,42 @@ def plan_figure(found: Plan, best: Designed) -> Drawn:
 
     said = f"{title}; noise {100 * typical(noise):.2g} % a line"
     return drawn("plan", said, (5.2, 5.6), draw)
+
+
+def _difference(panel: "Axes", best: Designed, size: Real, noise: Real) -> None:
+    """Difference of the structures, noise of a line, best band."""
+    panel.plot(best.hertz, 100 * size, color=Tone.FIRST, label="difference |ln G|")
+    panel.plot(
+        best.hertz,
+        100 * noise,
+        color=Tone.SECOND,
+        linestyle=(0, (5, 3)),
+        label="noise of a line",
+    )
+    panel.axvspan(best.band.low, best.band.high, color=Tone.BODY, zorder=0.5, label="best band")
+    panel.set_xscale("log")
+    panel.set_ylabel("Difference [%]")
+
+
+def _shares(panel: "Axes", best: Designed) -> None:
+    """Shares of the power of the optimal spectrum and of the one to be run."""
+    chosen = best.optimum.shares > 0
+    panel.vlines(
+        best.hertz[chosen],
+        0,
+        100 * best.optimum.shares[chosen],
+        color=Tone.THIRD,
+        linewidth=2.5,
+        label="share of the power, optimal",
+    )
+    panel.plot(
+        best.hertz,
+        100 * best.run.shares,
+        "o",
+        ms=2.5,
+        mfc="none",
+        mec=Tone.INK,
+        label="to be run",
+    )
+    panel.set_ylim(bottom=0)
+    panel.set_ylabel("Share of the power [%]")

@@ -58,36 +58,56 @@ class Missed:
 
 
 def missed(
-    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None, at: int = 0
 ) -> list[Missed]:
     """Residuals of the shown candidate; those that it is judged by against the scatter that it
-    is judged by.
+    is judged by; `at` = which one of several responses.
     """
-    candidate, task, judged = selection.described, selection.task, selection.explanation.scatter
+    candidate, task, judged = selection.described, selection.task, _judged(selection, at)
     found = []
-    for s in series_of(candidate, task, train, test):
-        ratio = s.measured.G / response_of(candidate, task, s.measured.omega)
-        known = judged if _is_judged(judged, s, test) else s.scatter
+    for s in series_of(candidate, task, train, test, at):
+        ratio = s.measured.G / response_of(candidate, task, s.measured.omega, at)
+        is_judged = s.measured is test and judged and len(judged.rho) == len(s.measured)
+        known = judged if judged and is_judged else s.scatter
         found.append(Missed(replace(s, scatter=known), np.log(np.abs(ratio)), np.angle(ratio)))
     return found
 
 
-def _is_judged(judged: Scatter, s: Series, test: FrequencyResponse | None) -> bool:
-    return s.measured is test and len(judged.rho) == len(s.measured)
+def _judged(selection: Selection, at: int) -> Scatter | None:
+    """The scatter of the lines of a response that candidates are judged by; None where it has no
+    data of its own for that.
+    """
+    cost, whole = selection.judging, selection.explanation.scatter
+    if len(selection.task.cost.setups) == 1:
+        return whole
+    each = zip(cost.setups, cost.by_line(whole.rho), strict=True)
+    setup = selection.task.cost.setups[at]
+    return next((Scatter(rho, whole.source) for own, rho in each if own == setup), None)
+
+
+def misses_of(selection: Selection, at: int) -> list[Miss]:
+    """The ranges of a response that the described candidate misses."""
+    setups, misses = selection.task.cost.setups, selection.explanation.misses
+    return [m for m in misses if len(setups) == 1 or m.response == setups[at].text]
 
 
 def residuals(
-    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
+    selection: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+    at: int = 0,
 ) -> Drawn:
     """Amplitude above, phase below; each measurement's scatter and the model's confidence as
-    bands about zero.
+    bands about zero; `at` = which one of several responses.
     """
-    found, model = missed(selection, train, test), name(selection.described.chain)
+    found = missed(selection, train, test, at)
+    model = name(selection.described.chain)
+    model += f", {selection.task.cost.setups[at].text}" if at else ""
     low, high = (
         end(m.series.measured.frequency[i] for m in found) for end, i in ((min, 0), (max, -1))
     )
     omega = 2 * np.pi * np.geomspace(low, high, LINES)
-    sure = confidence(selection.described, selection.task, omega)
+    sure = confidence(selection.described, selection.task, omega, at)
     unit, scaled = _amplitude_unit(found)
 
     def draw(figure: "Figure") -> None:
@@ -98,7 +118,7 @@ def residuals(
         logarithmic(panels[-1].xaxis, low / EDGE, high * EDGE)
         _panel(panels[0], found, "amplitude", scaled, omega, sure)
         _panel(panels[1], found, "phase", np.degrees, omega, sure)
-        _missed_ranges(panels, selection.explanation.misses)
+        _missed_ranges(panels, misses_of(selection, at))
         panels[0].set_ylabel(f"Amplitude [{unit}]")
         panels[1].set_ylabel("Phase [degree]")
         panels[-1].set_xlabel("Frequency [Hz]")
@@ -108,27 +128,30 @@ def residuals(
         )
 
     return drawn(
-        "residuals",
-        f"Residuals of {name(selection.described.chain)} over frequency. {_outside(found)}",
+        f"residuals-{at + 1}" if at else "residuals",
+        f"Residuals of {model} over frequency. {_outside(found)}",
         (4.6, 5.4),
         draw,
     )
 
 
 def bands_in_words(
-    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
+    selection: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+    at: int = 0,
 ) -> tuple[list[str], list[str]]:
     """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for
-    below the residuals.
+    below the residuals; `at` = which one of several responses.
     """
     candidate, task, found, omega = (
         selection.described,
         selection.task,
-        missed(selection, train, test),
+        missed(selection, train, test, at),
         train.omega,
     )
-    sure = confidence(candidate, task, omega)
-    own = series_of(candidate, task, train, test)
+    sure = confidence(candidate, task, omega, at)
+    own = series_of(candidate, task, train, test, at)
     bars = [_bars(s) for s in own if s.has_bars]
     told = {s.label: s.scatter.source for s in own if s.has_bars}
     said = [

@@ -12,18 +12,16 @@ from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.fit.telling import first_lines, suspicions
 from disting.measurement import FrequencyResponse
-from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import limits, nearest, weakest
-from disting.report.fit.not_excluded import drawing, shown_set
+from disting.report.fit.not_excluded import shown_set
 from disting.report.fit.onward import Site, next_steps
-from disting.report.fit.residuals import bands_in_words
+from disting.report.fit.responses import drawing, seen_together, shown_responses
 from disting.report.fit.style import Drawn
 from disting.report.fit.table_rows import parameter_rows, result_row
 from disting.report.fit.words import (
     cost_in_words,
-    fit_in_words,
     name,
     percent,
     readable,
@@ -63,23 +61,23 @@ def fit_page(
     site: Site | None = None,
 ) -> str:
     """HTML of a selection; `results` and `figures` are those of the described candidate, Bode
-    diagram and residuals first.
+    diagram and residuals of each response first.
 
     `site`: where the pages of the catalogues lie, to which the structures are linked.
     """
     candidate = selection.described
+    shown = shown_responses(selection, train, test, figures)
     return render(
         "fit.html",
         selection=selection,
         candidate=candidate,
         title=name(candidate.chain),
-        drawing=drawing(candidate.chain),
-        description=draw(candidate.chain).title,
+        drawing=drawing(seen_together(candidate.chain, selection)),
+        description=seen_together(candidate.chain, selection).title,
         results=[result_row(r, train) for r in results],
         parameters=parameter_rows(candidate, selection.task, train),
-        response=[*zip(figures[:2], bands_in_words(selection, train, test), strict=False)],
-        fitted=fit_in_words(selection, train, test),
-        figures=figures[2:],
+        responses=shown,
+        figures=figures[sum(len(one.panels) for one in shown) :],
         limits=limits(candidate, selection.thresholds),
         limits_of=lambda c: limits(c, selection.thresholds),
         weakest=weakest(candidate),

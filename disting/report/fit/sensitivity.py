@@ -2,9 +2,11 @@
 collinearity by set of parameters.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disting.fit.estimate import Task
 from disting.fit.judged import Candidate
@@ -15,6 +17,7 @@ from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 MOST = 14  # parameters whose 2^n sets are all shown
@@ -40,23 +43,10 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | Non
     )
 
     def draw(figure: "Figure") -> None:
-        """A bar a parameter, the most important on top."""
+        """Bars over a logarithmic axis, with what is allowed."""
         panel = figure.subplots()
-        names, values = [name for name, _ in rows], np.array([value for _, value in rows])
-        tones = [Tone.FIRST if value >= least else Tone.SECOND for value in values]
-        panel.barh(names, np.maximum(values, floor) - floor, left=floor, color=tones, height=0.62)
-        panel.set_xscale("log")
+        _bars(panel, rows, floor, least)
         panel.set_xlim(floor, highest * 2.2)
-        for i, value in enumerate(values):
-            panel.annotate(
-                readable(value),
-                (max(value, floor), i),
-                xytext=(5, 0),
-                textcoords="offset points",
-                va="center",
-                size=8.5,
-                bbox={"facecolor": Tone.PAPER.value, "edgecolor": "none", "pad": 1.0},
-            )
         panel.axvline(least, color=Tone.SECOND, linewidth=1.2, linestyle=(0, (5, 3)), zorder=2)
         panel.annotate(
             f"smallest allowed: largest / {readable(thresholds.importance_ratio)}",
@@ -78,6 +68,24 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | Non
     return drawn("importance", title, (1.5 + 0.29 * len(rows), 2.0 + 0.29 * len(rows)), draw)
 
 
+def _bars(panel: "Axes", rows: Sequence[tuple[str, float]], floor: float, least: float) -> None:
+    """A bar a parameter with its value, the most important on top; those below `least` marked."""
+    names, values = [name for name, _ in rows], np.array([value for _, value in rows])
+    tones = [Tone.FIRST if value >= least else Tone.SECOND for value in values]
+    panel.barh(names, np.maximum(values, floor) - floor, left=floor, color=tones, height=0.62)
+    panel.set_xscale("log")
+    for i, value in enumerate(values):
+        panel.annotate(
+            readable(value),
+            (max(value, floor), i),
+            xytext=(5, 0),
+            textcoords="offset points",
+            va="center",
+            size=8.5,
+            bbox={"facecolor": Tone.PAPER.value, "edgecolor": "none", "pad": 1.0},
+        )
+
+
 def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) -> Drawn | None:
     """Collinearity index (17) of every set of parameters against its size; None for one
     parameter or for very many.
@@ -89,7 +97,6 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
         (chosen, min(index, INFINITE))
         for chosen, index in collinearity_by_subset(_triangle(candidate, task))
     ]
-    sizes = np.array([len(chosen) for chosen, _ in found])
     indices = np.array([index for _, index in found])
     pair, worst = max((row for row in found if len(row[0]) == 2), key=lambda row: row[1])
     both = " and ".join(names[i] for i in pair)
@@ -99,22 +106,9 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
     title = f"Collinearity of sets of parameters: {values}"
 
     def draw(figure: "Figure") -> None:
-        """A dot a set, by its size."""
+        """Dots by their size, with what is allowed."""
         panel = figure.subplots()
-        dots = np.unique(np.stack([sizes, np.round(np.log10(indices) / ONE_DOT)]), axis=1)
-        panel.semilogy(
-            dots[0],
-            10 ** (dots[1] * ONE_DOT),
-            "o",
-            ms=4,
-            mfc="none",
-            mec=Tone.FIRST,
-            mew=0.9,
-            label="one set",
-        )
-        steps = np.unique(sizes)
-        worsts = [indices[sizes == size].max() for size in steps]
-        panel.plot(steps, worsts, color=Tone.INK, linewidth=1.4, label="largest of each size")
+        _dots(panel, np.array([len(chosen) for chosen, _ in found]), indices)
         limit = thresholds.collinearity
         panel.axhline(
             limit,
@@ -126,7 +120,6 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
         top = max(limit, float(indices.max())) ** 1.05 * 1.3
         panel.set_ylim(0.9, top)
         panel.set_xlim(1.7, len(names) + 0.3)
-        panel.set_xticks(steps)
         logarithmic(panel.yaxis, 0.9, top)
         panel.set_xlabel("Parameters in the set")
         panel.set_ylabel("Collinearity index")
@@ -134,6 +127,25 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
         figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3)
 
     return drawn("collinearity", title, (3.7, 4.0), draw)
+
+
+def _dots(panel: "Axes", sizes: NDArray[np.intp], indices: Real) -> None:
+    """A dot a set, and a line through the largest index of each size."""
+    dots = np.unique(np.stack([sizes, np.round(np.log10(indices) / ONE_DOT)]), axis=1)
+    panel.semilogy(
+        dots[0],
+        10 ** (dots[1] * ONE_DOT),
+        "o",
+        ms=4,
+        mfc="none",
+        mec=Tone.FIRST,
+        mew=0.9,
+        label="one set",
+    )
+    steps = np.unique(sizes)
+    worsts = [indices[sizes == size].max() for size in steps]
+    panel.plot(steps, worsts, color=Tone.INK, linewidth=1.4, label="largest of each size")
+    panel.set_xticks(steps)
 
 
 def _index(value: float) -> str:

@@ -204,13 +204,19 @@ def cost_in_words(cost: AnyCost) -> str:
 
 
 def fit_in_words(
-    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None = None
+    selection: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None = None,
+    at: int = 0,
 ) -> str:
-    """How much of the data the described candidate reproduces, see `fit_percent`."""
+    """How much of the data the described candidate reproduces, see `fit_percent`; `at` = which one
+    of several responses.
+    """
     candidate, task = selection.described, selection.task
-    of = " of the first response" * (len(task.cost.parts) > 1)
+    setups = task.cost.setups
+    of = f" of {setups[at].text}" if len(setups) > 1 else ""
     named = [("training", train), *([("test", test)] if test is not None else [])]
-    sizes = [(label, fit_percent(candidate, task, data)) for label, data in named]
+    sizes = [(label, fit_percent(candidate, task, data, at)) for label, data in named]
     each = [
         f"{size:.4g} % of the {label} data{of}" if isfinite(size) else f"{label} data are constant"
         for label, size in sizes

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from disting.files import write_whole
-from disting.fit.export import candidate_to_dict, selection_to_dict
 from disting.fit.modes import Result, physical
+from disting.fit.plain import candidate_to_dict, selection_to_dict
 from disting.fit.select import Selection
 from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
@@ -17,6 +17,7 @@ from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
 from disting.report.fit.onward import Site, beside
 from disting.report.fit.residuals import residuals
+from disting.report.fit.responses import responses
 from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
@@ -67,43 +68,28 @@ def fit_figures(
     test: FrequencyResponse | None = None,
     profiles: Sequence[Profile] = (),
 ) -> list[Drawn]:
-    """Bode diagram, residuals, criteria against thresholds, importance, collinearity, starts,
-    profiles.
+    """Bode diagram and residuals of each response, criteria against thresholds, importance,
+    collinearity, starts, profiles.
     """
     candidate, task, thresholds = selection.described, selection.task, selection.thresholds
     drawn = [
-        bode(candidate, task, results, train, test),
-        residuals(selection, train, test),
+        *(
+            figure
+            for one in responses(selection, train, test)
+            for figure in (
+                bode(candidate, task, results, one.train, one.test, one.at),
+                residuals(selection, one.train, one.test, one.at),
+            )
+        ),
         parameters_by_threshold(selection.candidates, thresholds),
         models_by_threshold(selection.candidates, thresholds),
         importance_bars(candidate, thresholds),
         collinearity_dots(candidate, task, thresholds),
         waterfall(candidate),
-        *_further(selection, results),
     ]
     if profiles:
         drawn.append(profile_panels(candidate, task, profiles))
     return [figure for figure in drawn if figure is not None]
-
-
-def _further(selection: Selection, results: Sequence[Result]) -> list[Drawn]:
-    """A Bode diagram of each further response."""
-    task, judging = selection.task, selection.judging
-    tests = (
-        dict(zip(judging.setups, judging.parts, strict=True)) if judging is not task.cost else {}
-    )
-    return [
-        bode(
-            selection.described,
-            task,
-            results,
-            part.measured,
-            tests[setup].measured if setup in tests else None,
-            at,
-        )
-        for at, (part, setup) in enumerate(zip(task.cost.parts, task.cost.setups, strict=True))
-        if at
-    ]
 
 
 def _files(

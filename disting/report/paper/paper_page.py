@@ -14,8 +14,9 @@ from disting.files import __version__
 from disting.model.family import Family
 from disting.paper import Claim, Findings, Found, Outcome
 from disting.paper.claims import SECTIONS
+from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.fit.not_excluded import drawing
+from disting.report.fit.responses import drawing
 from disting.report.paper.picture import Picture
 from disting.report.words import plural
 
@@ -87,7 +88,7 @@ def paper_page(findings: Findings, pictures: Sequence[Picture]) -> str:
             for n in range(1, LARGEST + 1)
         ],
         models=model_rows(findings),
-        drawing=drawing,
+        drawing=lambda chain: drawing(draw(chain)),
         raised=raised,
         plural=plural,
         version=__version__,

@@ -44,7 +44,7 @@ const createDamperPanel = (data, classes, models) => {
   };
   const facts = (...of) => slot("facts").tBodies[0].replaceChildren(...of.map(fact));
   const command = (...words) => { // a line breaks between words only
-    const all = ["disting", ...words, ...(data.damped ? ["--damped"] : [])];
+    const all = ["disting", ...words, data.damped ? "--damped" : "--undamped"];
     slot("text").replaceChildren(...all.flatMap((word, at) => [at ? " " : "", Object.assign(document.createElement("span"), { textContent: word })]));
   };
   const members = (g) => (g < data.several ? `Group ${g + 1}, ${plural(classes.members[g].length, "model")}: ${runs(classes.members[g])}.` : "");

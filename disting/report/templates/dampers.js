@@ -79,7 +79,8 @@
     const named = parseModels(text);
     if (!named) return `Type a structure such as ${data.masses}:2, a model such as 2+b1, or two models for a pair.`;
     const sizes = named.map((m) => m.masses || named[0].masses || data.masses);
-    if (sizes[0] !== sizes[sizes.length - 1]) return "A page compares models of one size.";
+    const elsewhere = answeredBy(named, sizes[0], kind);
+    if (elsewhere) return elsewhere;
     if (sizes[0] !== data.masses) location.href = `dampers-${sizes[0]}-${kind}.html${damperHash(named)}`;
     else if (there(named)) go(named);
     else return `There are the structures 1 to ${data.structures.length}, with dampers b1 to b${data.masses}.`;

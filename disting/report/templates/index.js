@@ -8,7 +8,8 @@
     if (!models) return ["", "Type a model as masses:number, such as 5:17, or two of them."];
     const masses = models.map((m) => m.masses).filter(Boolean);
     if (!masses.length) return ["", "Say the number of masses too, such as 5:17."];
-    if (masses[0] !== masses[masses.length - 1]) return ["", `A catalogue holds one size; two sizes: disting compare ${text}`];
+    const elsewhere = answeredBy(models, masses[0], kind);
+    if (elsewhere) return ["", elsewhere];
     const dampers = models.flatMap((m) => m.dampers || []), name = `${models.some((m) => m.dampers) ? "dampers" : "chains"}-${masses[0]}-${kind}`;
     const family = sizes[name];
     if (!family) return ["", `There is no catalogue of ${masses[0]} masses, ${kind}${dampers.length ? ", with dampers to the ground" : ""}, here.`];

@@ -1,6 +1,6 @@
 (() => {
   const data = JSON.parse(byId("data").textContent);
-  const NAMES = ["relation", "by", "representation", "certainty", "domain", "why", "formula", "rule"];
+  const NAMES = ["relation", "by", "representation", "certainty", "domain", "shown", "why", "formula", "rule"];
   const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
   const kind = data.damped ? "damped" : "undamped";
   const folder = `models/${data.masses}-${kind}`;
@@ -20,7 +20,7 @@
   const verdict = (i, j, view) => {
     const [low, high] = inOrder(i, j);
     const found = Object.fromEntries(NAMES.map((name, at) => [name, data.texts[data.entries[entry(i, j, view)][at]]]));
-    found.why = found.why.replace(/\{([LR])\}/g, (_, side) => nameOf(side === "L" ? low : high));
+    for (const part of ["shown", "why"]) found[part] = found[part].replace(/\{([LR])\}/g, (_, side) => nameOf(side === "L" ? low : high));
     return found;
   };
   const short = (v) => (v.by ? `${data.said[v.relation]}, ${v.rule}` : data.said[v.relation]);
@@ -46,9 +46,34 @@
     const said = data.next[`${low}-${high}`];
     return said ? `To measure next: ${said}` : "";
   };
+  const explain = (v) => { // the algebra below the sentence, and what its symbols mean; open where there is no sentence
+    const meant = data.symbols.filter(([pattern]) => new RegExp(pattern, "u").test(`${v.why} ${v.formula}`)).map(([, words]) => words);
+    slot("symbols").replaceChildren(...meant.map((words) => Object.assign(document.createElement("li"), { textContent: words })));
+    slot("algebra").hidden = false;
+    slot("algebra").open = !v.shown;
+  };
+  const sketches = (pair) => (data.sketches[pair] || []).map(([box, parts, text]) => {
+    const figure = document.createElement("figure"), caption = document.createElement("figcaption");
+    const svg = slot("left").cloneNode(true);
+    for (const name of ["data-slot", "width", "style"]) svg.removeAttribute(name);
+    svg.hidden = false;
+    svg.setAttribute("viewBox", box);
+    svg.setAttribute("aria-label", text);
+    svg.replaceChildren(...parts.map((part) => {
+      const use = document.createElementNS(svg.namespaceURI, "use");
+      use.setAttribute("href", `#${part}`);
+      return use;
+    }));
+    caption.textContent = text;
+    caption.setAttribute("aria-hidden", "true"); // the drawing says the same
+    figure.append(svg, caption);
+    return figure;
+  });
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], why: v.why, formula: v.formula, link: "", next: further(low, high) });
+    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: v.why, formula: v.formula, link: "", next: further(low, high) });
+    explain(v);
+    slot("sketches").replaceChildren(...sketches(`${low}-${high}`));
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
     slot("certainty").textContent = v.by ? v.certainty : "";
@@ -57,18 +82,19 @@
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
     for (const other of Object.keys(data.views)) slot(`in-${other}`).textContent = short(verdict(low, high, other));
-    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${v.why}`;
+    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${v.shown || v.why}`;
   };
   const fillModel = (model, view) => {
     const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
     const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map(nameOf).join(", ")})`}`);
-    put({ title: nameOf(model), badge: "", where: data.titles[view], why: `Of the other models: ${words.join("; ")}.`, formula: "", certainty: "", next: "" });
+    put({ title: nameOf(model), badge: "", where: data.titles[view], shown: `Of the other models: ${words.join("; ")}.`, why: "", formula: "", certainty: "", next: "" });
+    slot("sketches").replaceChildren();
     slot("badge").className = "badge";
     draw("left", model);
-    slot("right-figure").hidden = slot("views").hidden = true;
+    slot("right-figure").hidden = slot("views").hidden = slot("algebra").hidden = true;
     slot("link").replaceChildren(linkTo(pageOf(model), `Formulas and identifiability of ${nameOf(model)}`));
-    byId("status").textContent = `${nameOf(model)}. ${slot("why").textContent}`;
+    byId("status").textContent = `${nameOf(model)}. ${slot("shown").textContent}`;
   };
   const fill = ({ models, view }) => (models.length === 2 ? fillPair(...models, view) : fillModel(models[0], view));
   const select = (models, view) => bench.select({ models, view, address: models.length === 2 ? pairHash(models) : `#A${models[0]}` });
@@ -150,7 +176,8 @@
     const models = parseModels(text);
     if (!models) return `Type a model such as ${data.masses}:2, or two numbers for a pair.`;
     const masses = models.map((m) => m.masses || models[0].masses || data.masses);
-    if (masses.length === 2 && masses[0] !== masses[1]) return "A catalogue compares models of one size.";
+    const elsewhere = answeredBy(models, masses[0], kind);
+    if (elsewhere) return elsewhere;
     const numbers = [...new Set(models.map((m) => m.number))].sort((a, b) => a - b);
     if (models.some((m) => m.dampers)) {
       if (!data.dampers) return "This catalogue has no dampers to the ground.";

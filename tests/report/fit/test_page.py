@@ -11,11 +11,12 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
-from disting.fit.export import read_model, selection_to_dict
 from disting.fit.modes import physical
+from disting.fit.plain import read_model, selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
+from disting.model.names import name_of
 from disting.report.fit import (
     collinearity_dots,
     fit_page,
@@ -29,7 +30,6 @@ from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name
 from disting.report.fit.write import candidates_csv
-from disting.verdict.comparison import name_of
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE, response
@@ -208,7 +208,7 @@ def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
     assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
     said = " ".join(empty.text.split())
     assert f"The best fit is {name(nothing.described.chain)}; what follows describes it" in said
-    assert f"the best one is {name_of(nothing.described.chain, short=False)}" in said
+    assert f"the best one is {name_of(nothing.described.chain)}" in said
 
 
 def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:

@@ -11,7 +11,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from disting.fit.candidates import figure_1
-from disting.fit.export import predicted, selection_to_dict
+from disting.fit.export import predicted
+from disting.fit.plain import selection_to_dict
 from disting.fit.scatter import Scatter
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse, TimeSeries

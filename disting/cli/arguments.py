@@ -1,0 +1,224 @@
+"""Arguments that several commands share, and what their texts mean; nothing here loads numerical
+libraries.
+"""
+
+import argparse
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from disting.cli.paths import written_file, written_folder
+from disting.conditions.table import CONDITIONS
+from disting.errors import shown
+from disting.model.chain import Sensor
+from disting.model.domain import Domain
+from disting.model.family import MOST_MASSES
+from disting.model.names import DAMPED
+
+NAMES = [c.rule.name for c in CONDITIONS]
+
+
+def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
+    """Whole numbers from `low` to `high`."""
+
+    def number(text: str) -> int:
+        """The number, or an error that says what is needed."""
+        if not text.isdecimal() or len(text) > 99 or int(text) < low:
+            raise argparse.ArgumentTypeError(
+                f"a whole number of at least {low} is needed, not {shown(text)}"
+            )
+        if int(text) > high:
+            raise argparse.ArgumentTypeError(
+                f"a whole number of at most {high} is needed, not {shown(text)}"
+            )
+        return int(text)
+
+    return number
+
+
+MASSES = whole(1, MOST_MASSES)
+
+
+def sizes(text: str) -> range:
+    """One size such as 4, or several such as 1-4."""
+    match = re.fullmatch(r"([1-9]\d{0,2})(?:-([1-9]\d{0,2}))?", text)
+    if not match or int(match[2] or match[1]) < int(match[1]):
+        raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {shown(text)}")
+    if int(match[2] or match[1]) > MOST_MASSES:
+        raise argparse.ArgumentTypeError(
+            f"families of at most {MOST_MASSES} masses are listed, not of {match[2] or match[1]}"
+        )
+    return range(int(match[1]), int(match[2] or match[1]) + 1)
+
+
+def sizes_or_file(text: str) -> range | Path:
+    """Sizes, or a file of models."""
+    return Path(text) if text.endswith(".json") else sizes(text)
+
+
+def size_or_file(text: str) -> int | Path:
+    """One number of masses, or a file of models."""
+    return Path(text) if text.endswith(".json") else MASSES(text)
+
+
+def exact_range(text: str) -> tuple[str, tuple[str, str]]:
+    """A range such as k12=0..1000, its ends as they are written."""
+    match = re.fullmatch(r"(\w+)=([^=.]*\.?[^=.]*)\.\.([^=]+)", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"a range is written like k12=0..1000, not {shown(text)}")
+    return match[1], (match[2], match[3])
+
+
+def frequency_range(text: str) -> tuple[float, float]:
+    """Two rising numbers such as 11..250; raises ArgumentTypeError."""
+    low, dots, high = text.partition("..")
+    try:
+        limits = (float(low), float(high))
+    except ValueError:
+        limits = (1.0, 0.0)
+    if not dots or not limits[0] < limits[1]:
+        raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {shown(text)}")
+    return limits
+
+
+def conditions(text: str) -> tuple[str, ...]:
+    """Names and ranges such as 1-5,8, in the order of the table."""
+    chosen = set[str]()
+    for part in text.split(","):
+        low, dash, high = part.strip().partition("-")
+        high = high if dash else low
+        if not {low, high} <= set(NAMES) or NAMES.index(high) < NAMES.index(low):
+            known = f"the conditions {NAMES[0]} to {NAMES[-1]}"
+            raise argparse.ArgumentTypeError(
+                f"conditions are written like 1-5,8, of {known}, not {shown(text)}"
+            )
+        chosen |= set(NAMES[NAMES.index(low) : NAMES.index(high) + 1])
+    return tuple(name for name in NAMES if name in chosen)
+
+
+def add_damped(parser: argparse.ArgumentParser) -> None:
+    """--damped and --undamped; None where nothing is said."""
+    choice = parser.add_mutually_exclusive_group()
+    for name, said in (
+        ("damped", "a damper beside every spring (default)"),
+        ("undamped", "springs without dampers"),
+    ):
+        choice.add_argument(
+            f"--{name}", dest="damped", action="store_const", const=name == "damped", help=said
+        )
+
+
+def is_damped(options: argparse.Namespace) -> bool:
+    """Whether the springs of numbered chains have dampers, which they have if nothing is said."""
+    return DAMPED if options.damped is None else bool(options.damped)
+
+
+def add_quantity(parser: argparse.ArgumentParser, default: Sensor = Sensor.ACCELERATION) -> None:
+    """--quantity: what the sensor shows; --sensor is everywhere the mass at which it sits."""
+    parser.add_argument(
+        "--quantity",
+        choices=[s.value for s in Sensor],
+        default=default.value,
+        help=f"what the sensor shows (default: {default})",
+    )
+    refuse(parser, "--sensor", "a sensor is a mass; what it shows is --quantity, such as velocity")
+
+
+def add_bounds(parser: argparse.ArgumentParser, text: str) -> None:
+    """--bound: ranges of parameters, exactly as they are written."""
+    parser.add_argument(
+        "--bound",
+        type=exact_range,
+        action="append",
+        default=[],
+        metavar="NAME=LOW..HIGH",
+        help=text,
+    )
+    refuse(parser, "--range", "the range of a parameter is --bound, such as --bound k12=0..1000")
+
+
+def add_json(
+    parser: argparse.ArgumentParser | argparse._ArgumentGroup, what: str, *, alone: bool = False
+) -> None:
+    """--json FILE; `alone`: without a name, it is standard output."""
+    rest = "; - is standard output" + ", and so is no name" * alone
+    optional: dict[str, Any] = {"nargs": "?", "const": "-"} if alone else {}
+    help_ = f"write {what} as JSON{rest}"
+    parser.add_argument("--json", type=written_file, metavar="FILE", help=help_, **optional)
+
+
+def refuse(parser: argparse.ArgumentParser, option: str, remedy: str) -> None:
+    """An option of another meaning elsewhere, or of before, is refused with what to write."""
+    parser.add_argument(option, action=_Refused, remedy=remedy)
+
+
+class _Refused(argparse.Action):
+    """An option that ends in a sentence."""
+
+    def __init__(self, option_strings: list[str], dest: str, remedy: str) -> None:
+        super().__init__(option_strings, argparse.SUPPRESS, nargs="?", help=argparse.SUPPRESS)
+        self.remedy = remedy
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Say it."""
+        parser.error(f"{self.option_strings[0]}: {self.remedy}")
+
+
+def add_deciding(parser: argparse.ArgumentParser) -> None:
+    """What decides, and over which parameters."""
+    text = (
+        "decide by these conditions only, over complex parameters, such as 1-5,8; 1-9 is the"
+        " paper's view"
+    )
+    parser.add_argument("--conditions", type=conditions, metavar="LIST", help=text)
+    text = (
+        "generic parameters that the verdict is about (default: positive; complex, as in the paper,"
+        " where conditions or a representation are named)"
+    )
+    names = [domain.value for domain in Domain]
+    parser.add_argument("--domain", choices=names, default="", help=text)
+    text = "prove by exact elimination what was computed at random points, where that ends in time"
+    parser.add_argument("--prove", action="store_true", help=text)
+
+
+def add_no_cache(parser: argparse.ArgumentParser) -> None:
+    """--no-cache."""
+    parser.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")
+
+
+def add_work(parser: argparse.ArgumentParser, jobs: tuple[int, str] = (1, "1")) -> None:
+    """Cache and workers; `jobs`: their default number, and how help says it."""
+    add_no_cache(parser)
+    parser.add_argument(
+        "--jobs",
+        type=whole(1),
+        default=jobs[0],
+        metavar="K",
+        help=f"worker processes (default: {jobs[1]})",
+    )
+    parser.add_argument(
+        "--scheduler",
+        default="",
+        metavar="ADDRESS",
+        help="compute on a dask.distributed cluster",
+    )
+
+
+def add_masses(parser: argparse.ArgumentParser, default: str = "") -> None:
+    """One number of masses or more; with a default they can be left away."""
+    text = "numbers of masses" + f" (default: {default})" * bool(default)
+    parser.add_argument(
+        "masses", type=MASSES, nargs="*" if default else "+", metavar="N", help=text
+    )
+
+
+def add_out(parser: argparse.ArgumentParser, default: str) -> None:
+    """The folder that is written to."""
+    parser.add_argument(
+        "--out",
+        type=written_folder,
+        default=Path(default),
+        metavar="DIR",
+        help=f"folder to write to (default: {default})",
+    )

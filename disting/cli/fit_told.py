@@ -1,0 +1,227 @@
+"""What disting fit prints: the result in a few lines, then candidates, parameters, what is not
+excluded.
+"""
+
+from collections.abc import Iterator
+from math import isfinite
+from typing import Any
+
+from disting.fit.each import explanations
+from disting.fit.members import Disagreement, Member
+from disting.fit.modes import Result, physical
+from disting.fit.select import Selection
+from disting.fit.telling import commands, first_lines, learned, renamed, suspicions
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.model.drawing import text_drawing
+from disting.report.fit.responses import fits_of
+from disting.report.fit.words import UNDETERMINED, fit_in_words, percent, result_unit, with_error
+from disting.report.fit.words import name as name_of
+from disting.verdict import Relation
+
+SHOWN = 8  # candidates of the printed table
+OTHERWISE = {
+    Relation.SOMETIMES: "the same behaviour for some positive parameters only",
+    Relation.UNDECIDED: (
+        "whether these have positive parameters with the same behaviour is not known"
+    ),
+}
+
+
+def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
+    """The result for people: what they must know in at most five lines, then the rest."""
+    yield from first_lines(found)
+    yield ""
+    n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]
+    yield (
+        f"{n} candidates fitted to {_lines(found)}{_saved(found)}, validated on {found.validation}"
+    )
+    if found.selected is None:
+        yield "none is admissible; the best ones:"
+    else:
+        yield (
+            f"{len(kept)} have parameters that can all be determined; the best of"
+            f" them{_why(found)}:"
+        )
+    yield ""
+    shown = sorted(kept, key=lambda c: (c is not found.selected, c.j_test)) or found.candidates
+    yield from _table(shown[:SHOWN])
+    yield ""
+    chain = found.described.chain
+    yield (
+        f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}  "
+        f" {text_drawing(chain)}"
+    )
+    yield from [f"  {renamed(found)}"] if renamed(found) else []
+    yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
+    yield from (f"  {line}" for line in _each(found))
+    yield from (f"  {line}" for line in _parameters(found))
+    yield ""
+    yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
+    yield from _excluded(found)
+    yield from _set(found)
+    if found.selected:
+        yield ""
+        yield from _alternatives(found)
+    rest = [said for said in suspicions(found) if said not in first_lines(found)]
+    yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
+    yield from (
+        ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
+    )
+
+
+def _lines(found: Selection) -> str:
+    """How much data there is."""
+    sizes = [str(len(part.measured)) for part in found.task.cost.parts]
+    several = f" of {len(sizes)} responses" * (len(sizes) > 1)
+    return f"{' + '.join(sizes)} frequency lines{several}"
+
+
+def _each(found: Selection) -> Iterator[str]:
+    """What the judged data of each of several responses say, and what says nothing."""
+    judging, c = found.judging, found.described
+    said = explanations(judging, c.residual, c.missed, found.explanation.scatter)
+    known = dict(zip((setup.text for setup in judging.setups), said, strict=True))
+    for name, fit in fits_of(found, c):
+        one = known.get(name)
+        judged = (
+            f"chi2 per line {one.chi2:.3g}, its lines scatter by {percent(one.scatter.typical)}; "
+            if one
+            else ""
+        )
+        yield f"{name}: {judged}fit {fit} of its training data"
+    yield from learned(found)
+
+
+def _excluded(found: Selection) -> Iterator[str]:
+    """Where none is admissible, why, and what helps."""
+    if found.selected:
+        return
+    yield ""
+    yield from (
+        f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}" for c in found.candidates[:SHOWN]
+    )
+    yield "more excitation or wider --thresholds may help"
+    if any(c.practical.unidentifiable for c in found.candidates[:SHOWN]):
+        yield (
+            "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force"
+            " and sensor help"
+        )
+
+
+def _set(found: Selection) -> Iterator[str]:
+    """The structures that the data do not exclude, each with what does the same."""
+    if not found.members:
+        return
+    yield ""
+    yield (
+        "structures that this data does not exclude (two standard deviations of the difference of"
+        " the costs):"
+    )
+    width = max(len(m.name) for m in found.members)
+    for m in found.members:
+        yield (
+            f"  {m.name:{width}}  J {m.candidate.j_test:.4g} "
+            f" {text_drawing(m.candidate.chain)}{_differing(m)}"
+        )
+        for twin in m.twins:
+            values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
+            free = f" (one of a family, {twin.free_choices} free)" if twin.free_choices else ""
+            yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
+        if m.open:
+            yield f"    not decided: {', '.join(m.open)}"
+
+
+def _differing(member: Member) -> str:
+    if not member.differs:
+        return ""
+    hertz, size = member.differs[0]
+    return f"  differs most at {hertz:.3g} Hz, by {100 * size:.2g} %"
+
+
+def _saved(found: Selection) -> str:
+    return (
+        f" ({found.saved} more have the same positive models as one of them)" if found.saved else ""
+    )
+
+
+def _why(found: Selection) -> str:
+    lost = (
+        found.selected.j_test - min(c.j_test for c in found.candidates if c.admissible)
+        if found.selected
+        else 0.0
+    )
+    return (
+        f" (a larger one is better by {lost:.3g}, less than the {found.margin:.3g} that noise"
+        " allows)"
+        if lost > 0
+        else ""
+    )
+
+
+def _table(candidates: Any) -> Iterator[str]:
+    yield f"{'J test':>9} {'J train':>9} {'N_p':>4} {'cond.':>6} {'PII':>7} {'coll.':>6}  structure"
+    for c in candidates:
+        p = c.practical
+        indices = (
+            f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7}"
+            f" {_index(p.collinearity):>6}"
+        )
+        yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
+
+
+def _index(value: float) -> str:
+    """A criterion; nothing where it is infinite, since the reasons below the table say what is
+    not determined.
+    """
+    return f"{value:.3g}" if isfinite(value) else "–"
+
+
+def _parameters(found: Selection) -> Iterator[str]:
+    c = found.described
+    apart = {d.name: d for m in found.members[:1] for d in m.disagreements}
+    for name, value in c.estimate.parameters.items():
+        error = c.practical.relative_errors.get(name)
+        said = (
+            "given"
+            if error is None
+            else "not determined"
+            if not error <= UNDETERMINED
+            else f"± {percent(error)}"
+        )
+        yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
+
+
+def _flag(found: Disagreement) -> str:
+    return f"   test data: {found.test:.3g}, {found.distance:.2g} standard errors apart"
+
+
+def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterator[str]:
+    width = max(len(r.name) for r in results)
+    for r in results:
+        value = with_error(r.value, r.standard_error)
+        yield f"{r.name:{width}}  {value} {result_unit(r, measured)}".rstrip()
+
+
+def _alternatives(found: Selection) -> Iterator[str]:
+    """What has the same positive models, what has some of them, what is open; always with the
+    domain.
+    """
+    by_relation: dict[Relation, list[Chain]] = {}
+    for a in found.alternatives:
+        by_relation.setdefault(a.relation, []).append(a.chain)
+    same = by_relation.get(Relation.INDISTINGUISHABLE, [])
+    if same:
+        yield (
+            "every positive model of it is one of these too, so no data with this force and sensor"
+            " tell them apart:"
+        )
+        yield from (f"  {name_of(chain)}" for chain in same)
+    elif not found.alternatives and not any(m.twins for m in found.members[:1]):
+        yield (
+            "for generic positive parameters no other candidate with as many masses behaves the"
+            " same: better data could tell"
+        )
+    for relation, said in OTHERWISE.items():
+        if relation in by_relation:
+            yield f"{said}: " + "; ".join(map(name_of, by_relation[relation]))

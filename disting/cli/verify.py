@@ -1,0 +1,45 @@
+"""disting verify: whether a verdict holds, seen anew from its evidence alone."""
+
+import argparse
+from pathlib import Path
+
+from disting.cli.arguments import add_damped, add_deciding, add_no_cache, add_quantity
+from disting.cli.common import query
+from disting.cli.compare import file_of
+from disting.errors import InputError
+from disting.model.names import chains_named
+from disting.verdict import View
+from disting.verdict.verification import Standing, verify
+
+STATUS = {Standing.HOLDS: 0, Standing.FAILS: 1, Standing.OPEN: 3}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of the command."""
+    text = (
+        "a file that 'disting compare N:I M:J --json' wrote; or two models: their verdict is"
+        " decided, or looked up, and checked"
+    )
+    parser.add_argument("what", nargs="+", metavar="FILE.json|N:I M:J", help=text)
+    add_damped(parser)
+    add_quantity(parser)
+    add_deciding(parser)
+    add_no_cache(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Check one verdict; status 1 if it does not hold, 3 if that cannot be seen."""
+    is_file = len(options.what) == 1
+    if len(options.what) > 2:
+        raise InputError("name one file of a verdict, or two models such as 3:1 3:4")
+    if is_file and ":" in options.what[0] and not Path(options.what[0]).exists():
+        raise InputError(f"name the other model too, such as: disting verify {options.what[0]} 3:4")
+    found = verify(options.what[0] if is_file else _decided(options))
+    print(f"{' and '.join(options.what)}: {found.sentence}")
+    return STATUS[found.standing]
+
+
+def _decided(options: argparse.Namespace) -> dict[str, object]:
+    """The file of a verdict on two models."""
+    chains = chains_named(options.what, damped=options.damped, sensor=options.quantity)
+    return file_of(chains, query(options.conditions, View.EXACT, options.domain), options)

@@ -1,0 +1,114 @@
+"""Which parameters of a chain several experiments determine together, and how many sets of them
+fit.
+
+The stacked Jacobian tells what is determined locally. Where one experiment alone leaves finitely
+many parameter vectors, they are listed at a random point, and those that another experiment
+certainly refutes are none of the stacked fibre. That no others come at generic points is told by
+the argument of `questions.identifiability.solutions`: a hypersurface that depends on the one
+experiment alone bounds where solutions come or go, and what is refuted at the point is refuted all
+around it. If one vector is left it is the point itself, and all parameters are globally
+identifiable. Otherwise the ideal of the stacked fibre tells for each parameter whether it has one
+value.
+
+A dead time is the factor exp(-Td s) of every transfer function, so Td is globally identifiable
+where one of them is not zero.
+"""
+
+from dataclasses import replace
+
+from disting.algebra.sampling import PROOF_BITS, enough
+from disting.behaviour.sample import Representation
+from disting.experiments.experiment import MeasuredChain
+from disting.experiments.listing import Listed, lists, without_dead_time
+from disting.experiments.maps import stacked_map
+from disting.experiments.stacked_profiles import drawn, minor_size, seen_at
+from disting.fibres.synthesis.decide import safety_of_point
+from disting.fibres.synthesis.result import Confirmation
+from disting.model.question import Question
+from disting.model.settings import Settings
+from disting.questions.identifiability import (
+    Level,
+    Local,
+    ParameterIdentifiability,
+    by_parameter,
+    decoded,
+    encoded,
+    joint,
+    local,
+)
+
+SILENT = "no sensor moves, so nothing is determined"
+
+
+def identifiability_under(measured: MeasuredChain, settings: Settings) -> ParameterIdentifiability:
+    """Identifiability of each parameter from all transfer functions together.
+
+    >>> from disting.experiments.experiment import Experiment
+    >>> from disting.model.chain import Chain
+    >>> one, two = Experiment(), Experiment(sensor=1)
+    >>> seen = (MeasuredChain(Chain(2, meas_plus=2), e) for e in ((one,), (one, two)))
+    >>> for m in seen:
+    ...     print(identifiability_under(m, Settings()).sentence)
+    3 parameters, only 2 determinable; not: m1, m2, k12; 1 can be chosen freely.
+    3 parameters, all globally identifiable.
+    """
+    names = measured.chain.parameters
+    if len(measured.silent) == len(measured.experiments):
+        return _nothing(names)
+    known = _local(measured, settings)
+    if known.rank == len(names):
+        plain = without_dead_time(measured)
+        listed = next(lists(plain, plain, settings.seed, confirm=True), None)
+        if listed is not None and _bounds(listed):
+            return _counted(measured, known, listed, settings)
+    return _by_ideal(measured, known, settings)
+
+
+def _nothing(names: tuple[str, ...]) -> ParameterIdentifiability:
+    certainty, bits = joint([])
+    levels = dict.fromkeys(names, Level.NOT)
+    return ParameterIdentifiability(levels, 0, 1, None, certainty, bits, SILENT)
+
+
+def _local(measured: MeasuredChain, settings: Settings) -> Local:
+    size = minor_size(measured, Representation.TF, 0)
+    labels = [f"{settings.seed}:{k}" for k in range(enough(size, settings.points))]
+    points = (drawn(measured, label, PROOF_BITS) for label in labels)
+    seen = [seen_at(point, Representation.TF, 0) for point in points]
+    found = local(measured.chain.parameters, seen, size)
+    # several entries may have been special at a point that was drawn again: a bit for each
+    return replace(found, safety=found.safety - len(labels)) if found.safety else found
+
+
+def _bounds(listed: Listed) -> bool:
+    """Whether generic points have no more solutions than are left here: all are simple."""
+    return all(s.confirmation is Confirmation.SUBSYSTEM for s in listed.found.solutions)
+
+
+def _counted(
+    measured: MeasuredChain, known: Local, listed: Listed, settings: Settings
+) -> ParameterIdentifiability:
+    """From a list: at most so many vectors fit, and one if it is the point alone."""
+    most = len(listed.kept)
+    bound = safety_of_point(measured.chain) - 1
+    if most == 1:
+        grade = joint([known.safety, bound])
+        levels = dict.fromkeys(measured.chain.parameters, Level.GLOBAL)
+        return ParameterIdentifiability(levels, known.rank, 1, 1, *grade)
+    found = _by_ideal(measured, known, settings)
+    certainty, bits = joint([found.safety, bound])
+    return replace(found, most=min(most, found.most or most), certainty=certainty, safety=bits)
+
+
+def _by_ideal(
+    measured: MeasuredChain, known: Local, settings: Settings
+) -> ParameterIdentifiability:
+    sure = ("Td",) if measured.chain.dead_time else ()
+    return by_parameter(
+        measured.chain.parameters, known, stacked_map(without_dead_time(measured)), settings, sure
+    )
+
+
+IDENTIFIABLE = Question(
+    "identifiability under experiments", identifiability_under, encoded, decoded
+)

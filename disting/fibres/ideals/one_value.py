@@ -1,0 +1,167 @@
+"""Which parameters have one value in a generic fibre of a coefficient map: the fibre over a random
+point p0 of the same model, modulo a random prime.
+
+Parameter j has another value there exactly if the equations of the fibre together with t (q_j -
+p0_j) = 1 have a solution (J. L. Rabinowitsch 1929): if the Gröbner basis is not {1}. No solution
+has to be found, nor need solutions be finitely many: where the rank r is smaller than the number n
+of parameters, n - r of them are fixed at random values, which every component of a generic fibre
+attains, and the tangent equations hold on each (see `fibre_ideal`). For all components of a
+generic fibre have the dimension n - r, so each component of {(p, q): Phi(p) = Phi(q)} that
+dominates the points p has the dimension 2 n - r, and dominates the points q as well. So generic
+fibres contain no q with an element that is zero either.
+
+EMPTY: q_j = p_j in generic fibres. Suppose that h = q_j - p_j is not zero on a component X that
+dominates the points p. As in `bounds`, a point p0 modulo a prime lies below a point of X unless
+the product of the leading coefficients A_i vanishes there. Here h has to have an inverse at the
+point above, too. h is algebraic over the p and the q that are free: as `bounds` finds A_j for q_j,
+it finds an equation c_k h^k + .. + c_0 = 0, with c_0 other than 0 because h is not zero on X,
+which is irreducible. So 1/h is integral where c_0 is not zero: one more factor, from a relation in
+which h, of degree 1 and norm 2, stands in the place of q_j.
+
+NOT EMPTY: q_j takes more values. Suppose that p_j is determined by Phi(p) for generic p; then q_j
+is a rational function of Phi (characteristic 0). Take forms in the coordinates as in `bounds`, the
+i-th one of the i-th and later ones with a first factor other than 0: l_1, .., l_r that are
+algebraically independent on V, and l_0 of the coordinates after the r-th one, such that l_0 tells
+the points of V apart that have the same l_1, .., l_r, at most delta of them. Where these agree in
+the coordinates after the r-th one they agree, by l_r, .., l_1, in all; so that is one linear
+condition for each pair, and factors of 0, .., delta^2 do. Let u be one more variable and G the
+irreducible polynomial with G(l, l_0 + u q_j, u) = 0. In its second argument T it has the degree of
+the minimal polynomial of l_0, at u = 0 too, so that dG/dT is not zero there. The derivative by u
+at u = 0 is dG/dT q_j + dG/du = 0: an identity of integer polynomials in q, which holds modulo
+every prime. So all q of the fibre of p0, in whatever extension, and p0 itself satisfy D q_j + N =
+0, where D and N depend on Phi(p0) alone. If q_j is not p0_j, then D = 0: a polynomial in p0 that
+is not zero vanishes by accident. G divides the relation of the l_i, l_0 + u q_j, u and the n - r
+other q; D is a derivative of it, which multiplies its coefficients by its degree at most.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from math import ceil, log2
+from time import process_time
+
+from disting.algebra.certainty import LEAST_SAFETY
+from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
+from disting.algebra.sampling import about
+from disting.errors import ContradictionError
+from disting.fibres.ideals.bounds import safety_of_one_value, safety_of_other_values
+from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
+from disting.fibres.ideals.membership import LEAST, Limits
+from disting.fibres.ideals.system import PolynomialMap
+
+LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """Parameters with `one` value in a generic fibre and with `several`; for the others `reason`
+    says why nothing is known. Any of it is wrong with a probability of at most 2**-safety.
+    """
+
+    one: tuple[str, ...] = ()
+    several: tuple[str, ...] = ()
+    safety: int = 0
+    reason: str = ""
+
+
+class _GivenUp(Exception):
+    pass
+
+
+def one_value(
+    model: PolynomialMap, names: Iterable[str], *, seed: str, limits: Limits = LIMITS
+) -> Values:
+    """Which of these parameters, each locally identifiable, have one value.
+
+    >>> from disting.fibres.ideals.system import coefficient_map
+    >>> from disting.model.chain import Chain
+    >>> chain = Chain(3, act_plus=2, meas_plus=2)
+    >>> found = one_value(coefficient_map(chain.structure), chain.parameters, seed="doc")
+    >>> found.one, found.several
+    (('m2',), ('m1', 'm3', 'k12', 'k23'))
+    """
+    wanted = [name for name in model.parameters if name in set(names)]
+    if not wanted:
+        return Values()
+    each = min(safety_of_one_value(model), safety_of_other_values(model))
+    if each < LEAST:
+        return Values(reason="primes of 64 bits give no useful bound for models of this size")
+    runs = ceil((limits.safety + ceil(log2(len(wanted) + 1))) / each)
+    deadline = process_time() + limits.seconds
+    label = about(f"one value:{seed}", model.content)
+    found: dict[str, bool] = {}
+    try:
+        for run in range(runs):
+            asked = wanted if not run else list(found)
+            for name, is_one in _at_point(model, asked, f"{label}:{run}", limits, deadline):
+                if found.setdefault(name, is_one) != is_one:
+                    return Values(reason="one random point contradicts another")
+    except _GivenUp as why:
+        return Values(reason=str(why))
+    one, several = (tuple(n for n in wanted if found[n] is kind) for kind in (True, False))
+    return Values(one, several, each * runs - ceil(log2(len(wanted) + 1)))
+
+
+def _at_point(
+    model: PolynomialMap, names: Iterable[str], label: str, limits: Limits, deadline: float
+) -> Iterator[tuple[str, bool]]:
+    """Yield whether each parameter has no other value in the fibre of one random point."""
+    ideal = fibre_ideal(model, model, label, equal_rank=True)
+    basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, limits, deadline)
+    if basis.is_one:
+        raise ContradictionError("a point does not lie in its own fibre")
+    known = dict(zip(model.parameters, ideal.point, strict=True))
+    rows: list[Sparse] = [
+        {basis.order.decode(c): x for c, x in zip(row.codes, row.numbers, strict=True)}
+        for row in basis.rows
+    ]
+    for name in names:
+        at, value = ideal.unknowns.index(name), known[name]
+        given = _is_given(rows, at, value, ideal.modulus)
+        yield name, given or _has_no_other(ideal, rows, at, value, limits, deadline)
+
+
+def _is_given(rows: Iterable[Sparse], at: int, value: int, modulus: int) -> bool:
+    """Whether an equation of the basis says that the unknown is what it is at p0."""
+    return any(
+        len(row) == 2
+        and row.get(_power(size := len(next(iter(row))), at)) == 1
+        and row.get((0,) * size) == modulus - value
+        for row in rows
+    )
+
+
+def _power(size: int, at: int) -> tuple[int, ...]:
+    return tuple(int(i == at) for i in range(size))
+
+
+def _has_no_other(
+    ideal: FibreIdeal,
+    rows: Iterable[Sparse],
+    at: int,
+    value: int,
+    limits: Limits,
+    deadline: float,
+) -> bool:
+    """Whether no solution has another value than p0: 1 is in the ideal with t (q - p0) - 1."""
+    size = len(ideal.unknowns) + 1
+    t, zero = _power(size, size - 1), (0,) * size
+    inverse = {(*_power(size - 1, at), 1): 1, t: -value, zero: -1}
+    lifted = [{(*e, 0): c for e, c in row.items()} for row in rows]
+    return _basis([*lifted, inverse], size, ideal.modulus, limits, deadline).is_one
+
+
+def _basis(
+    generators: Iterable[Sparse], size: int, modulus: int, limits: Limits, deadline: float
+) -> Basis:
+    """The Gröbner basis; raises _GivenUp."""
+    try:
+        for step in basis_steps(generators, size, modulus):
+            if isinstance(step, Basis):
+                return step
+            if step > limits.entries:
+                raise _GivenUp(f"too large: a matrix of {step} entries")
+            if process_time() > deadline:
+                raise _GivenUp(f"out of time ({limits.seconds:g} s)")
+    except TooLarge as error:
+        raise _GivenUp(f"too large: {error}") from None
+    raise AssertionError("a Gröbner basis ends with a basis")

@@ -1,0 +1,235 @@
+"""A selection as plain data, ready for JSON, and the models in it, read back bit-equal."""
+
+import json
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from disting.errors import InputError, shown
+from disting.fit.candidates import as_listed, reference
+from disting.fit.each import explanations
+from disting.fit.explained import Explanation
+from disting.fit.fitted import fit_percent
+from disting.fit.judged import Candidate
+from disting.fit.members import Member
+from disting.fit.select import Selection
+from disting.fit.telling import suspicions
+from disting.model.chain import Chain
+
+
+def selection_to_dict(found: Selection) -> dict[str, Any]:
+    """Plain data of a selection: `selected` (null if none), whether it explains the data, what
+    else is not excluded.
+    """
+    return {
+        "selected": candidate_to_dict(found.selected) if found.selected else None,
+        "candidates": [candidate_to_dict(c) for c in found.candidates],
+        "alternatives": [
+            {**_named(a.chain), "relation": a.relation.value, "reason": a.sentence}
+            for a in found.alternatives
+        ],
+        "not_fitted": [
+            {**_named(c), "same_as": _named(other)} for c, other in found.same_as.items()
+        ],
+        "explained": found.explanation.explains,
+        "chi2_per_line": found.explanation.chi2,
+        "scatter": found.explanation.scatter.typical,
+        "scatter_source": found.explanation.scatter.source,
+        "frequencies": _frequencies(found),
+        "residual_correlation": found.explanation.correlation,
+        "fit_percent": _fit_percent(found),
+        "not_excluded": [member_to_dict(m) for m in found.members],
+        "suspicions": list(suspicions(found)),
+        "rule": found.rule.value,
+        "validation": found.validation,
+        "repeatability": found.repeatability.typical,
+        "repeatability_source": found.repeatability.source,
+        "margin": found.margin,
+        "sign": found.task.sign,
+    } | (_joint_to_dict(found) if len(found.task.cost.parts) > 1 or found.silent else {})
+
+
+def _joint_to_dict(found: Selection) -> dict[str, Any]:
+    """Each response with what is said of it alone, and those from which nothing is learned."""
+    judging, described = found.judging, found.described
+    each = explanations(judging, described.residual, described.missed, found.explanation.scatter)
+    said = dict(zip(judging.setups, each, strict=True))
+    cost, p = found.task.cost, described.estimate.parameters
+    names = found.task.names(described.chain)
+    response = found.task.plant(described.chain).response(np.array([p[n] for n in names]))
+    residuals = cost.by_residual(cost.residual(response))
+    rows = zip(cost.parts, cost.setups, residuals, strict=True)
+    return {
+        "responses": [
+            {
+                "measured": setup.text,
+                "origin": part.measured.origin,
+                "quantity": part.measured.sensor.value,
+                "lines": len(part.measured),
+                "sign": found.task.sign * setup.sign,
+                "dead_time": setup.delay or "Td",
+                "j_train": float(residual @ residual),
+                "fit_percent": _finite(fit_percent(described, found.task, part.measured, at)),
+            }
+            | (_explained(said[setup]) if setup in said else {})
+            for at, (part, setup, residual) in enumerate(rows)
+        ],
+        "nothing_learned": list(found.silent),
+    }
+
+
+def _explained(said: Explanation) -> dict[str, Any]:
+    """What the judged data of one response say."""
+    return {
+        "chi2_per_line": said.chi2,
+        "scatter": said.scatter.typical,
+        "residual_correlation": said.correlation,
+    }
+
+
+def _frequencies(found: Selection) -> dict[str, float]:
+    """Range [Hz] and number of the lines of the training data."""
+    hertz = found.task.cost.measured.frequency
+    return {"low": float(hertz[0]), "high": float(hertz[-1]), "lines": len(hertz)}
+
+
+def _fit_percent(found: Selection) -> dict[str, float | None]:
+    """Of the described candidate on training and test data; null where there are none or where
+    it is not defined.
+    """
+    train = found.task.cost.measured
+    sizes = {"train": train, "test": None if found.test is train else found.test}
+    return {
+        key: None if data is None else _finite(fit_percent(found.described, found.task, data))
+        for key, data in sizes.items()
+    }
+
+
+def member_to_dict(member: Member) -> dict[str, Any]:
+    """Plain data of a structure that the data do not exclude: name, values, intervals of 95 %,
+    and what behaves the same.
+    """
+    return {
+        "name": member.name,
+        **_named(member.candidate.chain),
+        "parameters": member.candidate.estimate.parameters,
+        "intervals": {n: [_finite(end) for end in both] for n, both in member.intervals.items()},
+        "j_test": member.candidate.j_test,
+        "chi2_per_line": member.candidate.chi2,
+        "equivalents": [
+            {"name": t.name, "parameters": t.parameters, "free_choices": t.free_choices}
+            for t in member.twins
+        ],
+        "not_decided": list(member.open),
+        "disagreements": [
+            {
+                "parameter": d.name,
+                "train": d.train,
+                "test": d.test,
+                "standard_errors_apart": d.distance,
+            }
+            for d in member.disagreements
+        ],
+        "differs_at": [{"frequency": hertz, "by": size} for hertz, size in member.differs],
+    }
+
+
+def candidate_to_dict(c: Candidate) -> dict[str, Any]:
+    """Plain data of one candidate; a number that is not finite is null, and so is
+    `unidentifiable` where nothing is.
+    """
+    return {
+        "name": reference(c.chain),
+        **_named(c.chain),
+        "n_parameters": c.n_parameters,
+        "parameters": c.estimate.parameters,
+        "standard_errors": {name: _finite(value) for name, value in c.standard_errors.items()},
+        "j_train": c.j_train,
+        "j_test": c.j_test,
+        "chi2_per_line": c.chi2,
+        "pii_ratio": _finite(c.practical.importance_ratio),
+        "collinearity": _finite(c.practical.collinearity),
+        "condition_index": _finite(c.practical.condition_index),
+        "unidentifiable": c.practical.unidentifiable or None,
+        "akaike_weight": c.akaike_weight,
+        "hit_rate": c.estimate.hit_rate,
+        "admissible": c.admissible,
+        "reasons": list(c.reasons),
+    }
+
+
+def _named(chain: Chain) -> dict[str, Any]:
+    """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as
+    indices.
+
+    `renamed`: where the chain is named after another form of it, what its parameters are called
+    there.
+    """
+    form = as_listed(chain)
+    _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
+    return {
+        "n_masses": chain.n_masses,
+        "ground_dampers": list(chain.ground_dampers),
+        "lag": chain.lag,
+        "delay": chain.dead_time,
+        "gap": gap,
+        "actuator": [act_minus, act_plus],
+        "sensor": [meas_minus, meas_plus],
+        "quantity": chain.sensor.value,
+        "damped": chain.damped,
+    } | ({"renamed": form.renaming} if form.chain != chain else {})
+
+
+def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
+    """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what
+    is none.
+    """
+    chain = chain_from_dict(plain)
+    try:
+        values = {name: float(plain["parameters"][name]) for name in chain.parameters}
+    except (KeyError, TypeError, ValueError) as reason:
+        raise _no_model(reason) from None
+    return chain, values
+
+
+def chain_from_dict(plain: dict[str, Any]) -> Chain:
+    """The structure alone, of a candidate or of what is named beside it; raises InputError."""
+    try:
+        (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
+        return Chain(
+            plain["n_masses"],
+            plain["gap"],
+            act_minus,
+            act_plus,
+            meas_minus,
+            meas_plus,
+            plain["quantity"],
+            plain["damped"],
+            tuple(plain["ground_dampers"]),
+            plain["lag"],
+            plain["delay"],
+        )
+    except (KeyError, TypeError, ValueError) as reason:
+        raise _no_model(reason) from None
+
+
+def _no_model(reason: Exception) -> InputError:
+    return InputError(f"this is no fitted model: {shown(reason)} is missing or wrong")
+
+
+def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
+    """The selected model of a JSON file of `disting fit`; raises InputError."""
+    try:
+        plain = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as reason:
+        raise InputError(f"{path} is no JSON file of a fit: {reason}") from None
+    selected = plain.get("selected", plain) if isinstance(plain, dict) else None
+    if not isinstance(selected, dict):
+        raise InputError(f"{path} holds no selected model")
+    return model_from_dict(selected)
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None

@@ -1,0 +1,147 @@
+"""Parametric models with several inputs and outputs: matrices of rational transfer functions with
+one parameter vector, of a state space at rest (zero initial state).
+
+Each entry is in lowest terms over Z[s, p] by itself; an entry that is zero for all parameters is
+part of the form. So two models behave alike exactly if all their entries are equal.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import symbols
+from disting.errors import InputError
+from disting.general.entries import polynomial, refuse_namesakes, rows_of
+from disting.general.expansion import Expansion
+from disting.general.model import (
+    Model,
+    entry_of,
+    fraction,
+    frequency,
+    parameters_of,
+    transfer_functions,
+)
+from disting.model.shown import Shown, plural, summary
+
+MOST_ENTRIES = 100
+
+
+@dataclass(frozen=True, slots=True)
+class MatrixModel(Shown):
+    """A matrix of transfer functions, made by `from_state_space` or `from_transfer_functions`.
+
+    `rows`: a row for each output, an entry for each input; each is a `Model` in all `parameters`,
+    or None where it is zero. Immutable and hashable; equal if parameters and entries are, whatever
+    they are called.
+
+    >>> m = MatrixModel.from_transfer_functions([["1/(s + a)", 0], ["b/(s + a)", "1/(s + b)"]])
+    >>> m.shape, m.parameters
+    ((2, 2), ('a', 'b'))
+    """
+
+    parameters: tuple[str, ...]
+    rows: tuple[tuple[Model | None, ...], ...]
+    name: str = field(default="model", compare=False)
+
+    def __repr__(self) -> str:
+        outputs, inputs = self.shape
+        size = f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
+        return summary(self, f"{self.name}, {size}, {', '.join(self.parameters)}")
+
+    def __post_init__(self) -> None:
+        if not self.parameters:
+            raise InputError("a parametric model has at least one parameter")
+        if self.shape[0] * self.shape[1] > MOST_ENTRIES:
+            raise InputError(f"a matrix of transfer functions has {MOST_ENTRIES} entries at most")
+        if not self.entries:
+            raise InputError(
+                "the transfer function is zero: no output depends on an input; mend B, C or the"
+                " numerator, or leave the model away"
+            )
+
+    @staticmethod
+    def from_state_space(
+        a: object, b: object, c: object, d: object = 0, *, s: object = "s", name: str = "model"
+    ) -> "MatrixModel":
+        """Model x' = A x + B u, y = C x + D u, x(0) = 0, with A (n x n), B (n x m), C (p x n), D (p
+        x m); entries as in `Model.from_state_space`. D = 0 is a matrix of zeros. Raises InputError.
+
+        >>> from sympy import Matrix, eye, symbols
+        >>> k, m = symbols("k m")
+        >>> oscillator = Matrix([[0, 1], [-k / m, 0]])
+        >>> found = MatrixModel.from_state_space(oscillator, Matrix([0, 1 / m]), eye(2))
+        >>> print(found)
+        G(s) = [[1/(k + m*s**2)], [s/(k + m*s**2)]]
+        """
+        ratios, parameters = transfer_functions(a, b, c, d, s)
+        return _matrix(ratios, parameters, name)
+
+    @staticmethod
+    def from_transfer_functions(
+        rows: object, *, s: object = "s", name: str = "model"
+    ) -> "MatrixModel":
+        """Model of a matrix of expressions in s, a SymPy matrix or a list of rows, one for each
+        output. Raises InputError, also for entries that are not proper.
+        """
+        variable = frequency(s)
+        given = rows_of(rows)
+        one = polynomial(1, variable)
+        sides = [[(polynomial(entry, variable), one) for entry in row] for row in given]
+        refuse_namesakes(*(entry for row in given for entry in row), s)
+        parameters = parameters_of((top for row in sides for top, _ in row), variable)
+        ring = symbols([variable, *parameters])
+        expansion = Expansion(ring, ring[variable] ** 0)
+        return _matrix([[fraction(e, expansion) for e in row] for row in sides], parameters, name)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of outputs and inputs."""
+        return len(self.rows), len(self.rows[0])
+
+    @property
+    def cells(self) -> tuple[Model | None, ...]:
+        """All entries, row by row."""
+        return tuple(entry for row in self.rows for entry in row)
+
+    @property
+    def entries(self) -> tuple[Model, ...]:
+        """Those that are not zero."""
+        return tuple(entry for entry in self.cells if entry is not None)
+
+    @property
+    def n_states(self) -> int:
+        """Largest order of an entry."""
+        return max(entry.n_states for entry in self.entries)
+
+    @property
+    def degrees(self) -> tuple[tuple[int, int], ...]:
+        """Degrees in s of numerators and denominators, (-1, 0) for zero."""
+        return tuple((-1, 0) if entry is None else entry.degrees for entry in self.cells)
+
+    @property
+    def content(self) -> tuple[object, ...]:
+        """All that tells two models apart: their names do not."""
+        return self.parameters, self.shape, *(e and e.content[1:] for e in self.cells)
+
+    def __str__(self) -> str:
+        rows = (", ".join(_written(row)) for row in self.rows)
+        return f"G(s) = [{', '.join(f'[{row}]' for row in rows)}]"
+
+
+AnyModel = Model | MatrixModel
+"""A general model."""
+
+
+def _written(row: tuple[Model | None, ...]) -> Iterator[str]:
+    for entry in row:
+        yield "0" if entry is None else str(entry).removeprefix("G(s) = ")
+
+
+def _matrix(
+    ratios: Sequence[Sequence[RationalFunction]], parameters: tuple[str, ...], name: str
+) -> MatrixModel:
+    rows = tuple(
+        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry") for r in row)
+        for row in ratios
+    )
+    return MatrixModel(parameters, rows, name)

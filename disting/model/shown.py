@@ -1,0 +1,81 @@
+"""How objects show themselves: in a line on a prompt, and in a notebook as what a room above draws.
+
+A line is made where the object is. A picture, a table of a notebook or a plot needs what stands
+above (`disting.report`), which the rooms below must not import, whether at the top of a module or
+inside a method. So they know only that there is a `Presenter`; `disting/__init__`, which knows all
+rooms and runs before any of them, says who it is. Nothing is drawn, and nothing that draws is
+imported, before somebody looks.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, Protocol
+
+from disting.errors import printable
+
+LONGEST = 110  # characters of a line on a prompt
+
+
+class Presenter(Protocol):
+    """Whoever draws: a notebook's table as HTML, a picture as SVG, a plot with matplotlib."""
+
+    def html(self, shown: Any, /) -> str:
+        """The object as a piece of an HTML page, complete in itself."""
+
+    def svg(self, shown: Any, /) -> str:
+        """The object as a stand-alone SVG."""
+
+    def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
+        """The object on axes of matplotlib, made where none are given; returns them."""
+
+
+class Presented:
+    """What a room above knows how to draw."""
+
+    __slots__ = ()
+    _asked: ClassVar[Callable[[], Presenter]]
+
+    @property
+    def _presenter(self) -> Presenter:
+        return type(self)._asked()
+
+
+class Shown(Presented):
+    """What a notebook shows as a table."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        return self._presenter.html(self)
+
+
+class Drawn(Presented):
+    """What a notebook shows as a picture."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str:
+        return self._presenter.svg(self)
+
+
+def presented_by(presenter: Callable[[], Presenter]) -> None:
+    """Name who draws; it is called when something is looked at, not before."""
+    Presented._asked = staticmethod(presenter)
+
+
+def summary(of: object, text: str) -> str:
+    """A line for a prompt, `<Class: text>`, that fits a line whatever the text.
+
+    >>> summary(Shown(), "a" * 200)[-6:], len(summary(Shown(), "a" * 200))
+    ('aaaa…>', 110)
+    """
+    line = f"<{type(of).__name__}: {printable(' '.join(text.split()))}>"
+    return line if len(line) <= LONGEST else f"{line[: LONGEST - 2]}…>"
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """Number and noun.
+
+    >>> plural(1, "pair"), plural(0, "pair"), plural(2, "mass", "masses")
+    ('1 pair', '0 pairs', '2 masses')
+    """
+    return f"{count} {one if count == 1 else many or one + 's'}"

@@ -1,0 +1,193 @@
+"""Identifiability of each single parameter of any model that is a coefficient map: globally,
+locally or not at all.
+
+Parameter j is locally identifiable exactly if the unit vector e_j lies in the row space of the
+Jacobian at a generic point, that is if the Jacobian without column j has a smaller rank. Whether it
+has one value then is asked of the ideal of a generic fibre (`fibres.ideals.one_value`), unless a
+list of the fibre has told it.
+"""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from math import ceil, log2
+from typing import Any
+
+from disting.algebra.certainty import Certainty, graded, joint_safety
+from disting.algebra.sampling import Size, safety
+from disting.behaviour.sample import Sample
+from disting.fibres.ideals import PolynomialMap, one_value
+from disting.model.settings import Settings
+from disting.model.shown import summary
+from disting.questions.identifiability.parts import Level
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterIdentifiability:
+    """Identifiability of each parameter over non-zero complex parameters, for generic values.
+
+    `levels` by parameter: GLOBAL: one value fits; LOCAL: several, finitely many;
+    NOT: infinitely many; UNKNOWN: finitely many, whether more than one is not known (`reason` says
+    why). `rank`: number of determinable parameters. `least` and `most`: bounds of the number of
+    parameter vectors with one generic behaviour (`most` None: infinite or not known). All of it is
+    wrong with a probability of at most 2**-safety where the certainty is BOUNDED.
+    """
+
+    levels: dict[str, Level]
+    rank: int
+    least: int
+    most: int | None
+    certainty: Certainty
+    safety: int
+    reason: str = ""
+
+    def __repr__(self) -> str:
+        return summary(self, self.sentence)
+
+    @property
+    def freedom(self) -> int:
+        """Dimension of a generic fibre: so many parameters may be chosen freely."""
+        return len(self.levels) - self.rank
+
+    @property
+    def level(self) -> Level:
+        """Of all parameters together, as of a whole model."""
+        order = (Level.NOT, Level.UNKNOWN, Level.LOCAL, Level.GLOBAL)
+        return next((level for level in order if self.named(level)), Level.GLOBAL)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return tuple(self.levels)
+
+    def named(self, level: Level) -> tuple[str, ...]:
+        """The parameters of this level."""
+        return tuple(name for name, found in self.levels.items() if found == level)
+
+    @property
+    def sentence(self) -> str:
+        """The finding in plain English.
+
+        >>> levels = {"a": Level.LOCAL, "b": Level.LOCAL, "c": Level.GLOBAL}
+        >>> ParameterIdentifiability(levels, 3, 2, 2, Certainty.BOUNDED, 100).sentence
+        '3 parameters, all determinable; globally: c; locally: a, b; 2 sets of them fit.'
+        """
+        n = len(self.levels)
+        head = f"{n} parameter{'s' * (n != 1)}"
+        if self.level is Level.GLOBAL:
+            return f"{head}, all globally identifiable."
+        free = f"; {self.freedom} can be chosen freely" if self.freedom else self._count
+        many = f"only {self.rank} determinable" if self.freedom else "all determinable"
+        groups = {
+            "globally": self.named(Level.GLOBAL),
+            "locally": self.named(Level.LOCAL),
+            "locally, perhaps globally": self.named(Level.UNKNOWN),
+            "not": self.named(Level.NOT),
+        }
+        told = [f"; {what}: {', '.join(names)}" for what, names in groups.items() if names]
+        why = f" ({self.reason})" if self.reason else ""
+        return f"{head}, {many}{''.join(told)}{free}{why}."
+
+    @property
+    def _count(self) -> str:
+        if self.most is None:
+            return f"; at least {self.least} sets of them fit" if self.least > 1 else ""
+        between = "" if self.least == self.most else f"{self.least} to "
+        return f"; {between}{self.most} sets of them fit"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON."""
+        return asdict(self)
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> "ParameterIdentifiability":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        levels = {name: Level(level) for name, level in data["levels"].items()}
+        grade = {"certainty": Certainty(data["certainty"]), "levels": levels}
+        return ParameterIdentifiability(**(data | grade))
+
+    def __bool__(self) -> bool:
+        raise TypeError("identifiability is not true or false; look at its levels")
+
+
+def encoded(found: ParameterIdentifiability) -> str:
+    """As text, for a cache."""
+    return json.dumps(found.to_dict(), separators=(",", ":"))
+
+
+def decoded(text: str) -> ParameterIdentifiability:
+    """Inverse of `encoded`."""
+    return ParameterIdentifiability.from_dict(json.loads(text))
+
+
+@dataclass(frozen=True, slots=True)
+class Local:
+    """`rank` of the Jacobian and the locally identifiable parameters; wrong with a probability of
+    at most 2**-safety, 0: proven.
+    """
+
+    rank: int
+    names: tuple[str, ...]
+    safety: int
+
+
+def local(names: Sequence[str], seen: Sequence[Sample], size: Size) -> Local:
+    """What samples at independent points tell; `size` bounds the minors of the Jacobian."""
+    rank, columns = identifiable_columns(seen)
+    bits = safety(size, len(seen)) - len(seen) - ceil(log2(len(names) + 1))
+    _, left = graded(rank == len(names), bits)
+    return Local(rank, tuple(names[j] for j in columns), left)
+
+
+def identifiable_columns(seen: Sequence[Sample]) -> tuple[int, tuple[int, ...]]:
+    """The rank of the Jacobian, and the columns whose removal lowers it, by the largest ranks
+    seen at the points.
+    """
+    every = range(seen[0].n_parameters)
+    rank = max(_rank(s, tuple(every)) for s in seen)
+    if rank == len(every):
+        return rank, tuple(every)
+    return rank, tuple(
+        j for j in every if max(_rank(s, tuple(i for i in every if i != j)) for s in seen) < rank
+    )
+
+
+def by_parameter(
+    parameters: Sequence[str],
+    known: Local,
+    model: PolynomialMap,
+    settings: Settings,
+    sure: Sequence[str] = (),
+) -> ParameterIdentifiability:
+    """Levels from the Jacobian and the ideal of a generic fibre; `sure` are known to be global and
+    are none of the map's.
+    """
+    asked = [name for name in known.names if name not in sure]
+    found = one_value(model, asked, seed=settings.seed)
+    levels = dict.fromkeys(asked, Level.UNKNOWN) | dict.fromkeys(sure, Level.GLOBAL)
+    levels |= dict.fromkeys(found.one, Level.GLOBAL) | dict.fromkeys(found.several, Level.LOCAL)
+    full = known.rank == len(parameters)
+    unique = full and set(levels.values()) <= {Level.GLOBAL}
+    certainty, bits = joint([known.safety, found.safety])
+    return ParameterIdentifiability(
+        levels={name: levels.get(name, Level.NOT) for name in parameters},
+        rank=known.rank,
+        least=2 if found.several else 1,
+        most=1 if unique else None,
+        certainty=certainty,
+        safety=bits,
+        reason=found.reason,
+    )
+
+
+def joint(safeties: Sequence[int]) -> tuple[Certainty, int]:
+    """Grade of what rests on statements of these safeties, 0: proven."""
+    bits = joint_safety(s for s in safeties if s)
+    return graded(not any(safeties), bits)
+
+
+def _rank(seen: Sample, columns: tuple[int, ...]) -> int:
+    kept = tuple(tuple(row[j] for j in columns) for row in seen.rows)
+    return Sample(seen.labels, seen.values, kept, len(columns), seen.modulus).rank(
+        tuple(range(len(kept)))
+    )

@@ -1,0 +1,196 @@
+"""What an experiment adds to the drawing of a chain.
+
+A further sensor is a bar below that of the first; a moved force stands for that of the chain; a
+locked mass is clamped between two pieces of ground; a known inertia is a block +J at a corner of
+the mass, at one where nothing else is. Each is a layer over the drawing of any chain of the size,
+so that a page holds it once.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from markupsafe import Markup
+
+from disting.experiments.menu import Item, Kind
+from disting.model.chain import Chain
+from disting.report.drawing import (
+    LOWER,
+    MASS,
+    RISE,
+    WALL,
+    Layout,
+    describe,
+    draw,
+    force_bar,
+    sensor_bar,
+)
+from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene, Shape, Text, extent
+from disting.report.svg import body, number
+
+SMALL = 0.62  # of the natural width
+ASIDE = 9.0  # x of a further sensor's post, from the middle of its mass
+CLEAR = 11.0  # least distance of that post from the middle of the first sensor's sign
+BLOCK = (17.0, 12.0)  # an added inertia
+JAW = 20.0  # half of the width of the ground that holds a locked mass
+CORNERS = ((-1, -1), (1, -1), (-1, 1), (1, 1))  # left and right, above and below
+Port = tuple[int, int]
+"""Plus and minus mass; 0 is the ground."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sketch:
+    """The small drawing of a model of a catalogue under experiments, made of what the page holds:
+    `parts` are their names, `label` says what is seen.
+    """
+
+    scene: Scene
+    parts: tuple[str, ...]
+    label: str
+
+    @property
+    def width(self) -> str:
+        """Width [px]."""
+        return number(SMALL * self.scene.width)
+
+    @property
+    def box(self) -> str:
+        """viewBox."""
+        return f"0 0 {number(self.scene.width)} {number(self.scene.height)}"
+
+
+def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
+    """The drawing of a model that its page holds, with what these items add."""
+    moved = any(item.kind is Kind.FORCE for item in items)
+    names = (f"more-{added(chain, item).name}" for item in items)
+    text = " and ".join(item.text for item in items)
+    parts = (f"{'rest' if moved else 'chain'}-{model}", *names)
+    return Sketch(with_items(chain, items), parts, f"A{model}: {text}")
+
+
+def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
+    """What sketches are made of beside the drawings of the chains, each once."""
+    found = {layer.name: layer for layer in (added(*one) for one in used)}
+    return [
+        Markup(f'<g id="more-{name}">{body(Scene(0, 0, (layer,)), PAGE_PALETTE)}</g>')
+        for name, layer in sorted(found.items())
+    ]
+
+
+def with_items(chain: Chain, items: Sequence[Item]) -> Scene:
+    """The drawing of a chain with what these items add."""
+    more = sum(item.kind is Kind.SENSOR for item in items)
+    scene = draw(chain, more)
+    kept = scene.layers[:-1] if any(i.kind is Kind.FORCE for i in items) else scene.layers
+    said = "; ".join(item.text for item in items)
+    return replace(
+        scene,
+        layers=(*kept, *(added(chain, item) for item in items)),
+        title=f"{describe(chain).removesuffix('.')}; {said}.",
+    )
+
+
+def state(
+    chain: Chain,
+    sensors: Mapping[str, Port],
+    locked: Iterable[int] = (),
+    inertias: Iterable[int] = (),
+) -> Scene:
+    """A chain with the sensors that are read in one state of the machine, each under its sign; "y"
+    is that of the chain.
+    """
+    further = [sign for sign in sensors if sign != "y"]
+    first = int("y" in sensors)
+    at = Layout(chain, len(further) + first - 1)
+    own = draw(chain, at.more)
+    layers = [layer for layer in own.layers if layer.name != "sensor" or first]
+    for place, sign in enumerate(further, first):
+        side = free_side(chain, sensors[sign][0])
+        bar = further_sensor(at, sensors[sign], place, sign, side)
+        layers.append(Layer(f"sensor {sign}", bar))
+    layers += [Layer(f"lock {i}", clamp(at, i)) for i in locked]
+    layers += [Layer(f"inertia {i}", inertia(at, i, free_corner(chain, i))) for i in inertias]
+    return replace(own, layers=tuple(layers))
+
+
+def added(chain: Chain, item: Item) -> Layer:
+    """What one item adds to the drawing of a chain; layers of one name are the same for all chains
+    of the size.
+    """
+    at, node = Layout(chain), item.at
+    name = f"{item.kind.value}-{node}"
+    match item.kind:
+        case Kind.SENSOR:
+            side = free_side(chain, node)
+            return Layer(
+                f"{name}{'r' if side > 0 else 'l'}", further_sensor(at, (node, 0), 1, "y2", side)
+            )
+        case Kind.FORCE:
+            return Layer(name, (*_wall(at.axis - RISE), *force_bar(at, (0, node))))
+        case Kind.LOCK:
+            return Layer(name, clamp(at, node))
+        case Kind.INERTIA:
+            corner = free_corner(chain, node)
+            return Layer(f"{name}-{corner}", inertia(at, node, corner))
+
+
+def further_sensor(at: Layout, port: Port, place: int, sign: str, side: int) -> tuple[Shape, ...]:
+    """The bar of a further sensor, `place` bars below that of the first, with the piece of the
+    wall where it is fixed to that; its posts are left (-1) or right (1) of the middle.
+    """
+    y = at.axis + RISE + LOWER * place
+    wall = () if port[1] else tuple(_wall(y))
+    return *wall, *sensor_bar(at, (port[1], port[0]), y, sign, side * ASIDE)
+
+
+def clamp(at: Layout, node: int) -> tuple[Shape, ...]:
+    """The ground that holds a mass from above and below."""
+    x, shapes = at.middle(node), list[Shape]()
+    for side in (-1, 1):
+        y = at.axis + side * (MASS / 2 + 1.5)
+        starts = [x + 2 * side + 6.4 * (k - 2.5) for k in range(6)]
+        shapes += [Path(((a, y), (a - 4 * side, y + 5 * side)), Ink.MUTED, line=1) for a in starts]
+        shapes.append(Path(((x - JAW, y), (x + JAW, y)), line=3))
+    return tuple(shapes)
+
+
+def inertia(at: Layout, node: int, corner: int) -> tuple[Shape, ...]:
+    """A known inertia at a corner of a mass, one of CORNERS."""
+    right, below = CORNERS[corner]
+    width, height = BLOCK
+    x = at.middle(node) + right * (2.5 + width / 2)
+    y = at.axis + below * (MASS + height) / 2
+    box = Rect(x - width / 2, y - height / 2, width, height, Ink.PAPER, Ink.LINE, radius=2)
+    return box, Text(x, y, "+J", 10.5, bold=True)
+
+
+def free_corner(chain: Chain, node: int) -> int:
+    """The first corner of a mass at which an inertia covers nothing; the first of all if there is
+    none.
+    """
+    at = Layout(chain)
+    busy = [x for x in draw(chain).layers if x.name in ("force", "sensor") or x.name[0] == "b"]
+    taken = [extent(shape) for layer in busy for shape in layer.shapes]
+
+    def is_free(corner: int) -> bool:
+        """Whether no shape is there."""
+        left, top, right, bottom = extent(inertia(at, node, corner)[0])
+        return all(c <= left or right <= a or d <= top or bottom <= b for a, b, c, d in taken)
+
+    return next((k for k in range(len(CORNERS)) if is_free(k)), 0)
+
+
+def free_side(chain: Chain, node: int) -> int:
+    """1: a further sensor's post is right of the middle of its mass; -1 where the first sensor's
+    sign is in the way.
+    """
+    at = Layout(chain)
+    sign = (at.middle(chain.meas_minus) + at.middle(chain.meas_plus)) / 2
+    is_free = abs(at.middle(node) + ASIDE - sign) >= CLEAR or node in chain.ground_dampers
+    return 1 if is_free else -1
+
+
+def _wall(y: float) -> Iterator[Shape]:
+    """A piece of the wall, hatched as the whole is."""
+    for end in (y - 1, y + 6):
+        yield Path(((WALL, end - 8), (WALL - 8, end)), Ink.MUTED, line=1)
+    yield Path(((WALL, y - 9), (WALL, y + 9)), line=2.5)

@@ -1,0 +1,303 @@
+"""What to measure next after a fit: sentences, rows and plain data of what it left."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations, permutations
+from typing import Any
+
+from disting.experiments.menu import Costs, Item
+from disting.fit.candidates import as_listed, reference
+from disting.fit.foretold import Bench, Foretold, Step
+from disting.fit.named import Left, Named
+from disting.fit.plan import LEVEL, POWER, joined
+from disting.fit.standing import Standing, Stood
+from disting.model.drawing import LEGEND, text_drawing
+from disting.report.fit.plan_words import chance
+from disting.report.fit.words import percent, readable
+from disting.verdict import Relation
+from disting.verdict.everywhere import Answer
+from disting.verdict.further import Further
+from disting.verdict.further_words import CSV_COLUMNS, rows, to_dict
+
+MEASURED_COLUMNS = ("largest", "frequency", "noncentrality", "power")
+BEFORE = "at the fitted values, before a rival refits"
+SAYS = {
+    Standing.EQUAL: "no data with this force and sensor tell it from {}, whatever its values",
+    Standing.TWIN: "for the fitted values no data with this force and sensor tell it from {}",
+    Standing.NOISE: "noise leaves it beside {}",
+    Standing.OPEN: "whether this force and sensor tell it from {} is not known",
+}
+
+
+@dataclass(frozen=True)
+class Onward:
+    """All that is known: how the structures stand, the menu of each group, and what each would
+    show; `seen` is None where the file does not tell the lines.
+    """
+
+    source: str
+    named: Named
+    stood: Stood
+    groups: tuple[Further, ...]
+    seen: Foretold | None
+    costs: Costs
+
+    @property
+    def left(self) -> tuple[Left, ...]:
+        """The structures."""
+        return self.stood.left
+
+    def pairs(self) -> Iterator[tuple[int, int]]:
+        """Yield the pairs that sentences are about: the selected structure with each that was
+        fitted, and each that was fitted with what behaves as it does.
+        """
+        for a, b in combinations(range(len(self.left)), 2):
+            one, other = self.left[a], self.left[b]
+            if (a == 0 and other.fitted) or one.chain in other.like:
+                yield a, b
+
+    def sure(self, a: int, item: Item, b: int) -> bool:
+        """Whether an item tells structure a from b by what is known of all parameters: where both
+        are of one group, some with which it does not may be left.
+        """
+        for group in self.groups:
+            names = [self.left[k].name for k in (a, b)]
+            if set(names) <= set(group.names):
+                here, there = map(group.names.index, names)
+                return group.answer(here, item, there) is Answer.SURELY
+        return self.stood.standing(a, b) is not Standing.EQUAL
+
+
+def set_in_words(found: Onward) -> Iterator[str]:
+    """The structures with their drawings, which of them are groups, and what is not asked."""
+    yield f"{len(found.left)} structures that the fit left:"
+    width = max(len(one.name) for one in found.left)
+    for one in found.left:
+        yield f"  {one.name:{width}}  {text_drawing(one.chain)}  {_origin(one)}"
+    yield ""
+    yield LEGEND
+    moved = [one.name for one in found.left if as_listed(one.chain).chain != one.chain]
+    if moved:
+        yield f"masses of {', '.join(moved)} are counted as drawn here"
+    left = {one.chain for one in found.left}
+    open_ones = [reference(chain) for chain in found.named.rivals if chain not in left]
+    if open_ones:
+        yield (
+            f"not asked here, as it is not known whether they behave the same:"
+            f" {', '.join(open_ones)}"
+        )
+
+
+def measured_in_words(found: Onward) -> Iterator[str]:
+    """What numbers rest on, a sentence for each pair, then the menu of the selected structure in
+    numbers.
+    """
+    seen = found.seen
+    if seen is None:
+        yield f"{found.source} does not tell the lines of its data: fit again for what they show"
+        yield from (sentence(found, a, b) for a, b in found.pairs())
+        return
+    yield (
+        f"differences and powers are {BEFORE}: one that refits comes closer, one that contains the"
+        " true structure all the way"
+    )
+    yield bench_in_words(seen.bench)
+    yield f"how much more measuring tells apart what noise leaves: disting plan {found.source}"
+    yield ""
+    yield from (sentence(found, a, b) for a, b in found.pairs())
+    items = [(item, _nearest(found, item)) for item in _cheapest_first(found, seen, 0)]
+    yield ""
+    yield f"if it is {found.left[0].name}, for the rival that each experiment tells least:"
+    head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
+    yield f"  {'':33}{'rival':16}{head}"
+    yield from (f"  {item.text:33}{_row(found, seen, *row)}" for item, row in items if row)
+    yield (
+        "largest: difference of a line in units of its scatter; lambda, power: of the further"
+        f" response alone, level {percent(LEVEL)}"
+    )
+
+
+def sentence(found: Onward, a: int, b: int) -> str:
+    """How structure b stands to a, and the cheapest experiment that shows it."""
+    one, other = found.left[a], found.left[b]
+    standing = found.stood.standing(a, b)
+    said = f"{other.name}: {SAYS[standing].format(one.name)}"
+    if standing is Standing.NOISE:
+        if joined(one.chain, other.chain) == other.chain:
+            said += f", which it contains, so that only {one.name} can be excluded"
+        said += f" (disting plan {found.source})"
+    shown = _shown(found, found.seen, a, b) if found.seen else ""
+    return f"{said}; {shown}" if shown else said
+
+
+def bench_in_words(bench: Bench) -> str:
+    """Lines, scatter and inertia."""
+    hertz = bench.hertz
+    return (
+        f"at {len(hertz)} lines from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, a line scatters by"
+        f" {percent(float(bench.rho[0]))} (of the fitted data); the inertia"
+        f" that is added is {readable(bench.inertia)}, the mean of the masses"
+    )
+
+
+def left_rows(found: Onward) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each kind of experiment and each pair of places of each pair of structures,
+    of CSV_COLUMNS and MEASURED_COLUMNS.
+    """
+    index = {one.name: k for k, one in enumerate(found.left)}
+    for row in (*(r for group in found.groups for r in rows(group)), *_apart(found)):
+        plain = dict(zip(CSV_COLUMNS, row, strict=True))
+        here = index[plain["left"]], int(plain["at_left"])
+        there = index[plain["right"]], int(plain["at_right"])
+        kind = next(k for k in found.costs.cheapest_first if k == plain["experiment"])
+        step = found.seen.at(kind, here, there) if found.seen else None
+        yield (*row, *_numbers(found, here[0], there[0], step))
+
+
+def left_to_dict(found: Onward) -> dict[str, Any]:
+    """Plain data, ready for JSON; null where a number is not known or not finite."""
+    return {
+        "structures": [
+            {
+                "name": one.name,
+                "fitted": one.fitted,
+                "behaves_as": [reference(chain) for chain in one.like],
+                "free_choices": one.free,
+                "parameters": list(one.values),
+            }
+            for one in found.left
+        ],
+        "groups": [to_dict(group) for group in found.groups],
+        "pairs": [
+            {
+                "left": found.left[a].name,
+                "right": found.left[b].name,
+                "standing": found.stood.standing(a, b).value,
+            }
+            for a, b in combinations(range(len(found.left)), 2)
+        ],
+        "sentences": [sentence(found, a, b) for a, b in found.pairs()],
+        "measured": _measured(found, found.seen) if found.seen else None,
+    }
+
+
+def _measured(found: Onward, seen: Foretold) -> dict[str, Any]:
+    hertz = seen.bench.hertz
+    return {
+        "what": BEFORE,
+        "low": float(hertz[0]),
+        "high": float(hertz[-1]),
+        "lines": len(hertz),
+        "scatter": float(seen.bench.rho[0]),
+        "inertia": seen.bench.inertia,
+        "level": LEVEL,
+        "least": list(_least(found, seen)),
+    }
+
+
+def _least(found: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
+    """What tells a structure least from another one, for each item of its menu."""
+    for a, b in permutations(range(len(found.left)), 2):
+        for item in _cheapest_first(found, seen, a):
+            nearest = seen.least(a, item, b)
+            if nearest is not None:
+                step, at = nearest
+                yield {
+                    "structure": found.left[a].name,
+                    "experiment": item.kind.value,
+                    "mass": item.at,
+                    "other": found.left[b].name,
+                    "at": at,
+                    "moves_in_one_only": step.is_motion,
+                    "largest": None if step.is_motion else step.largest,
+                    "frequency": None if step.is_motion else step.frequency,
+                    "noncentrality": None if step.is_motion else step.noncentrality,
+                    "power": seen.power(a, b, step),
+                }
+
+
+def _origin(one: Left) -> str:
+    if one.fitted:
+        return "fitted"
+    family = f", one of a family, {one.free} free" * bool(one.free)
+    return f"as {', '.join(reference(chain) for chain in one.like)} for the fitted values{family}"
+
+
+def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
+    """Rows of pairs of different classes: what is told apart now stays so."""
+    for a, b in combinations(range(len(found.left)), 2):
+        if found.stood.standing(a, b) is Standing.EQUAL:
+            continue
+        rule = found.stood.rule(a, b)
+        relation = Relation.DISTINGUISHABLE if rule else Relation.UNDECIDED
+        for kind in found.costs.cheapest_first:
+            for i in range(1, found.left[a].chain.n_masses + 1):
+                for j in range(1, found.left[b].chain.n_masses + 1):
+                    names = found.left[a].name, str(i), found.left[b].name, str(j)
+                    yield kind.value, *names, relation.value, rule, "", ""
+
+
+def _cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:
+    order = found.costs.cheapest_first
+    return sorted(seen.items(structure), key=lambda i: (order.index(i.kind), i.at))
+
+
+def _nearest(found: Onward, item: Item) -> tuple[int, Step] | None:
+    """Of all structures the one that an item tells least from the selected one."""
+    seen = found.seen
+    steps = [(k, seen.least(0, item, k)) for k in range(1, len(found.left))] if seen else []
+    nearest = [(k, least[0]) for k, least in steps if least is not None]
+    return min(nearest, key=lambda both: both[1], default=None)
+
+
+def _row(found: Onward, seen: Foretold, other: int, step: Step) -> str:
+    name = found.left[other].name
+    if step.is_motion:
+        return f"{name:16}  the sensor moves in one of the two only"
+    sizes = (step.largest, step.frequency, step.noncentrality)
+    reached = chance(seen.power(0, other, step))
+    return f"{name:16}{''.join(f'{readable(size):>10}' for size in sizes)}{reached:>10}"
+
+
+def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:
+    """The cheapest item that is enough at the fitted values, else the one that shows most."""
+    best: tuple[float, str] | None = None
+    unsure = False
+    for item in _cheapest_first(found, seen, a):
+        nearest = seen.least(a, item, b)
+        if nearest is None:
+            return "its values are not known"
+        if not found.sure(a, item, b):
+            unsure = True
+            continue
+        reached = seen.power(a, b, nearest[0])
+        said = f"{item.text} (cost {found.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
+        if reached >= POWER:
+            return f"{said}{_of_family(found.left[b])}"
+        if best is None or reached > best[0]:
+            best = reached, said
+    if best is None:
+        return "nothing on the menu surely tells them apart" if unsure else ""
+    return f"nothing on the menu has power {percent(POWER)}: at most {best[1]}"
+
+
+def _of_family(other: Left) -> str:
+    return ", for the one of its family of values that is known" if other.free else ""
+
+
+def _size(step: Step, reached: float) -> str:
+    if step.is_motion:
+        return "moves the sensor in one of the two only"
+    return (
+        f"shows up to {readable(step.largest)} standard deviations of a line at"
+        f" {readable(step.frequency)} Hz, power {chance(reached)}"
+    )
+
+
+def _numbers(found: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]:
+    if step is None or found.seen is None:
+        return ("", "", "", "")
+    reached = repr(found.seen.power(a, b, step))
+    if step.is_motion:
+        return ("", "", "", reached)
+    return (repr(step.largest), repr(step.frequency), repr(step.noncentrality), reached)

@@ -1,0 +1,149 @@
+"""The responses of a fit one by one: their data, their drawings, how much of them is reproduced."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+
+from markupsafe import Markup
+
+from disting.fit.fitted import fit_percent
+from disting.fit.judged import Candidate
+from disting.fit.select import Selection
+from disting.fit.setup import Setup, port
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.report.drawing import draw
+from disting.report.experiment_drawing import Port, state
+from disting.report.fit.residuals import bands_in_words
+from disting.report.fit.style import Drawn
+from disting.report.fit.words import fit_in_words
+from disting.report.scene import PAGE_PALETTE, Scene
+from disting.report.svg import body, number
+
+PANELS = 2  # of a response: Bode diagram and residuals
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Response:
+    """Response `at`, counted from 0, with its data."""
+
+    at: int
+    setup: Setup
+    train: FrequencyResponse
+    test: FrequencyResponse | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShownResponse:
+    """A response as the page shows it; `drawing`: of the machine as it is there, "" where that is
+    the one of the result.
+    """
+
+    title: str
+    drawing: Markup
+    description: str
+    fitted: str
+    panels: Sequence[tuple[Drawn, Sequence[str]]]
+
+
+def responses(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None
+) -> list[Response]:
+    """All responses; `train` and `test` are data of the first one."""
+    cost, judging = selection.task.cost, selection.judging
+    tests = {} if judging is cost else dict(zip(judging.setups, judging.parts, strict=True))
+    each = list(enumerate(zip(cost.setups, cost.parts, strict=True)))
+    return [
+        Response(0, cost.setups[0], train, test),
+        *(
+            Response(at, setup, part.measured, tests[setup].measured if setup in tests else None)
+            for at, (setup, part) in each[1:]
+        ),
+    ]
+
+
+def shown_responses(
+    selection: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None,
+    figures: Sequence[Drawn],
+) -> list[ShownResponse]:
+    """Each response with its figures; `figures`: Bode diagram and residuals of each come first."""
+    found = []
+    for one in responses(selection, train, test):
+        own = figures[PANELS * one.at : PANELS * (one.at + 1)]
+        words = bands_in_words(selection, one.train, one.test, one.at)
+        scene = seen_alone(selection.described.chain, selection, one)
+        found.append(
+            ShownResponse(
+                one.setup.text,
+                drawing(scene) if _is_changed(one.setup) else Markup(""),
+                scene.title,
+                fit_in_words(selection, one.train, one.test, one.at),
+                [*zip(own, words, strict=False)],
+            )
+        )
+    return found
+
+
+def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]:
+    """What each response is, and how much of its training data a candidate reproduces, see
+    `fit_percent`; nothing where there is one response.
+    """
+    cost = selection.task.cost
+    if len(cost.parts) == 1:
+        return []
+    found = []
+    for at, (setup, part) in enumerate(zip(cost.setups, cost.parts, strict=True)):
+        size = fit_percent(candidate, selection.task, part.measured, at)
+        found.append((setup.text, f"{size:.4g} %" if isfinite(size) else "–"))
+    return found
+
+
+def seen_together(chain: Chain, selection: Selection) -> Scene:
+    """A chain with all sensors that are read on the machine as it is."""
+    setups = [setup for setup in selection.task.cost.setups if not _is_changed(setup)]
+    signs = _signs(chain, selection)
+    ports = {_port(chain, setup) for setup in setups}
+    read = {sign: place for sign, place in signs.items() if place in ports}
+    also = "".join(f"; {sign}: sensor {_named(read[sign])}" for sign in read if sign != "y")
+    return replace(state(chain, read), title=f"{draw(chain).title.removesuffix('.')}{also}.")
+
+
+def seen_alone(chain: Chain, selection: Selection, one: Response) -> Scene:
+    """A chain as it is in one response."""
+    n, place = chain.n_masses, _port(chain, one.setup)
+    read = {sign: at for sign, at in _signs(chain, selection).items() if at == place}
+    added = [at for at, _ in one.setup.added(n)]
+    scene = state(chain, read, one.setup.still(n), added)
+    said = f"{draw(chain).title.removesuffix('.')}; measured here: {one.setup.text}."
+    return replace(scene, title=said)
+
+
+def drawing(scene: Scene) -> Markup:
+    """A chain as an engineer sketches it."""
+    box = f"0 0 {number(scene.width)} {number(scene.height)}"
+    return Markup(
+        '<svg class="chain" width="{}" viewBox="{}" role="img" aria-label="{}">{}</svg>'
+    ).format(number(1.4 * scene.width), box, scene.title, Markup(body(scene, PAGE_PALETTE)))
+
+
+def _signs(chain: Chain, selection: Selection) -> dict[str, Port]:
+    """All places of sensors, "y" that of the first response, then "y2", "y3" .. as they come."""
+    ports = dict.fromkeys(_port(chain, setup) for setup in selection.task.cost.setups)
+    return {f"y{k}" if k > 1 else "y": place for k, place in enumerate(ports, 1)}
+
+
+def _port(chain: Chain, setup: Setup) -> Port:
+    if not setup.sensor:
+        return chain.meas_plus, chain.meas_minus
+    minus, plus = port(setup.sensor, chain.n_masses)
+    return plus, minus
+
+
+def _named(place: Port) -> str:
+    return f"at mass {place[0]}" + (f" against mass {place[1]}" if place[1] else "")
+
+
+def _is_changed(setup: Setup) -> bool:
+    return bool(setup.locked or setup.inertias)

@@ -1,0 +1,235 @@
+"""Pages of Markdown as pages of the site.
+
+Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
+to another page of the guide leads to the rendered page; a link that leads out of the guide has no
+place in the site and stays as its words. An image is a drawing (SVG) beside the pages, and becomes
+a part of the page. A block named "picture" holds a model a line, such as `3:1 --damped`, and is
+shown as their drawings; what follows a name is for those who read the text.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Container, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from types import MappingProxyType
+
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+from markupsafe import Markup, escape
+
+from disting.model.family import Family
+from disting.model.names import chain_of
+from disting.report.drawing import draw
+from disting.report.scene import PAGE_PALETTE
+from disting.report.svg import body
+
+# letters; a table with two such cells in a row is read row by row where the screen is narrow
+LONG = 40
+ENLARGED = 1.4  # drawings of chains
+FIGURE = Markup('<figure class="picture">{}<figcaption>{}</figcaption></figure>\n')
+ADDRESS = re.compile(r"([a-z0-9-]+)\.md(#[\w-]+)?")
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A part of a page: its anchor (empty: before the first heading), its heading and the level of
+    that (1 to 6), and its words.
+    """
+
+    anchor: str
+    title: str
+    level: int
+    words: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class GuidePage:
+    """A page: its name without an ending, its first heading, its sections, and what follows the
+    first heading as HTML.
+    """
+
+    name: str
+    title: str
+    sections: tuple[Section, ...]
+    body: Markup
+
+    @property
+    def contents(self) -> tuple[tuple[str, str], ...]:
+        """Anchors and titles of the sections that a list of contents names."""
+        return tuple((s.anchor, s.title) for s in self.sections if s.level == 2)
+
+
+def guide_page(
+    name: str, text: str, known: Container[str], drawings: Mapping[str, str] = MappingProxyType({})
+) -> GuidePage:
+    """A page of Markdown whose first block is its title; `known`: names of the pages that links
+    may lead to; `drawings`: SVG by the names of the files that images may name.
+
+    >>> text = "# Title\\n\\n## Of *one*\\n\\nSee [b](b.md) and [code](../b.py), <b>."
+    >>> page = guide_page("a", text, ["a", "b"])
+    >>> page.title, page.contents
+    ('Title', (('of-one', 'Of one'),))
+    >>> print(page.body.splitlines()[1])
+    <p>See <a href="b.html">b</a> and code, &lt;b&gt;.</p>
+
+    Raises ValueError if the first block is not a heading of level 1.
+    """
+    parser = _parser()
+    tokens = parser.parse(text)
+    if len(tokens) < 3 or tokens[0].tag != "h1":
+        raise ValueError(f"page {name} of the guide does not begin with its title")
+    sections = _with_anchors(tokens)
+    _with_names_of_columns(tokens)
+    for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        if token.children:
+            token.children = list(_led(token.children, known))
+            if [child.type for child in token.children] == ["image"]:
+                before.hidden = after.hidden = True  # a figure is no part of a paragraph
+    title = _words(tokens[1])
+    found = parser.renderer.render(tokens[3:], parser.options, {"drawings": drawings})
+    return GuidePage(name, title, sections, Markup(found))
+
+
+def _parser() -> MarkdownIt:
+    """CommonMark with tables, without HTML; what may be wider than a phone scrolls in a box of
+    its own.
+    """
+    parser = MarkdownIt("commonmark", {"html": False}).enable("table")
+    parser.add_render_rule("image", _drawing)
+    parser.add_render_rule("table_open", _table_open)
+    parser.add_render_rule("table_close", lambda *_: "</table>\n</div>\n")
+    parser.add_render_rule("code_inline", _code_in_text)
+    for kind in ("fence", "code_block"):
+        parser.add_render_rule(kind, _code)
+    return parser
+
+
+def _table_open(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
+    label = escape(f"Table: {tokens[place].meta['under']}")
+    kind = "plain wordy" if tokens[place].meta.get("wordy") else "plain"
+    return (
+        f'<div class="scroll" tabindex="0" role="group" aria-label="{label}">\n<table'
+        f' class="{kind}">\n'
+    )
+
+
+def _drawing(
+    _: object, tokens: Sequence[Token], place: int, __: object, env: Mapping[str, Mapping[str, str]]
+) -> str:
+    """A drawing in its place; nothing is fetched, so an image of another place is its words."""
+    found = env["drawings"].get(str(tokens[place].attrs["src"]))
+    words = escape(tokens[place].content)
+    return FIGURE.format(Markup(found), words) if found else words
+
+
+def _pictures(lines: Sequence[str]) -> str:
+    """Drawings of the models that a block names."""
+    return "".join(_picture(*re.split(r"\s{2,}", line)[:1]) for line in lines)
+
+
+def _picture(model: str) -> str:
+    name, _, option = model.partition(" ")
+    scene = draw(chain_of(name, Family(1, damped=option == "--damped")))
+    size = f'width="{scene.width * ENLARGED:.0f}" viewBox="0 0 {scene.width:g} {scene.height:g}"'
+    drawn = Markup(f'<svg class="chain" {size}>{body(scene, PAGE_PALETTE)}</svg>')
+    return FIGURE.format(drawn, f"{name}: {scene.title}")
+
+
+def _code(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
+    if tokens[place].info == "picture":
+        return _pictures(tokens[place].content.splitlines())
+    return f'<pre tabindex="0"><code>{escape(tokens[place].content.rstrip())}</code></pre>\n'
+
+
+def _code_in_text(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
+    """An option such as --no-cache is not broken at its hyphens."""
+    whole = Markup('<span class="nobr">{}</span>')
+    words = (
+        whole.format(word) if "-" in word and len(word) < LONG else word
+        for word in tokens[place].content.split(" ")
+    )
+    return f"<code>{Markup(' ').join(words)}</code>"
+
+
+def _with_anchors(tokens: Sequence[Token]) -> tuple[Section, ...]:
+    """Give every heading but the title an anchor, and every table the heading above it; the
+    sections.
+    """
+    seen: Counter[str] = Counter()
+    found = [Section("", _words(tokens[1]), 1)]
+    words: list[str] = []
+    for token, inner in pairwise(tokens[2:]):
+        if token.type == "heading_open":
+            found[-1] = replace(found[-1], words=" ".join(words))
+            words, heading = [], _words(inner)
+            anchor = _anchor(heading)
+            token.attrSet("id", f"{anchor}-{seen[anchor]}" if seen[anchor] else anchor)
+            seen[anchor] += 1
+            found.append(Section(str(token.attrs["id"]), heading, int(token.tag[1:])))
+        elif token.type == "table_open":
+            token.meta["under"] = found[-1].title
+        elif inner.type == "inline" and token.type != "heading_open":
+            words.append(_words(inner))
+    return (*found[:-1], replace(found[-1], words=" ".join(words)))
+
+
+def _with_names_of_columns(tokens: Sequence[Token]) -> None:
+    """Give every cell of a wordy table the name of its column, which stands before it where
+    rows are stacked.
+    """
+    table, names = tokens[0], list[str]()
+    cells = list[tuple[Token, Token]]()
+    for token, inner in pairwise(tokens):
+        if token.type == "table_open":
+            table, names, cells = token, [], []
+        elif token.type == "th_open":
+            names.append(_words(inner))
+        elif token.type == "td_open":
+            cells.append((token, inner))
+        elif token.type == "table_close":
+            rows = [cells[i : i + len(names)] for i in range(0, len(cells), len(names))]
+            table.meta["wordy"] = any(
+                sum(len(_words(words)) > LONG for _, words in row) > 1 for row in rows
+            )
+            for row in rows if table.meta["wordy"] else []:
+                for (cell, _), name in zip(row, names, strict=True):
+                    cell.attrSet("data-name", name)
+
+
+def _anchor(heading: str) -> str:
+    """As code hosts make them, so that one link serves the text and the page.
+
+    >>> _anchor("What is read, and how?")
+    'what-is-read-and-how'
+    """
+    return re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
+
+
+def _words(inline: Token) -> str:
+    # a line of the source that ends within a sentence is a child without words
+    return "".join(
+        child.content or " " * (child.type == "softbreak") for child in inline.children or ()
+    )
+
+
+def _led(children: Sequence[Token], known: Container[str]) -> Iterator[Token]:
+    """The same words with links to rendered pages; of a link that leads out of the guide only
+    its words.
+    """
+    leads = True  # links do not nest
+    for token in children:
+        if token.type == "link_open":
+            address = _rendered(str(token.attrs["href"]), known)
+            leads = bool(address)
+            token.attrSet("href", address)
+        if leads or token.type not in ("link_open", "link_close"):
+            yield token
+
+
+def _rendered(address: str, known: Container[str]) -> str:
+    """Where a link of a page leads in the site; empty if that is nowhere."""
+    if address.startswith("#"):
+        return address
+    match = ADDRESS.fullmatch(address)
+    return f"{match[1]}.html{match[2] or ''}" if match and match[1] in known else ""

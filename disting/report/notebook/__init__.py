@@ -1,0 +1,28 @@
+"""What a notebook shows of an object: a drawing, a table, a plot with matplotlib.
+
+The rooms below ask for it as `disting.model.shown.Presenter`, which `Notebook` is.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from disting.model.chain import Chain
+from disting.report.drawing import chain_svg
+from disting.report.notebook.plots import drawn_on
+from disting.report.notebook.tables import table_of
+
+
+class Notebook:
+    """Draws what a notebook asks for; it keeps nothing."""
+
+    def html(self, shown: Any, /) -> str:
+        """The object as a piece of an HTML page; raises TypeError for what has none."""
+        return table_of(shown)
+
+    def svg(self, shown: Chain, /) -> str:
+        """The drawing of a chain on white paper, which is right in light and dark notebooks."""
+        return chain_svg(shown)
+
+    def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
+        """The object on axes of matplotlib; raises TypeError for what has no plot."""
+        return drawn_on(shown, ax, style)

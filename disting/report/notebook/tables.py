@@ -1,0 +1,285 @@
+"""Each kind of object as tables and sentences of a notebook."""
+
+from collections.abc import Iterator
+from functools import singledispatch
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from disting.catalogs import Catalog
+from disting.equivalence import Equivalents
+from disting.evidence.positive import PositiveFinding
+from disting.fit.candidates import reference
+from disting.fit.judged import Candidate
+from disting.fit.plan import Plan, is_trusted
+from disting.fit.select import Selection
+from disting.general import MatrixModel, Model, ModelList
+from disting.general.global_identifiability import GlobalIdentifiability
+from disting.measurement import FrequencyResponse
+from disting.model.family import Family
+from disting.questions.identifiability import Identifiability
+from disting.questions.inclusion import Inclusion
+from disting.report.drawing import chain_svg
+from disting.report.fit.plan_words import chance
+from disting.report.fit.words import name, readable, response_unit, typeset
+from disting.report.notebook.curve import curve
+from disting.report.notebook.markup import LONGEST, block, facts, line, matrix, more, table
+from disting.report.words import headline, plural, probability, title
+from disting.verdict import Decisions, Verdict
+from disting.verdict.further import Further
+from disting.verdict.further_words import anywhere, conclusion
+from disting.verdict.shown import shown as measured
+
+
+@singledispatch
+def table_of(shown: Any) -> str:
+    """The object as a piece of HTML; raises TypeError for a kind that is not known here."""
+    raise TypeError(f"a notebook has no table for {type(shown).__name__}")
+
+
+@table_of.register
+def _verdict(shown: Verdict) -> str:
+    bound = f", wrong with a probability of at most {probability(shown.error_bound)}"
+    sure = f"{shown.certainty or ''}{bound if shown.safety > 0 else ''}"
+    rows = [
+        ("holds for", f"generic {shown.domain} parameters"),
+        ("certainty", sure),
+        ("rests on", shown.rule),
+        ("equivalents exist", _inclusion(shown, shown.image)),
+        ("limits exist", _inclusion(shown, shown.closure)),
+        (f"positive {shown.left}", _share(shown.left_positive, shown.right)),
+        (f"positive {shown.right}", _share(shown.right_positive, shown.left)),
+        ("given up", "; ".join(shown.notes)),
+    ]
+    seen = measured(shown)
+    return block(line(shown.sentence, bold=True), line(seen) if seen else "", facts(rows))
+
+
+def _inclusion(shown: Verdict, found: Inclusion) -> str:
+    """Whose generic models have an equivalent, or are a limit, on the other side."""
+    return {
+        Inclusion.EQUAL: "of both, over complex parameters",
+        Inclusion.LEFT_IN_RIGHT: f"of {shown.left} in {shown.right}, over complex parameters",
+        Inclusion.RIGHT_IN_LEFT: f"of {shown.right} in {shown.left}, over complex parameters",
+        Inclusion.NEITHER: "of neither",
+    }.get(found, "")
+
+
+def _share(found: PositiveFinding | None, other: str) -> str:
+    return "" if found is None else f"{found.share} with a positive equivalent {other}"
+
+
+@table_of.register
+def _catalog(shown: Catalog) -> str:
+    names = [f"A{number}" for number in range(1, len(shown.family) + 1)]
+    hint = "catalog.matrix() has them all, catalog.plot() draws them, catalog.models() lists them."
+    return block(
+        line(title(shown), bold=True),
+        line(f"{headline(shown)}."),
+        matrix(names, lambda i, j: shown.relation(i + 1, j + 1)),
+        more(len(names), "models", hint),
+    )
+
+
+@table_of.register
+def _decisions(shown: Decisions) -> str:
+    names = [s.name for s in shown.subjects]
+    groups = "; ".join(", ".join(names[i] for i in members) for members in shown.classes())
+    return block(
+        line(f"{plural(len(names), 'model')} over {shown.query.view.domain} parameters", bold=True),
+        matrix(names, shown.relation),
+        line(f"Indistinguishable among themselves: {groups or 'none'}."),
+        more(len(names), "models", "relation(i, j) tells each pair."),
+    )
+
+
+@table_of.register
+def _family(shown: Family) -> str:
+    head = f"{plural(len(shown), 'chain')} of {plural(shown.n_masses, 'mass', 'masses')}"
+    drawings = Markup("").join(
+        Markup("<figure>{}<figcaption>{}</figcaption></figure>").format(
+            Markup(chain_svg(chain)), f"A{number}"
+        )
+        for number, chain in list(enumerate(shown, 1))[:LONGEST]
+    )
+    style = "display:flex;flex-wrap:wrap;align-items:end"
+    return block(
+        line(head, bold=True),
+        Markup('<div style="{}">{}</div>').format(style, drawings),
+        more(len(shown), "chains", "family[13] is the next one."),
+    )
+
+
+@table_of.register
+def _identifiability(shown: Identifiability) -> str:
+    alone = {c.text: c.unique for c in shown.singles}
+    rows = (
+        (p, "determinable" if p in alone else "not by itself", alone.get(p, ""))
+        for p in shown.parameters
+    )
+    known = ", ".join(shown.combinations)
+    return block(
+        line(shown.sentence, bold=True),
+        table(["parameter", "from the response", "one value only"], rows),
+        line(f"{plural(shown.rank, 'independent combination')}: {known}."),
+    )
+
+
+@table_of.register
+def _global(shown: GlobalIdentifiability) -> str:
+    local = shown.local.identifiable
+    rows = (
+        (p, "determinable" if p in local else "not by itself", "yes" * (p in shown.unique))
+        for p in shown.local.parameters
+    )
+    return block(
+        line(shown.sentence, bold=True),
+        table(["parameter", "from the response", "one value only"], rows),
+    )
+
+
+@table_of.register
+def _response(shown: FrequencyResponse) -> str:
+    low, high = readable(shown.frequency[0], 4), readable(shown.frequency[-1], 4)
+    size = np.abs(shown.G)
+    unit = response_unit(shown)
+    rows = [
+        ("lines", f"{len(shown)}, {low} to {high} Hz"),
+        ("shows", f"{shown.sensor} per input" + f" [{unit}]" * bool(unit)),
+        ("amplitude", f"{readable(float(size.min()))} to {readable(float(size.max()))}"),
+        ("input", typeset(str(shown.input))),
+        ("output", typeset(str(shown.output))),
+        ("known of the noise", _noise(shown)),
+        ("origin", shown.origin),
+        ("notes", "; ".join((*shown.notes, *shown.suspicions))),
+    ]
+    picture = curve(shown.frequency, size, "Amplitude over frequency, both logarithmic")
+    return block(line("Frequency response", bold=True), Markup(picture), facts(rows))
+
+
+def _noise(shown: FrequencyResponse) -> str:
+    known = [("standard deviations", shown.deviation), ("coherence", shown.coherence)]
+    return ", ".join(what for what, values in known if values is not None) or "nothing"
+
+
+@table_of.register
+def _selection(shown: Selection) -> str:
+    head = [
+        "candidate",
+        "",
+        "N_p",
+        "J test",
+        "χ² per line",
+        "condition index",
+        "weight",
+        "excluded",
+    ]
+    first = list(shown.candidates[:LONGEST])
+    chosen = [c for c in shown.candidates[LONGEST:] if c is shown.selected]
+    rows = (_candidate(c, c is shown.selected) for c in (*first, *chosen))
+    return block(
+        line(_selected(shown), bold=True),
+        line(_explained(shown)),
+        table(head, rows),
+        more(len(shown.candidates), "candidates", "selection.candidates has them all."),
+        *map(line, _members(shown)),
+    )
+
+
+def _selected(shown: Selection) -> str:
+    if shown.selected is None:
+        return "No candidate is admissible."
+    return f"Selected: {reference(shown.selected.chain)}, {name(shown.selected.chain)}."
+
+
+def _explained(shown: Selection) -> str:
+    found = shown.explanation
+    which = reference(shown.described.chain)
+    if found.noisy:
+        return "The data are mostly noise."
+    says = "explains" if found.explains else "does not explain"
+    return f"{which} {says} the data: χ² per line {readable(found.chi2)}, from {shown.validation}."
+
+
+def _candidate(shown: Candidate, chosen: bool) -> tuple[object, ...]:
+    label = reference(shown.chain)
+    return (
+        Markup("<strong>{}</strong>").format(label) if chosen else label,
+        name(shown.chain),
+        shown.n_parameters,
+        readable(shown.j_test),
+        readable(shown.chi2),
+        readable(shown.practical.condition_index),
+        readable(shown.akaike_weight, 2),
+        "; ".join(shown.reasons),
+    )
+
+
+def _members(shown: Selection) -> Iterator[str]:
+    for member in shown.members:
+        same = ", ".join(dict.fromkeys(twin.name for twin in member.twins))
+        yield f"Not excluded: {member.name}" + f"; the same response: {same}" * bool(same) + "."
+
+
+@table_of.register
+def _equivalents(shown: Equivalents) -> str:
+    rows = [
+        (listing.name, m.signs, ", ".join(f"{p} = {v:.5g}" for p, v in m.values.items()), m.origin)
+        for listing in shown.listings
+        for m in listing.members
+    ]
+    return block(
+        line(f"Parameter vectors with the transfer function of {shown.name}", bold=True),
+        table(["structure", "signs", "values", "from"], rows[:LONGEST]),
+        more(len(rows), "vectors", "Iterate over it for all."),
+    )
+
+
+@table_of.register(Model)
+@table_of.register(MatrixModel)
+def _model(shown: Model | MatrixModel) -> str:
+    return block(line(shown.name, bold=True), line(_formula(shown)))
+
+
+@table_of.register
+def _models(shown: ModelList) -> str:
+    rows = [(m.name, ", ".join(m.parameters), _formula(m)) for m in shown][:LONGEST]
+    return block(
+        line(shown.title or plural(len(shown), "model"), bold=True),
+        table(["model", "parameters", "transfer function"], rows),
+        more(len(shown), "models", "Iterate over it for all."),
+    )
+
+
+def _formula(shown: Model | MatrixModel) -> str:
+    """G(s), where it is short enough to be read."""
+    if isinstance(shown, MatrixModel):
+        outputs, inputs = shown.shape
+        return f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
+    terms = sum(map(len, (*shown.numerator_terms, *shown.denominator_terms)))
+    return str(shown) if terms <= 30 else f"{plural(shown.n_states, 'state')}, {terms} terms"
+
+
+@table_of.register
+def _further(shown: Further) -> str:
+    rows = ((own, conclusion(shown, k)) for k, own in enumerate(shown.names))
+    enough = anywhere(shown)
+    return block(
+        line(f"What to measure next on {', '.join(shown.names)}", bold=True),
+        line(f"Enough wherever it is done: {enough}.") if enough else "",
+        table(["if it is", "then"], rows),
+    )
+
+
+@table_of.register
+def _plan(shown: Plan) -> str:
+    model, rival = shown.names
+    rows = [
+        ("answer", shown.answer),
+        ("verdict", "" if shown.verdict is None else shown.verdict.sentence),
+        ("power now", chance(shown.power)),
+        ("effort needed", f"{readable(shown.factor)} times" if shown.noncentrality else ""),
+        ("doubt", "" if is_trusted(shown) else "the rival's best fit may not have been found"),
+    ]
+    return block(line(f"To tell {model} from {rival}", bold=True), facts(rows))

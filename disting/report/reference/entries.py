@@ -1,0 +1,233 @@
+"""What the reference says of a name: its signature, its docstring, its members."""
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import chain
+
+from disting.report.reference.modules import Definition, Place, defined, parsed, public
+
+ENUMS = {"Enum", "StrEnum", "IntEnum"}
+RAISED = re.compile(r"\bRaises ((?:(?!\. [A-Z]).)*)", re.DOTALL)
+EXCEPTION = re.compile(r"\b[A-Z]\w+(?:Error|Violation|Warning)\b")
+
+
+class Kind(StrEnum):
+    """What a name is."""
+
+    CLASS = "class"
+    FUNCTION = "function"
+    METHOD = "method"
+    CLASS_METHOD = "class method"
+    STATIC_METHOD = "static method"
+    PROPERTY = "property"
+    FIELD = "field"
+    MEMBER = "member"
+    VALUE = "value"
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """One argument as it is written: `star` is "*" or "**" before it, type and default may be
+    empty.
+    """
+
+    name: str
+    annotation: str = ""
+    default: str = ""
+    star: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A public name: `place` is where it is defined, `value` what a constant or a member of an
+    enumeration is, `raises` the exceptions that its docstring or its body names.
+    """
+
+    name: str
+    kind: Kind
+    place: Place
+    text: str
+    arguments: tuple[Argument, ...] | None = None
+    returns: str = ""
+    value: str = ""
+    bases: tuple[str, ...] = ()
+    raises: tuple[str, ...] = ()
+    members: tuple["Entry", ...] = ()
+
+
+def entries(name: str) -> Iterator[Entry]:
+    """The public names of a module, in its order.
+
+    >>> next(entry for entry in entries("disting") if entry.name == "compare").returns
+    'Verdict'
+    """
+    for key in public(name):
+        found = defined(Place(name, key))
+        if found is not None:
+            source = parsed(found.module)
+            yield _entry(key, found, source.definitions[found.name], source.texts.get(key, ""))
+
+
+def _entry(name: str, place: Place, node: Definition, text: str) -> Entry:
+    if isinstance(node, ast.ClassDef):
+        return _class(name, place, node)
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+        return _function(name, place, node)
+    return _value(name, Kind.VALUE, place, node, text)
+
+
+def _class(name: str, place: Place, node: ast.ClassDef) -> Entry:
+    bases = tuple(ast.unparse(base) for base in node.bases)
+    members = [m for part in node.body for m in _members(part, place, bases)]
+    record = any("dataclass" in ast.unparse(d) for d in node.decorator_list)
+    making = [p for p in node.body if getattr(p, "name", "") in ("__init__", "__post_init__")]
+    made = next(
+        (p for p in making if isinstance(p, ast.FunctionDef) and p.name == "__init__"), None
+    )
+    arguments: tuple[Argument, ...] | None = None
+    if made:
+        arguments = _arguments(made.args, place.module)[1:]
+    elif record or "NamedTuple" in bases:
+        arguments = _fields_as_arguments(members, node)
+    text = ast.get_docstring(node) or ""
+    return Entry(
+        name,
+        Kind.CLASS,
+        place,
+        text,
+        arguments=arguments,
+        bases=bases,
+        raises=tuple(dict.fromkeys(chain(_told(text), *map(_raised, making)))),
+        members=tuple(m for m in members if m.kind is not Kind.FIELD),
+    )
+
+
+def _fields_as_arguments(members: Sequence[Entry], node: ast.ClassDef) -> tuple[Argument, ...]:
+    """How a record is made: its fields, by keyword only where its decorator says so."""
+    found = [Argument(m.name, m.returns, m.value) for m in members if m.kind is Kind.FIELD]
+    if any("kw_only=True" in ast.unparse(d) for d in node.decorator_list):
+        return (Argument("", star="*"), *found)
+    return tuple(found)
+
+
+def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Entry]:
+    """What a statement in a class adds to it, for others to use."""
+    if isinstance(node, ast.FunctionDef):
+        special = node.name.startswith("__") and node.name != "__init__"
+        if ast.get_docstring(node) and (special or not node.name.startswith("_")):
+            yield _function(node.name, place, node, within=True)
+    elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+        if not node.target.id.startswith("_") and "ClassVar" not in ast.unparse(node.annotation):
+            yield _value(node.target.id, Kind.FIELD, place, node, "")
+    elif isinstance(node, ast.Assign) and ENUMS.intersection(bases):
+        yield from (
+            _value(target.id, Kind.MEMBER, place, node, "")
+            for target in node.targets
+            if isinstance(target, ast.Name) and not target.id.startswith("_")
+        )
+
+
+def _function(
+    name: str, place: Place, node: ast.FunctionDef | ast.AsyncFunctionDef, *, within: bool = False
+) -> Entry:
+    decorators = [ast.unparse(d).split(".")[-1].split("(")[0] for d in node.decorator_list]
+    kind = _kind(decorators) if within else Kind.FUNCTION
+    arguments = _arguments(node.args, place.module)
+    if kind in (Kind.METHOD, Kind.CLASS_METHOD, Kind.PROPERTY):
+        arguments = arguments[1:]
+    text = ast.get_docstring(node) or ""
+    return Entry(
+        name,
+        kind,
+        place,
+        text,
+        arguments=None if kind is Kind.PROPERTY else arguments,
+        returns=_type(node.returns),
+        raises=tuple(dict.fromkeys(chain(_told(text), _raised(node)))),
+    )
+
+
+def _kind(decorators: Sequence[str]) -> Kind:
+    if "property" in decorators or "cached_property" in decorators:
+        return Kind.PROPERTY
+    if "classmethod" in decorators:
+        return Kind.CLASS_METHOD
+    return Kind.STATIC_METHOD if "staticmethod" in decorators else Kind.METHOD
+
+
+def _arguments(of: ast.arguments, module: str) -> tuple[Argument, ...]:
+    """All arguments in their order, "/" and "*" among them as in the source."""
+    plain = [*of.posonlyargs, *of.args]
+    defaults = [None] * (len(plain) - len(of.defaults)) + [*of.defaults]
+    found = [_argument(*pair, module) for pair in zip(plain, defaults, strict=True)]
+    if of.posonlyargs:
+        found.insert(len(of.posonlyargs), Argument("", star="/"))
+    if of.vararg:
+        found.append(_argument(of.vararg, None, module, "*"))
+    elif of.kwonlyargs:
+        found.append(Argument("", star="*"))
+    found += [_argument(*pair, module) for pair in zip(of.kwonlyargs, of.kw_defaults, strict=True)]
+    if of.kwarg:
+        found.append(_argument(of.kwarg, None, module, "**"))
+    return tuple(found)
+
+
+def _argument(of: ast.arg, default: ast.expr | None, module: str, star: str = "") -> Argument:
+    annotation = _type(of.annotation)
+    return Argument(of.arg, annotation, _written(default, module) if default else "", star)
+
+
+def _type(annotation: ast.expr | None) -> str:
+    """As it is written, without the quotation marks of what is defined further below."""
+    if isinstance(annotation, ast.Constant) and isinstance(annotation.value, str):
+        return annotation.value
+    return ast.unparse(annotation) if annotation else ""
+
+
+def _written(value: ast.expr, module: str) -> str:
+    """A default as a reader needs it: that of a field, and a constant's value for its name.
+
+    >>> _written(ast.parse("field(default_factory=dict)", mode="eval").body, "disting.files")
+    'dict()'
+    >>> _written(ast.parse("PROVENANCE", mode="eval").body, "disting.files")
+    "'provenance.json'"
+    """
+    if isinstance(value, ast.Call) and ast.unparse(value.func) == "field":
+        given = {keyword.arg: keyword.value for keyword in value.keywords}
+        made = given.get("default_factory")
+        if isinstance(made, ast.Lambda):
+            return ast.unparse(made.body)
+        found = given.get("default")
+        return f"{ast.unparse(made)}()" if made else ast.unparse(found) if found else ""
+    at = defined(Place(module, value.id)) if isinstance(value, ast.Name) else None
+    node = parsed(at.module).definitions[at.name] if at else None
+    constant = isinstance(node, ast.Assign | ast.AnnAssign) and isinstance(node.value, ast.Constant)
+    return ast.unparse(node.value if constant else value)  # type: ignore[union-attr,arg-type]
+
+
+def _value(name: str, kind: Kind, place: Place, node: Definition, text: str) -> Entry:
+    assert isinstance(node, ast.Assign | ast.AnnAssign)
+    annotation = _type(node.annotation) if isinstance(node, ast.AnnAssign) else ""
+    value = _written(node.value, place.module) if node.value else ""
+    return Entry(name, kind, place, text, returns=annotation, value=value)
+
+
+def _told(text: str) -> Iterator[str]:
+    """Exceptions that a docstring names after "Raises".
+
+    >>> list(_told("Raises InputError if not, OSError else. Returns KeyError."))
+    ['InputError', 'OSError']
+    """
+    for match in RAISED.finditer(text):
+        yield from EXCEPTION.findall(match[1])
+
+
+def _raised(node: ast.AST) -> Iterator[str]:
+    """Exceptions that a body raises itself."""
+    for part in ast.walk(node):
+        if isinstance(part, ast.Raise) and part.exc is not None:
+            called = part.exc.func if isinstance(part.exc, ast.Call) else part.exc
+            yield from EXCEPTION.findall(ast.unparse(called))

@@ -1,0 +1,136 @@
+"""Definitions in the package's source, found without importing it.
+
+A name that a package hands on (`from .. import X as X`) is followed to the module that defines it.
+Types and defaults are those that stand in the source: an annotation that is evaluated reads
+differently with every version of NumPy and Python.
+"""
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from itertools import pairwise
+
+Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Assign | ast.AnnAssign
+PACKAGE = "disting"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A name in a module."""
+
+    module: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Module:
+    """What a module defines and imports, by name, and its docstring.
+
+    `texts`: the string below an assignment, which says what it is. `handed_on`: names that it
+    imports for others.
+    """
+
+    name: str
+    text: str
+    definitions: dict[str, Definition]
+    imports: dict[str, Place]
+    texts: dict[str, str]
+    handed_on: tuple[str, ...]
+
+
+@cache
+def parsed(name: str) -> Module:
+    """A module or package of disting, parsed; raises ModuleNotFoundError if there is none."""
+    tree = ast.parse(_source(name))
+    imports = {
+        alias.asname or alias.name: Place(node.module, alias.name)
+        for node in tree.body
+        if isinstance(node, ast.ImportFrom) and node.module
+        for alias in node.names
+    }
+    handed_on = tuple(
+        alias.name
+        for node in tree.body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+        if alias.asname == alias.name
+    )
+    definitions = {
+        key: node for node in tree.body if isinstance(node, Definition) for key in _names(node)
+    }
+    return Module(
+        name, ast.get_docstring(tree) or "", definitions, imports, _texts(tree.body), handed_on
+    )
+
+
+def public(name: str) -> tuple[str, ...]:
+    """Names that a module offers: what a package hands on, else what the module defines.
+
+    >>> "Chain" in public("disting"), "build" in public("disting.catalogs.build")
+    (True, True)
+    """
+    found = parsed(name)
+    return found.handed_on or tuple(
+        key
+        for key, node in found.definitions.items()
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and not key.startswith("_")
+    )
+
+
+@cache
+def defined(at: Place) -> Place | None:
+    """Where a name is defined that a module defines or imports; None outside of the package.
+
+    >>> defined(Place("disting", "Chain"))
+    Place(module='disting.model.chain', name='Chain')
+    """
+    if at.module.split(".")[0] != PACKAGE or not _exists(at.module):
+        return None
+    found = parsed(at.module)
+    if at.name in found.definitions:
+        return at
+    return defined(found.imports[at.name]) if at.name in found.imports else None
+
+
+def _source(name: str) -> str:
+    folder = files(PACKAGE).joinpath(*name.split(".")[1:])
+    if folder.is_dir():
+        return (folder / "__init__.py").read_text(encoding="utf-8")
+    *path, last = name.split(".")[1:]
+    try:
+        return files(PACKAGE).joinpath(*path, f"{last}.py").read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ModuleNotFoundError(f"there is no module {name}") from None
+
+
+@cache
+def _exists(name: str) -> bool:
+    try:
+        parsed(name)
+    except ModuleNotFoundError:
+        return False
+    return True
+
+
+def _names(node: ast.stmt) -> Iterator[str]:
+    """Names that a statement defines."""
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        yield node.name
+    elif isinstance(node, ast.AnnAssign):
+        yield from [node.target.id] if isinstance(node.target, ast.Name) else []
+    elif isinstance(node, ast.Assign):
+        yield from (target.id for target in node.targets if isinstance(target, ast.Name))
+
+
+def _texts(body: list[ast.stmt]) -> dict[str, str]:
+    """The string below each assignment that has one."""
+    return {
+        key: after.value.value
+        for node, after in pairwise(body)
+        if isinstance(after, ast.Expr)
+        and isinstance(after.value, ast.Constant)
+        and isinstance(after.value.value, str)
+        for key in _names(node)
+    }

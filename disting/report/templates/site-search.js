@@ -1,0 +1,78 @@
+  const form = document.querySelector(".finder"), field = form.querySelector("input"), list = form.querySelector("ul"), said = form.querySelector("[role=status]");
+  const MOST = 12, AROUND = 70;
+  const entries = DATA.sections.map(([page, anchor, title, words]) => ({
+    title, words, where: DATA.pages[page][1], address: DATA.pages[page][0] + (anchor && `#${anchor}`), low: title.toLowerCase(), text: `${title} ${DATA.pages[page][1]} ${words}`.toLowerCase(),
+  }));
+  let chosen = -1, shown = [];
+
+  const models = (query) => {
+    const found = parseModels(query);
+    if (!found) return [];
+    const masses = found.map((m) => m.masses).filter(Boolean);
+    if (masses.some((m) => m !== masses[0])) return [];
+    const numbers = found.map((m) => m.number), name = found.map((m) => `A${m.number}${damperSet(m.dampers)}`).join(" and ");
+    return Object.entries(DATA.sizes).flatMap(([family, { models: count, folder }]) => {
+      const [, kind, size, damping] = /^(\w+)-(\d+)-(\w+)$/.exec(family);
+      const withDampers = found.some((m) => m.dampers);
+      if ((kind === "dampers") !== withDampers || (masses.length && +size !== masses[0]) || numbers.some((n) => n < 1 || n > count) || found.some((m) => (m.dampers || []).some((at) => at > +size))) return [];
+      const pair = numbers.length === 2 && (withDampers || numbers[0] !== numbers[1]);
+      const address = !folder ? `${family}.html${damperHash(found)}` : pair ? `${family}.html${pairHash(numbers)}` : `${folder}/${numbers[0]}.html`;
+      return [{ title: `${name} of ${size} mass${size === "1" ? "" : "es"}, ${damping}`, where: pair ? "Verdict" : "Model", words: "", address }];
+    });
+  };
+  // how well an entry answers: its title before its words, a beginning before a middle, a short title before a long one
+  const weight = (entry, query, words) => {
+    if (!words.every((word) => entry.text.includes(word))) return 0;
+    const title = entry.low;
+    const start = title === query ? 400 : title.split(/[^\w]+/).includes(query) ? 200 : title.startsWith(query) ? 150 : title.includes(query) ? 100 : words.every((word) => title.includes(word)) ? 60 : 10;
+    return start - Math.min(title.length, 80) / 10;
+  };
+  const find = (text) => {
+    const query = text.trim().toLowerCase(), words = query.split(/\s+/).filter(Boolean);
+    if (!words.length) return [];
+    const ranked = entries.map((entry) => [weight(entry, query, words), entry]).filter(([w]) => w).sort((a, b) => b[0] - a[0]);
+    return [...models(query), ...ranked.map(([, entry]) => entry)].slice(0, MOST);
+  };
+  const excerpt = (entry, query) => {
+    const at = Math.max(0, entry.words.toLowerCase().indexOf(query.trim().toLowerCase().split(/\s+/)[0]) - AROUND / 2);
+    return `${at ? "…" : ""}${entry.words.slice(at, at + 2 * AROUND)}${entry.words.length > at + 2 * AROUND ? "…" : ""}`;
+  };
+  const part = (kind, text) => Object.assign(document.createElement("span"), { className: kind, textContent: text });
+  const choose = (index) => {
+    chosen = index;
+    [...list.children].forEach((item, i) => item.setAttribute("aria-selected", i === chosen));
+    if (chosen < 0) return field.removeAttribute("aria-activedescendant");
+    field.setAttribute("aria-activedescendant", list.children[chosen].id);
+    list.children[chosen].scrollIntoView({ block: "nearest" });
+  };
+  const close = () => { list.hidden = true; field.setAttribute("aria-expanded", "false"); choose(-1); };
+  const go = (entry) => { location.href = form.dataset.root + entry.address; close(); };
+  const show = () => {
+    shown = find(field.value);
+    list.replaceChildren(...shown.map((entry, i) => {
+      const item = Object.assign(document.createElement("li"), { id: `find-${i}` });
+      item.setAttribute("role", "option");
+      item.append(part("what", entry.title), part("where", entry.where));
+      if (entry.words) item.append(part("words", excerpt(entry, field.value)));
+      item.addEventListener("mousedown", (event) => { event.preventDefault(); go(entry); });
+      return item;
+    }));
+    list.hidden = !shown.length;
+    field.setAttribute("aria-expanded", !list.hidden);
+    said.textContent = field.value.trim() ? (shown.length ? `${shown.length} found` : "Nothing found") : "";
+    said.className = shown.length || !field.value.trim() ? "unseen" : "nothing";
+    choose(-1);
+  };
+  field.addEventListener("input", show);
+  field.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") { if (list.hidden) field.value = ""; said.textContent = ""; close(); }
+    else if ((event.key === "ArrowDown" || event.key === "ArrowUp") && shown.length) {
+      event.preventDefault();
+      if (list.hidden) show();
+      const step = event.key === "ArrowDown" ? 1 : -1;
+      choose(chosen < 0 && step < 0 ? shown.length - 1 : (chosen + step + shown.length) % shown.length);
+    }
+  });
+  field.addEventListener("blur", close);
+  form.addEventListener("submit", (event) => { event.preventDefault(); if (shown.length) go(shown[Math.max(chosen, 0)]); });
+  if (field.value) show();

@@ -1,0 +1,131 @@
+"""disting next with the file of a fit."""
+
+import csv
+import io
+import json
+
+import pytest
+
+from disting.experiments.menu import Kind
+from disting.fit.foretold import bench_of, foretold
+from disting.fit.named import named_by
+from disting.model.chain import Chain
+from tests.cli.process import called
+from tests.fit.drives import truth
+from tests.fit.test_foretold import FREE, VALUES, fit_file, member, twin_values
+
+PLAIN, FRICTION = (Chain(3, damped=True, ground_dampers=b) for b in ((), (2,)))
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("next")
+    larger = member(FRICTION, VALUES | {"b2": 0.2})
+    return fit_file(folder / "fit.json", member(FREE, VALUES, **{"3:11": twin_values()}), larger)
+
+
+@pytest.fixture(scope="module")
+def said(path):
+    done = called("next", path)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_each_pair_has_a_sentence(said, path):
+    assert said.startswith("3 structures that the fit left:\n  3:1     [1FS]=[2]=[3]  fitted\n")
+    (noise,) = [line for line in said.splitlines() if line.startswith("3:1+b2: ")]
+    assert "noise leaves it beside 3:1, which it contains" in noise
+    assert f"(disting plan {path})" in noise
+    (twin,) = [line for line in said.splitlines() if line.startswith("3:11: ")]
+    assert twin.startswith("3:11: no data with this force and sensor tell it from 3:1, whatever")
+    assert "a sensor at mass 2 (cost 1) shows up to" in twin and "power > 99.9 %" in twin
+    assert "at the fitted values, before a rival refits" in said
+
+
+def test_the_group_is_told_what_next_tells_of_its_names(said):
+    by_name = called("next", "3:1", "3:11", "--damped").stdout
+    for line in by_name.splitlines()[2:]:
+        assert line in said
+
+
+def test_costs_change_what_is_cheapest(path):
+    done = called("next", path, "--cost", "sensor=9,move=9,lock=0.5")
+    (twin,) = [line for line in done.stdout.splitlines() if line.startswith("3:11: ")]
+    assert "locked (cost 0.5)" in twin
+
+
+def test_tables_hold_all_pairs_of_places(path):
+    done = called("next", path, "--csv", "-")
+    rows = list(csv.DictReader(io.StringIO(done.stdout)))
+    assert len(rows) == 3 * 4 * 9
+    pairs = {(r["left"], r["right"], r["relation"]) for r in rows}
+    assert ("3:1", "3:1+b2", "distinguishable") in pairs
+    (moved,) = [
+        r for r in rows
+        if (r["experiment"], r["left"], r["at_left"], r["right"], r["at_right"])
+        == ("sensor", "3:1", "2", "3:11", "2")
+    ]  # fmt: skip
+    assert moved["relation"] == "distinguishable" and float(moved["largest"]) > 1
+    found = foretold(named_by(path).left, bench_of(named_by(path)))
+    step = found.at(Kind.SENSOR, (0, 2), (2, 2))
+    assert float(moved["noncentrality"]) == pytest.approx(step.noncentrality)
+
+
+def test_plain_data_says_what_the_numbers_are(path):
+    plain = json.loads(called("next", path, "--json", "-").stdout)
+    assert [one["name"] for one in plain["structures"]] == ["3:1", "3:1+b2", "3:11"]
+    assert [group["structures"] for group in plain["groups"]] == [["3:1", "3:11"]]
+    assert {(p["left"], p["right"]): p["standing"] for p in plain["pairs"]} == {
+        ("3:1", "3:1+b2"): "noise", ("3:1", "3:11"): "equal", ("3:1+b2", "3:11"): "noise",
+    }  # fmt: skip
+    measured = plain["measured"]
+    assert measured["what"] == "at the fitted values, before a rival refits"
+    assert (measured["lines"], measured["scatter"], measured["inertia"]) == (40, 0.02, 2.0)
+    assert len(plain["sentences"]) == 2
+    (lock,) = [
+        one for one in measured["least"]
+        if (one["structure"], one["experiment"], one["mass"], one["other"]) == ("3:1", "lock", 2, "3:11")
+    ]  # fmt: skip
+    assert 0 < lock["power"] <= 1
+
+
+def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):
+    done = called("next", fit_file(tmp_path / "one.json", member(FREE, VALUES)))
+    assert done.returncode == 2 and "leaves 3:1 alone: nothing to tell apart" in done.stderr
+    none = fit_file(tmp_path / "none.json", member(FREE, VALUES), explained=False, not_excluded=[])
+    done = called("next", none)
+    assert done.returncode == 2 and "explains its data, so the fit leaves no set" in done.stderr
+
+
+def test_several_responses_and_a_fit_that_explains_nothing_are_warned_of(tmp_path):
+    chains = [Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2)]
+    members = [member(chain, truth(chain, 2)) for chain in chains]
+    path = fit_file(tmp_path / "fit.json", *members, explained=False, responses=[{}, {}])
+    done = called("next", path)
+    assert done.returncode == 0 and "explains its data" in done.stderr
+    assert "has 2 responses; the menu starts from the first one alone" in done.stderr
+
+
+def test_a_file_that_does_not_tell_its_lines_still_has_its_menu(tmp_path):
+    twin = member(FREE, VALUES, **{"3:11": twin_values()})
+    path = fit_file(tmp_path / "fit.json", twin, frequencies={"low": 0, "high": 0, "lines": 0})
+    done = called("next", path)
+    assert "does not tell the lines of its data" in done.stdout and "surely enough" in done.stdout
+    assert json.loads(called("next", path, "--json", "-").stdout)["measured"] is None
+
+
+@pytest.mark.parametrize(
+    ("text", "more", "words"),
+    [
+        ("[]", (), "holds no selected model"),
+        ("no json", (), "is no JSON file of a fit"),
+        ('{"selected": null}', (), "holds no selected model"),
+        ("{}", ("--damped",), "names its structures itself"),
+        ("{}", ("3:1",), "names its structures itself"),
+    ],
+)
+def test_what_is_no_fit_is_refused_in_one_sentence(tmp_path, text, more, words):
+    path = tmp_path / "fit.json"
+    path.write_text(text, encoding="utf-8")
+    done = called("next", path, *more)
+    assert done.returncode == 2 and words in done.stderr and len(done.stderr.splitlines()) == 1

@@ -1,0 +1,181 @@
+"""Identifiability under several experiments, beside plain SymPy: ranks of exact derivatives of all
+responses at random rational points, and fibres by a Gröbner basis.
+"""
+
+from random import Random
+
+import pytest
+from sympy import Rational
+
+from disting import Chain, Engine, Experiment, Family, InputError, Level, Store, identifiability
+from disting.behaviour.sample import Representation
+from disting.experiments import MeasuredChain
+from disting.experiments.identifiable import IDENTIFIABLE, identifiability_under
+from disting.experiments.menu import Kind, kinds
+from disting.experiments.stacked_profiles import profile
+from disting.model.settings import Settings
+from tests.experiments.plain_stack import determined, has_other
+
+SIZE = "3/2"  # of an added inertia
+AS_IT_IS = {}
+
+
+def cases(*sizes):
+    return [
+        (chain, kind, i)
+        for n, damped in sizes
+        for chain in Family(n, damped)
+        for kind in kinds(n)
+        for i in range(1, n + 1)
+    ]
+
+
+def further(kind, i):
+    """The same experiment for the package and for the twin."""
+    match kind:
+        case Kind.SENSOR:
+            return Experiment(sensor=i), {"sensor": (i, 0)}
+        case Kind.FORCE:
+            return Experiment(force=i), {"force": (i, 0)}
+        case Kind.INERTIA:
+            return Experiment(inertias={i: SIZE}), {"inertias": {i: SIZE}}
+        case Kind.LOCK:
+            return Experiment(locked=i), {"locked": (i,)}
+
+
+def point_of(chain, seed):
+    draw = Random(seed)
+    return {n: Rational(draw.randint(2, 99), draw.randint(2, 99)) for n in chain.parameters}
+
+
+def check_ranks(chain, kind, i):
+    given, plain = further(kind, i)
+    found = identifiability(chain, experiments=[Experiment(), given])
+    rank, seen = determined(chain, point_of(chain, f"{chain}{kind}{i}"), [AS_IT_IS, plain])
+    assert found.rank == rank and found.freedom == len(chain.parameters) - rank
+    assert [n for n, level in found.levels.items() if level is not Level.NOT] == seen
+    assert Level.UNKNOWN not in found.levels.values()
+
+
+def check_values(chain, kind, i):
+    given, plain = further(kind, i)
+    found = identifiability(chain, experiments=[Experiment(), given])
+    draw = Random(f"values {chain}{kind}{i}")
+    point = {name: draw.randint(2, 10**8) for name in chain.parameters}
+    for name, level in found.levels.items():
+        if level is not Level.NOT:
+            other = has_other(chain, point, [AS_IT_IS, plain], name)
+            assert level is (Level.LOCAL if other else Level.GLOBAL), name
+
+
+TWO, THREE = cases((2, False), (2, True)), cases((3, False), (3, True))
+
+
+def test_there_are_312_cases():
+    assert (len(TWO), len(THREE)) == (48, 264)
+
+
+@pytest.mark.parametrize(("chain", "kind", "i"), [*TWO[::3], *THREE[::24]])
+def test_ranks(chain, kind, i):
+    check_ranks(chain, kind, i)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("chain", "kind", "i"), [*TWO, *THREE])
+def test_all_ranks(chain, kind, i):
+    check_ranks(chain, kind, i)
+
+
+@pytest.mark.parametrize(("chain", "kind", "i"), TWO[::6])
+def test_whether_other_values_fit(chain, kind, i):
+    check_values(chain, kind, i)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("chain", "kind", "i"), [*TWO, *THREE[:132:4]])
+def test_whether_other_values_fit_for_more(chain, kind, i):
+    check_values(chain, kind, i)
+
+
+def test_one_experiment_is_what_is_known_of_the_chain_alone():
+    for chain in [*Family(3), *list(Family(3, damped=True))[2::4]]:
+        alone, under = (identifiability(chain, experiments=e) for e in ((), [Experiment()]))
+        assert (alone.rank, alone.freedom, alone.levels) == (
+            under.rank,
+            under.freedom,
+            under.levels,
+        )
+
+
+def test_a_mirror_image_that_all_experiments_show_keeps_two_sets():
+    """Force at one end, sensor at the other: exchanging the ends is seen by no second response of
+    the mass between them, and by one of an end.
+    """
+    chain = Chain(3, act_plus=1, meas_plus=3)
+    middle = identifiability(chain, experiments=[Experiment(), Experiment(inertias={2: SIZE})])
+    assert middle.named(Level.GLOBAL) == ("m2",)
+    assert middle.named(Level.LOCAL) == ("m1", "m3", "k12", "k23")
+    assert middle.least == 2
+    end = identifiability(chain, experiments=[Experiment(), Experiment(inertias={1: SIZE})])
+    assert end.level is Level.GLOBAL and (end.least, end.most) == (1, 1)
+
+
+def test_more_experiments_never_determine_less():
+    chain = Family(3, damped=True)[7]
+    one, two = Experiment(), Experiment(sensor=2)
+    ranks = [identifiability(chain, experiments=e).rank for e in ([one], [one, two])]
+    assert ranks == [6, 7]
+
+
+def test_dead_time_and_lag():
+    chain = Chain(2, meas_plus=2, lag=True, dead_time=True)
+    found = identifiability(chain, experiments=[Experiment(), Experiment(sensor=1)])
+    assert set(found.levels.values()) == {Level.GLOBAL}
+    alone = identifiability(chain, experiments=[Experiment()])
+    assert alone.named(Level.GLOBAL) == ("T1", "Td") and alone.freedom == 1
+
+
+def test_where_no_sensor_moves_nothing_is_determined():
+    chain = Family(3)[1]
+    found = identifiability(chain, experiments=[Experiment(locked=1)])
+    assert (found.rank, found.freedom, found.most) == (0, 5, None)
+    assert set(found.levels.values()) == {Level.NOT} and "no sensor moves" in found.sentence
+
+
+def test_the_order_of_experiments_says_nothing():
+    chain = Family(3)[5]
+    several = [Experiment(), Experiment(sensor=1), Experiment(locked=1)]
+    found = [identifiability(chain, experiments=e).levels for e in (several, several[::-1])]
+    assert found[0] == found[1]
+
+
+def test_it_agrees_with_the_profile_that_verdicts_rest_on():
+    for chain in list(Family(3))[:4]:
+        measured = MeasuredChain(chain, (Experiment(), Experiment(locked=3)))
+        found = identifiability_under(measured, Settings())
+        assert found.rank == profile(measured, Representation.TF, 0, Settings()).rank
+
+
+def test_it_is_kept_and_read_back(tmp_path):
+    chain, experiments = Family(3)[3], [Experiment(), Experiment(sensor=2)]
+    with Store.open(tmp_path / "a.sqlite3") as store:
+        found = identifiability(chain, experiments=experiments, engine=Engine(store=store))
+        again = identifiability(chain, experiments=experiments, engine=Engine(store=store))
+    assert found == again == IDENTIFIABLE.decode(IDENTIFIABLE.encode(found))
+    with pytest.raises(TypeError, match="levels"):
+        bool(found)
+
+
+@pytest.mark.parametrize(
+    ("model", "experiments", "said"),
+    [
+        ("3:1", [], "asked of a chain"),
+        (Family(3)[1], [Experiment(sensor=4)], "no mass 4"),
+        (Family(3)[1], ["sensor=2"], "such as Experiment"),
+        (Family(3)[1], [(Experiment(), Experiment())], "of one chain"),
+        (Family(2)[1], [Experiment(locked=(1, 2))], "all masses are locked"),
+    ],
+)
+def test_bad_input(model, experiments, said):
+    with pytest.raises(InputError, match=said):
+        identifiability(model, experiments=experiments)

@@ -1,0 +1,158 @@
+"""What the structures that a fit left would show under further experiments."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from disting.equivalence import equivalents
+from disting.experiments.menu import Item, Kind
+from disting.fit.export import predicted
+from disting.fit.plain import _named
+from disting.fit.foretold import MOVES, STILL, Bench, bench_of, foretold, shown, step
+from disting.fit.named import named_by
+from disting.fit.plan import power
+from disting.fit.standing import Standing, stood
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.verdict import Engine
+from tests.fit.drives import dense_response, truth
+
+FAMILY = Family(3, damped=True)
+FREE, WALL = FAMILY[1], FAMILY[11]  # one force and one sensor do not tell them apart
+VALUES = {"m1": 1.0, "m2": 2.0, "m3": 3.0, "k12": 100.0, "k23": 50.0, "d12": 0.1, "d23": 0.3}
+BENCH = Bench(2 * np.pi * np.geomspace(0.1, 10.0, 40), np.full(40, 0.02), 1.5)
+
+
+def member(chain, values, **twins):
+    """A structure that the data do not exclude, as the file of a fit has it."""
+    same = [{"name": n, "parameters": v, "free_choices": 0} for n, v in twins.items()]
+    plain = _named(chain) | {"parameters": values}
+    return plain | {"equivalents": same}
+
+
+def fit_file(path, *members, **more):
+    """A file of a fit that left these."""
+    plain = {
+        "selected": members[0],
+        "explained": True,
+        "alternatives": [],
+        "not_excluded": members,
+        "scatter": 0.02,
+        "frequencies": {"low": 0.1, "high": 10.0, "lines": 40},
+    }
+    path.write_text(json.dumps(plain | more), encoding="utf-8")
+    return path
+
+
+def twin_values():
+    """Positive values of WALL with the response of FREE at VALUES."""
+    exact = {name: str(value) for name, value in VALUES.items()}
+    (listing,) = [x for x in equivalents(FREE, exact, WALL).listings if x.members]
+    return {n: complex(v).real for n, v in listing.members[0].values.items()}
+
+
+@pytest.fixture(scope="module")
+def left(tmp_path_factory):
+    path = tmp_path_factory.mktemp("left") / "fit.json"
+    twin = member(FREE, VALUES, **{"3:11": twin_values()})
+    return named_by(
+        fit_file(path, twin, member(Chain(2, damped=True), truth(Chain(2, damped=True), 1)))
+    ).left
+
+
+def test_reader_names_what_is_left_the_selected_first(left):
+    assert [(one.name, one.fitted) for one in left] == [
+        ("3:1", True),
+        ("2:1", True),
+        ("3:11", False),
+    ]
+    assert left[2].like == (FREE,) and left[2].chain == WALL and left[0].like == ()
+
+
+def test_values_of_a_twin_go_to_the_masses_of_a_chain_that_is_counted_from_the_other_end(tmp_path):
+    turned = Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,))  # listed as 2:1+b2
+    own = {"m1": 1.0, "m2": 2.0, "k12": 3.0, "d12": 0.1, "b1": 0.2}
+    listed = {"m1": 2.0, "m2": 1.0, "k12": 3.0, "d12": 0.1, "b2": 0.2}
+    path = fit_file(tmp_path / "fit.json", member(turned, own, **{"2:1+b2": listed}))
+    (one,) = named_by(path).left
+    assert one.values == (own, own) and one.name == "2:1+b2"
+
+
+@pytest.mark.parametrize(
+    ("item", "twin"),
+    [
+        (Item(Kind.SENSOR, 3), Chain(3, meas_plus=3, damped=True)),
+        (Item(Kind.FORCE, 2), Chain(3, act_plus=2, damped=True)),
+    ],
+)
+def test_what_is_moved_shows_what_the_moved_chain_shows(item, twin):
+    s = 1j * BENCH.omega
+    slow = [dense_response(twin, VALUES, at) for at in s]
+    assert shown(FREE, VALUES, item, BENCH) == pytest.approx(np.array(slow), rel=1e-9)
+
+
+def test_a_locked_mass_and_an_added_inertia_are_limits_and_sums_of_masses():
+    heavier = VALUES | {"m2": VALUES["m2"] + BENCH.inertia}
+    slow = [dense_response(FREE, heavier, 1j * w) for w in BENCH.omega]
+    assert shown(FREE, VALUES, Item(Kind.INERTIA, 2), BENCH) == pytest.approx(
+        np.array(slow), rel=1e-9
+    )
+    still = [dense_response(FREE, VALUES | {"m2": 1e14}, 1j * w) for w in BENCH.omega]
+    assert shown(FREE, VALUES, Item(Kind.LOCK, 2), BENCH) == pytest.approx(
+        np.array(still), rel=1e-6
+    )
+    assert shown(FREE, VALUES, Item(Kind.LOCK, 1), BENCH) is None
+
+
+def test_a_step_is_measured_in_units_of_the_scatter():
+    one = np.full(40, 2.0 + 1j)
+    found = step(one, one * np.exp(0.04j), BENCH)
+    assert found.largest == pytest.approx(2.0) and found.noncentrality == pytest.approx(160.0)
+    assert step(None, None, BENCH) == STILL and step(one, None, BENCH) == MOVES
+    assert MOVES.is_motion and STILL < found < MOVES
+
+
+def test_twins_show_the_same_now_and_differ_under_what_surely_tells_them_apart(left):
+    seen = foretold(left, BENCH)
+    now = [predicted(one.chain, one.values[0], BENCH.omega) for one in (left[0], left[2])]
+    assert step(*now, BENCH).largest < 1e-6
+    assert Item(Kind.SENSOR, 1) not in seen.items(0) and Item(Kind.LOCK, 1) not in seen.items(0)
+    for item in seen.items(0):
+        found, place = seen.least(0, item, 2)
+        every = [seen.at(item.kind, (0, item.at), (2, j)) for j in (1, 2, 3)]
+        assert found == min(every) == every[place - 1] and found.noncentrality > 1
+        assert seen.power(0, 2, found) == (1.0 if found.is_motion else power(found.noncentrality))
+
+
+def test_other_values_of_a_structure_bring_it_nearer(left):
+    first, *_ = left
+    values = dict.fromkeys(VALUES, 1.0)
+    more = type(first)(first.chain, True, (VALUES, values))
+    other = type(first)(first.chain, True, (values,))
+    assert foretold([first, other], BENCH).at(Kind.SENSOR, (0, 2), (1, 2)).largest > 1
+    assert foretold([more, other], BENCH).at(Kind.SENSOR, (0, 2), (1, 2)).largest < 1e-9
+
+
+def test_what_noise_leaves_is_no_twin(left):
+    found = stood(left, Engine())
+    assert found.classes == ((0, 2), (1,)) and found.groups == ((0, 2),)
+    assert found.standing(0, 2) is Standing.EQUAL and found.standing(0, 1) is Standing.NOISE
+    assert found.rule(1, 2) == found.rule(2, 1) == found.rule(0, 1) != ""
+    across = replace(found, across=frozenset({(0, 1)}))
+    assert across.standing(2, 1) is Standing.EQUAL and across.groups == found.groups
+
+
+def test_what_behaves_the_same_for_its_values_alone_is_a_twin(left):
+    other = type(left[0])(left[1].chain, False, (), (FREE,))
+    assert stood([left[0], other], Engine()).standing(0, 1) is Standing.TWIN
+
+
+def test_a_file_that_does_not_tell_its_lines_has_no_bench(tmp_path):
+    named = named_by(fit_file(tmp_path / "fit.json", member(FREE, VALUES)))
+    assert bench_of(named).inertia == 2.0 and len(bench_of(named).omega) == 40
+    old = json.loads((tmp_path / "fit.json").read_text())
+    del old["frequencies"]
+    (tmp_path / "old.json").write_text(json.dumps(old))
+    assert bench_of(named_by(tmp_path / "old.json")) is None

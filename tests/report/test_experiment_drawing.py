@@ -1,0 +1,112 @@
+"""Drawings of experiments: over any chain, nothing outside, nothing covered, all of it on pages."""
+
+import re
+from itertools import product
+
+from disting.catalogs import catalog
+from disting.catalogs.next_files import next_catalog
+from disting.experiments.menu import Item, Kind, kinds
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.report import model_page
+from disting.report.drawing import draw
+from disting.report.experiment_drawing import added, definitions, free_corner, sketch, with_items
+from disting.report.next_page import next_page
+from disting.report.next_steps import advice, found_for, sketches_for_pairs
+from disting.report.scene import Text, extent
+
+CHAINS = [
+    *(c for n, damped in product(range(1, 5), (False, True)) for c in Family(n, damped)),
+    Chain(3, damped=True, ground_dampers=(1, 2, 3), lag=True),
+]
+DAMPED = catalog(3, damped=True)
+
+
+def items(chain):
+    return [Item(k, at) for k in kinds(chain.n_masses) for at in range(1, chain.n_masses + 1)]
+
+
+def test_nothing_leaves_the_picture_and_no_letters_overlap():
+    for chain in CHAINS:
+        for item in items(chain):
+            scene = with_items(chain, (item,))
+            for shape in scene.shapes:
+                left, top, right, bottom = extent(shape)
+                assert 0 <= left <= right <= scene.width, (chain, item, shape)
+                assert 0 <= top <= bottom <= scene.height, (chain, item, shape)
+            texts = [extent(s) for s in scene.shapes if isinstance(s, Text)]
+            for k, (left, top, right, bottom) in enumerate(texts):
+                for a, b, c, d in texts[k + 1 :]:
+                    apart = right <= a or c <= left or bottom <= b or d <= top
+                    assert apart, (chain, item, texts)
+
+
+def test_every_experiment_is_drawn_differently_and_said():
+    for chain in CHAINS:
+        scenes = [with_items(chain, (item,)) for item in items(chain)]
+        assert len({scene.title for scene in scenes}) == len(scenes)
+        assert len({added(chain, item) for item in items(chain)}) == len(scenes)
+        for item, scene in zip(items(chain), scenes, strict=True):
+            assert item.text in scene.title and added(chain, item) in scene.layers
+            moved = item.kind is Kind.FORCE
+            assert [layer.name for layer in scene.layers].count("force") == 1 - moved
+
+
+def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
+    for n in range(1, 5):
+        parts = {}
+        for chain in (c for damped in (False, True) for c in Family(n, damped)):
+            for item in items(chain):
+                layer = added(chain, item)
+                assert parts.setdefault(layer.name, layer) == layer
+
+
+def test_an_inertia_stands_where_nothing_is_covered():
+    relative = Chain(3, 1, 1, 3, 1, 2, damped=True)  # the sign of the force is above mass 2
+    assert free_corner(relative, 2) != free_corner(relative, 1)
+    block = extent(added(relative, Item(Kind.INERTIA, 2)).shapes[0])
+    for layer in draw(relative).layers:
+        if layer.name in ("force", "sensor"):
+            for a, b, c, d in map(extent, layer.shapes):
+                left, top, right, bottom = block
+                assert right <= a or c <= left or bottom <= b or d <= top
+
+
+def test_two_things_at_once_are_one_drawing():
+    found = sketch(5, Chain(3), (Item(Kind.FORCE, 3), Item(Kind.LOCK, 2)))
+    assert found.parts == ("rest-5", "more-force-3", "more-lock-2")
+    assert found.label == "A5: the force moved to mass 3 and mass 2 locked"
+    assert sketch(5, Chain(3), (Item(Kind.LOCK, 2),)).parts == ("chain-5", "more-lock-2")
+
+
+def test_what_a_page_shows_it_holds_once():
+    pages = [model_page(DAMPED, 2), next_page(DAMPED, next_catalog(3, damped=True))]
+    for text in pages:
+        ids = re.findall(r'id="([^"]+)"', text)
+        shown = re.findall(r'<use href="#([^"]+)"', text)
+        assert set(shown) <= set(ids) and len(ids) == len(set(ids))
+        assert any(name.startswith("rest-") for name in shown)
+
+
+def test_every_experiment_that_is_worth_it_is_drawn_with_a_text_alternative():
+    told = advice(found_for(DAMPED), 2)
+    text = model_page(DAMPED, 2)
+    for item in told.items:
+        assert f'aria-label="A2: {item.text}"' in text
+    assert text.count('class="chain small"') == len(told.items) > 5
+    silent = [c for _, _, cells in told.rows for c in cells if c.text.startswith("tells nothing")]
+    assert silent and not any(cell.sketch for cell in silent)
+
+
+def test_a_pair_shows_the_sets_that_are_enough():
+    found = sketches_for_pairs(next_catalog(3, damped=True))
+    assert found.keys() == {"1-11", "2-5", "9-10"}
+    labels = [one.label for one in found["1-11"]]
+    assert labels[:2] == ["A1: a sensor at mass 2", "A1: a sensor at mass 3"]
+    assert any(label.startswith("A11: ") for label in labels)
+    assert sketches_for_pairs(None) == {}
+
+
+def test_definitions_are_in_one_order():
+    used = [(Chain(2), Item(Kind.LOCK, 2)), (Chain(2), Item(Kind.FORCE, 2))]
+    assert definitions(used) == definitions(used[::-1]) == definitions(used * 2)

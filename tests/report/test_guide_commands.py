@@ -1,0 +1,154 @@
+"""What guide and README show of commands is what the commands say."""
+
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from disting import Chain
+from disting.fit import predicted
+from disting.measurement import from_arrays, write_csv
+from tests.cli.process import called
+from tests.measurement.bench_data import measured_data
+from tests.report.guide_blocks import TEXTS, blocks, commands_alone, transcripts
+
+CHEAP = tuple(
+    f"disting {command}"
+    for command in (
+        "compare 3:",
+        "compare 4:",
+        'compare "leaks.json',
+        "equivalents",
+        "dampers 3:",
+        "verdicts",
+        "models 3",
+        "next",
+        "simulate",
+    )
+)
+LEFT_OUT = re.compile(r"^\[\.\.\](?:\n|$)", re.MULTILINE)
+NUMBER = r"\d+\.?\d*(?:e-?\d+)?"
+# not a user's command: it rebuilds what is shipped
+REBUILDS = "development.md"
+
+
+def holds(said: str, shown: str) -> bool:
+    """Whether it is what is shown, where `[..]` stands for any lines."""
+    first, *others = LEFT_OUT.split(shown)
+    if not others:
+        return said.rstrip("\n") == shown.rstrip("\n")
+    text, place = "\n" + said.rstrip("\n") + "\n", len(first)
+    found = [text.startswith("\n" + first)]
+    for part in filter(None, (part.rstrip("\n") for part in others)):
+        at = text.find(f"\n{part}\n", place)
+        found.append(at >= 0)
+        place = at + len(part) + 1
+    return all(found) and (not others[-1] or place == len(text) - 1)
+
+
+def rough(text: str) -> str:
+    """Numbers to two digits: the last ones of a fit differ between machines."""
+    return re.sub(NUMBER, lambda match: f"{float(match[0]):.1e}", text)
+
+
+def test_what_holds() -> None:
+    said = "a\nb\nc\nd\n"
+    shown = ["a\nb\nc\nd\n", "a\n[..]\nd\n", "[..]\nc\n[..]\n", "a\nb\n[..]\n", "[..]\nd"]
+    assert all(holds(said, one) for one in shown)
+    wrong = ["a\nc\n", "b\n[..]\n", "a\n[..]\nc\n", "[..]\ne\n[..]\n", "[..]\nd\n[..]\nb\n[..]\n"]
+    assert not any(holds(said, one) for one in wrong)
+
+
+@pytest.mark.parametrize(
+    ("page", "command", "output"), [t for t in transcripts() if t[1].startswith(CHEAP)]
+)
+def test_what_is_shown_is_what_is_said(
+    page: str, command: str, output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    files = r"This is `(\w+\.json)`[^`]*^```json\n(.*?)^```"
+    for name, content in re.findall(files, TEXTS[page], re.MULTILINE | re.DOTALL):
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    said = called(*shlex.split(command)[1:]).stdout
+    assert holds(said, output), (page, said)
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The simulated bench of the first steps."""
+    folder = tmp_path_factory.mktemp("bench")
+    (command,) = {c for _, c, _ in transcripts() if c.startswith("disting simulate")}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        assert called(*shlex.split(command)[1:]).returncode == 0
+    return folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("page", "command", "output"), [t for t in transcripts() if not t[1].startswith(CHEAP)]
+)
+def test_what_takes_long_says_what_is_shown(
+    page: str, command: str, output: str, bench: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(bench)
+    for name in re.findall(r"fditools\w+\.csv", command):
+        (bench / name).write_bytes(measured_data(name).read_bytes())
+    said = called(*shlex.split(command)[1:]).stdout
+    assert holds(rough(said), rough(output)), (page, said)
+
+
+@pytest.fixture(scope="module")
+def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Motor and load side of a bench, in one file and in two, with a locked mass and with an
+    inertia added.
+    """
+    folder = tmp_path_factory.mktemp("responses")
+    hertz = np.geomspace(5, 200, 60)
+    values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08}
+    scatter = 1 + 0.01 * np.random.default_rng(0).normal(size=(2, 60)).T @ [1, 1j]
+
+    def response(sensor: int, **changed: float) -> np.ndarray:
+        chain = Chain(2, meas_plus=sensor, damped=True)
+        return np.asarray(predicted(chain, values | changed, 2 * np.pi * hertz) * scatter)
+
+    motor, load = response(1), response(2)
+    for name, G in {
+        "motor": motor,
+        "load": load,
+        "locked": response(1, m2=1e6),
+        "disc": response(1, m1=0.5045),
+    }.items():
+        write_csv(from_arrays(hertz, G), folder / f"{name}.csv")
+    columns = np.column_stack([hertz, motor.real, motor.imag, load.real, load.imag])
+    header = "frequency [Hz],ReG_motor,ImG_motor,ReG_load,ImG_load"
+    np.savetxt(folder / "bench.csv", columns, delimiter=",", header=header, comments="")
+    return folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("page", "command"),
+    [c for c in commands_alone() if c[0] != REBUILDS and "fditools" not in c[1]],
+)
+def test_commands_that_stand_alone_end_well(
+    page: str, command: str, responses: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(responses)
+    fewer = ["--masses", "2"] if command.startswith("disting fit") else []
+    done = called(*shlex.split(command)[1:], *fewer)
+    assert done.returncode == 0, (page, done.stderr)
+
+
+def test_every_block_is_of_a_kind_that_is_run() -> None:
+    """Python is run as doctests and commands by the tests above; the rest is data, a picture, or
+    one of two blocks that quote.
+    """
+    quoted = ("A3: 7 parameters", "structure ──>")
+    for name, text in TEXTS.items():
+        for kind, content in blocks(text):
+            runs = re.search(r"^(>>> |\$ disting |disting |pip install )", content, re.MULTILINE)
+            data = kind in ("json", "picture", "bibtex") or content.startswith(quoted)
+            assert runs or data, (name, content)

@@ -1,0 +1,113 @@
+"""The sentence for who measures, against what the curves do in numbers."""
+
+import math
+import re
+from functools import cache
+
+import pytest
+import sympy
+
+from disting import Family, View, catalog, compare, transfer_function
+from disting.evidence.conditions import Counts, Ranks
+from disting.experiments import Experiment
+from disting.model.names import chain_of
+from disting.verdict import Relation
+from disting.verdict.shown import shown
+
+SIZES = [(n, damped) for n in (2, 3) for damped in (False, True)]
+
+
+@cache
+def fall(chain):
+    """dB by which |G| falls in the decade above 10^7 rad/s, elements 1."""
+    g = transfer_function(chain)
+    g = g.subs({symbol: 1 for symbol in g.free_symbols if symbol.name != "s"})
+    at = [abs(complex(g.subs("s", 1j * omega))) for omega in (10**7, 10**8)]
+    return -20 * math.log10(at[1] / at[0])
+
+
+@pytest.mark.parametrize(("n", "damped"), SIZES)
+def test_the_steeper_curve_is_steeper(n, damped):
+    family, told = Family(n, damped=damped), 0
+    for left, right, verdict in catalog(n, damped=damped).pairs(View.POSITIVE):
+        if isinstance(verdict.evidence, Counts):
+            said = re.match(
+                r"Above .* of (A\d+) falls by (\d+) dB a decade more than that of (A\d+): \3 has"
+                r" (one|\d+) zeros? more",
+                shown(verdict),
+            )
+            steep, flat = (family[int(said[at][1:])] for at in (1, 3))
+            assert {steep, flat} == {family[left], family[right]}
+            assert fall(steep) - fall(flat) == pytest.approx(float(said[2]), abs=0.01)
+            assert int(said[2]) == 20 * (1 if said[4] == "one" else int(said[4]))
+            told += 1
+    assert told
+
+
+@pytest.mark.parametrize(("n", "damped"), SIZES)
+def test_every_decided_pair_has_a_sentence_that_names_both(n, damped):
+    for view in View:
+        for _, _, verdict in catalog(n, damped=damped).pairs(view):
+            said = shown(verdict)
+            if verdict.relation is Relation.UNDECIDED:
+                assert said == ""
+            else:
+                assert said.endswith(".") and {verdict.left, verdict.right} <= set(
+                    re.findall(r"A\d+", said)
+                )
+
+
+def test_the_model_of_smaller_rank_obeys_the_law():
+    seen = 0
+    for _, _, verdict in catalog(3, damped=True).pairs(View.POSITIVE):
+        if isinstance(verdict.evidence, Ranks):
+            ranks = {verdict.left: verdict.evidence.left, verdict.right: verdict.evidence.right}
+            fewer, count = re.match(
+                r"The curve of (\w+) obeys (one|\d+) laws?", shown(verdict)
+            ).groups()
+            assert ranks[fewer] == min(ranks.values())
+            assert abs(verdict.evidence.left - verdict.evidence.right) == (
+                1 if count == "one" else int(count)
+            )
+            seen += 1
+    assert seen
+
+
+def test_a_law_in_numbers():
+    """A7 has 6 of 7, A8 all 7: the coefficients of an A7 fulfil an equation that those of an A8
+    do not; seen by the rank of their derivatives at one point each.
+    """
+
+    def rank(number):
+        g = transfer_function(Family(3, damped=True)[number])
+        top, bottom = sympy.fraction(sympy.cancel(g))
+        s = next(symbol for symbol in g.free_symbols if symbol.name == "s")
+        symbols = sorted(g.free_symbols - {s}, key=str)
+        lead = sympy.LC(bottom, s)
+        summary = [c / lead for p in (top, bottom) for c in sympy.Poly(p, s).all_coeffs()]
+        point = dict(zip(symbols, sympy.primerange(100), strict=False))
+        return sympy.Matrix(summary).jacobian(symbols).subs(point).rank()
+
+    verdict = catalog(3, damped=True).verdict(7, 8)
+    assert (rank(7), rank(8)) == (6, 7)
+    assert shown(verdict).startswith("The curve of A7 obeys one law more than that of A8 does")
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "said"),
+    [
+        ("2:1+delay", "2:1", "the phase of 2:1+delay falls without an end"),
+        ("2:1", "2:1+delay", "the phase of 2:1+delay falls without an end"),
+        ("3:1", "2:1", "The curve of 3:1 has 2 poles more."),
+    ],
+)
+def test_other_evidence(left, right, said):
+    chains = [chain_of(text, Family(1, damped=True)) for text in (left, right)]
+    assert said in shown(compare(*chains))
+
+
+def test_a_sensor_that_stands_still():
+    chain = Family(2, damped=True)[1]
+    verdict = compare(chain, chain, experiments=[(Experiment(locked=1), Experiment(locked=2))])
+    assert verdict.relation is Relation.DISTINGUISHABLE
+    assert re.search(r"sensor of \S+ stands still, that of \S+ moves", shown(verdict))
