@@ -16,7 +16,8 @@ from disting.catalogs import catalog
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
 from disting.fit.cost import Cost
-from disting.fit.estimate import Task, estimates
+from disting.fit.estimate import Task
+from disting.fit.exchange import estimates
 from disting.fit.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -437,6 +438,7 @@ def test_less_motion_is_respected(visit, site: Path) -> None:  # type: ignore[no
 )
 def test_everyone_can_use_it(visit, path: str, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
     tab = visit(path, width, scheme)
+    tab.wait_for_function("() => document.getElementById('how').textContent", timeout=PATIENT)
     tab.evaluate("() => document.getElementById('play').click()")
     assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
     assert barriers(tab) == []
