@@ -23,9 +23,10 @@ const createSecond = (onFound) => {
     last = { ...last, values: found.values, cost: found.cost, real: real ? real.values : last.real };
     return real ? told(task, real, real === found ? "same" : "impossible") : told(task, found, "nearest");
   };
-  // from what did the same last, and from what was found last; an exact answer is worth more rounds than a near one
+  // from what did the same last, and from what was found last; an exact answer is worth more rounds than a near one, and of a new
+  // pair something is to be seen at once
   const nearby = (task, kind) => {
-    const rounds = kind === "never" ? { rounds: 15, least: 1e-4 } : { rounds: 30, least: 1e-6 };
+    const rounds = last.cost === Infinity ? { rounds: 3 } : kind === "never" ? { rounds: 15, least: 1e-4 } : { rounds: 30, least: 1e-6 };
     let best = null;
     for (const values of [last.real, last.values])
       if (values?.every((x) => x > 0) && !(best && isSame(task, best))) {

@@ -251,11 +251,15 @@
     event.preventDefault();
     act();
   });
+  const asked = () => { // by the address
+    const match = /^#A?(\d+)[-:]A?(\d+)(,present)?$/i.exec(location.hash), two = match && [+match[1], +match[2]];
+    const there = two && two.every((i) => numbers.includes(i)) && two[0] !== two[1];
+    return { two: there ? two : data.first, present: Boolean(there && match[3]) };
+  };
   const arrive = () => {
-    const match = /^#A?(\d+)[-:]A?(\d+)(,present)?$/i.exec(location.hash), asked = match && [+match[1], +match[2]];
-    const there = asked && asked.every((i) => numbers.includes(i)) && asked[0] !== asked[1];
-    presenting = Boolean(there && match[3]);
-    select(there ? asked : data.first);
+    const { two, present: on } = asked();
+    presenting = on;
+    select(two);
     if (presenting !== root.classList.contains("present")) present(presenting);
   };
   addEventListener("hashchange", arrive);
@@ -265,7 +269,8 @@
     size = contentRect.width;
   }).observe(byId("run"));
   play(playing);
-  arrive();
-  byId("hertz").textContent = `${written(sineFrequency())} Hz`;
+  const [first, next] = asked().two.map((i) => i - 1);
+  if (mapped(chains[first], chains[next], data.values[first])) arrive();
+  else requestAnimationFrame(() => setTimeout(arrive)); // a search takes longer than a formula: the page is seen before
   requestAnimationFrame(tick);
 })();
