@@ -54,7 +54,7 @@ def part_name(chain: Chain, layer: Layer) -> str:
 
     >>> two = Chain(2, damped=True)
     >>> [part_name(two, layer) for layer in draw(two).layers][-4:]
-    ['part-d12', 'part-gap-0', 'part-force-0-1', 'part-sensor-0-1']
+    ['part-d12', 'part-gap-0', 'part-sensor-0-1', 'part-force-0-1']
     """
     depends = {
         "ground": (int(chain.gap > 0),),

@@ -87,7 +87,9 @@ def test_planted_equivalent_with_split_roots_is_found_again():
 
 
 def test_members_that_are_not_positive_and_families():
-    found = equivalents("3:3", {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70}, "3")
+    found = equivalents(
+        "3:3", {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70}, "3", damped=False
+    )
     third, sixth = found.listings[2], found.listings[5]
     assert third.status is Status.INFINITE and not third.complete
     assert {m.free_choices for m in third.members} == {0, 2}
@@ -117,10 +119,10 @@ def test_text_follows_the_chain():
 
 def test_symmetric_chain_says_why_nothing_is_known_but_the_theorems():
     values = {"m1": 1, "m2": 2, "m3": 1, "k12": 100, "k23": 100}
-    listing = equivalents("3:4", values, "3:4").listings[0]
+    listing = equivalents("3:4", values, "3:4", damped=False).listings[0]
     assert [m.origin for m in listing.members] == [Origin.GIVEN] and not listing.complete
     assert "vibration mode" in listing.sentence and "may be incomplete" in listing.sentence
-    other = equivalents("3:4", values, "3:1").listings[0]
+    other = equivalents("3:4", values, "3:1", damped=False).listings[0]
     assert not other.members and "nothing can be said" in other.sentence and not other.complete
 
 
@@ -145,7 +147,7 @@ def test_equal_ratios_are_named_and_proportional_members_given():
 
 def test_other_sizes_dampers_and_extras():
     undamped = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70}
-    smaller = equivalents("3:1", undamped, Family(2)).listings
+    smaller = equivalents("3:1", undamped, Family(2), damped=False).listings
     assert all(li.status is Status.EMPTY and li.complete for li in smaller)
     larger = equivalents("3:1", undamped, "4:1").listings[0]
     assert larger.status is Status.NOT_COVERED and "more masses" in larger.sentence
@@ -249,7 +251,7 @@ def test_a_list_that_lacks_what_is_at_the_boundary_is_not_called_complete():
     need not be the only one.
     """
     ones = dict.fromkeys(("m1", "m2", "m3", "k01", "k23"), 1)
-    found = equivalents("3:7", ones, "3:6")
+    found = equivalents("3:7", ones, "3:6", damped=False)
     (listing,) = found.listings
     assert (listing.status, len(listing.members), listing.complete) == (Status.COMPLETE, 1, False)
     assert "near zero" in listing.sentence
@@ -262,7 +264,7 @@ def test_lag_and_dead_time_are_inherited(extra, name):
     its name is found there.
     """
     values = {"m1": 1, "m2": 2, "k12": 100, name: "0.01"}
-    found = equivalents(f"2:1+{extra}", values, "2")
+    found = equivalents(f"2:1+{extra}", values, "2", damped=False)
     assert [listing.name for listing in found.listings] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
     (named,) = equivalents(f"2:1+{extra}", values, f"2:3+{extra}").listings
     (short,) = equivalents(f"2:1+{extra}", values, "2:3").listings
@@ -287,7 +289,7 @@ def test_a_chain_is_taken_as_it_is():
 
 
 def test_none_exists_says_over_which_parameters():
-    (listing,) = equivalents("2:2", {"m1": 1, "m2": 2, "k12": 100}, "2:1").listings
+    (listing,) = equivalents("2:2", {"m1": 1, "m2": 2, "k12": 100}, "2:1", damped=False).listings
     assert listing.sentence.startswith(
         "none exists, with positive parameters or any others: proven ("
     )

@@ -169,7 +169,7 @@ def test_it_is_kept_and_read_back(tmp_path):
 @pytest.mark.parametrize(
     ("model", "experiments", "said"),
     [
-        ("3:1", [], "asked of a chain"),
+        (3, [], "asked of a chain"),
         (Family(3)[1], [Experiment(sensor=4)], "no mass 4"),
         (Family(3)[1], ["sensor=2"], "such as Experiment"),
         (Family(3)[1], [(Experiment(), Experiment())], "of one chain"),

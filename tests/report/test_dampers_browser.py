@@ -172,6 +172,7 @@ def test_a_click_shows_names_drawings_rule_and_command(visit, small: DamperFamil
     tab = visit(SMALL)
     low, high = small.place((2, (1, 2))), small.place((5, (2, 3)))
     assert small.look_up((2, (1, 2)), (5, (2, 3)))[0].value == "indistinguishable"
+    tab.evaluate("document.getElementById('matrix').scrollIntoView()")
     tab.mouse.click(**_field(tab, high + 1, low + 1))
     assert tab.inner_text("#detail h3") == "A2+b1+b2 and A5+b2+b3"
     assert tab.inner_text("#detail .badge") == "indistinguishable"
@@ -361,7 +362,10 @@ def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None: 
     assert tab.inner_text("#detail .badge") == "undecided" and "With more time" in tab.inner_text(
         "#detail .why"
     )
-    assert tab.text_content("#detail code") == f"disting compare {large.text(i)} {large.text(j)}"
+    assert (
+        tab.text_content("#detail code")
+        == f"disting compare {large.text(i)} {large.text(j)} --undamped"
+    )
     assert "That\nis no verdict" in tab.text_content(
         "#counts"
     ) or "That is no verdict" in tab.text_content("#counts")

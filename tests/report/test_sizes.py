@@ -41,7 +41,8 @@ def test_every_pair_has_its_sign(decided: Decisions) -> None:
 def test_the_page_says_it_in_words(decided: Decisions) -> None:
     text = sizes_page(decided)
     assert (
-        "Chains of 2 to 3 masses, undamped" in text and "disting verdicts 2-3 --json FILE" in text
+        "Chains of 2 to 3 masses, undamped" in text
+        and "disting verdicts 2-3 --undamped --json FILE" in text
     )
     for one in outside(decided):
         assert f"<strong>{one.left} in {one.right}</strong>: " in text

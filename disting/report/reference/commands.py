@@ -52,13 +52,15 @@ def commands(parser: argparse.ArgumentParser, words: str = "disting") -> Iterato
     """The command of a parser, then those of its sub-commands.
 
     >>> parser = argparse.ArgumentParser(description="Adds.")
+    >>> _ = parser.add_argument("--old", help=argparse.SUPPRESS)
     >>> _ = parser.add_argument("--by", type=int, default=2, metavar="N", help="so much")
     >>> (found,) = commands(parser, "add")
     >>> found.usage, found.options[0].anchor, found.options[0].default
     ('add [--by N]', 'add--by', '2')
     """
     inner = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
-    own = [a for a in parser._actions if a not in inner and not isinstance(a, argparse._HelpAction)]
+    told = [a for a in parser._actions if a.help != argparse.SUPPRESS]
+    own = [a for a in told if a not in inner and not isinstance(a, argparse._HelpAction)]
     usage = " ".join(
         [words, *(_place(a) for a in own if _kept(a)), *(str(a.metavar) for a in inner)]
     )
