@@ -49,7 +49,7 @@
   const draw = (c, [g, from, on, against, of]) => {
     const svg = slot("drawing"), joints = upTo(0, c.masses - 1).filter((i) => i !== g).map(between);
     const parts = [`ground-${g ? 1 : 0}`, ...upTo(1, c.masses).map((i) => `m${i}`), ...joints.map((j) => `k${j}${c.damped ? "-damped" : ""}`)];
-    parts.push(...(c.damped ? joints.map((j) => `d${j}`) : []), `gap-${g}`, `force-${from}-${on}`, `sensor-${against}-${of}`);
+    parts.push(...(c.damped ? joints.map((j) => `d${j}`) : []), `gap-${g}`, `sensor-${against}-${of}`, `force-${from}-${on}`);
     svg.replaceChildren(...parts.map((part) => {
       const use = document.createElementNS(svg.namespaceURI, "use");
       use.setAttribute("href", `#part-${part}`);
