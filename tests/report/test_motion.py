@@ -256,6 +256,33 @@ def test_an_imitation_is_as_good_as_that_of_a_fit(visit, left: int, right: int) 
     assert found["cost"] <= 1.001 * estimates([other], Task(_cost(found, given)))[other].j
 
 
+def test_no_resonance_is_hidden_between_two_lines(visit) -> None:  # type: ignore[no-untyped-def]
+    """The least cost at 400 lines has a resonance without damping between two of them: 47 dB."""
+    given, other = Family(5, True)[9], Family(5, True)[32]
+    values = [list(start_values(chain)) for chain in (given, other)]
+    spiked, found = visit(SMALL).evaluate(
+        """([given, other, values, usual]) => {
+          const a = chainOf(...given), b = chainOf(...other), [low, high] = createSecond(() => 0).band(a, values);
+          const [coarse, fine] = [80, 400].map((lines) => createTask(a, values, b, low, high, { lines }));
+          const starts = startsOf(fine, usual, 24).map((start) => descended(coarse, start, { rounds: 40, least: 1e-4 }));
+          const refined = starts.sort((p, q) => p.cost - q.cost).slice(0, 3).map((one) => descended(fine, one.unknowns));
+          const best = refined.sort((p, q) => p.cost - q.cost)[0];
+          return [best, withoutSpikes(fine, best)].map((one) => [one.values, low, high]);
+        }""",
+        [asked(given), asked(other), *values],
+    )
+
+    def worst(values: list[float], low: float, high: float, lines: int) -> float:
+        omega = np.geomspace(low, high, lines)
+        ratio = response(other, np.array(values), omega) / response(
+            given, start_values(given), omega
+        )
+        return float(np.abs(20 * np.log10(np.abs(ratio))).max())
+
+    assert worst(*spiked, 50_001) > 40 > 30 > worst(*spiked, 400)
+    assert worst(*found, 50_001) < 30
+
+
 # ---- what is said
 
 

@@ -4,7 +4,7 @@ const ROOM = 34; // by which every joint is longer than in a still drawing, for 
 const drawMoving = (svg, chain, { size, wall, pitch, joint: length, mass }) => {
   const [gap, actMinus, actPlus, measMinus, measPlus] = chain.ports, n = chain.masses;
   const named = [`ground-${gap ? 1 : 0}`, ...chain.names.map((name) => name + (chain.damped && name[0] === "k" ? "-damped" : ""))];
-  named.push(`gap-${gap}`, `force-${actMinus}-${actPlus}`, `sensor-${measMinus}-${measPlus}`);
+  named.push(`gap-${gap}`, `sensor-${measMinus}-${measPlus}`, `force-${actMinus}-${actPlus}`); // from back to front
   const parts = named.map((name) => document.getElementById(`part-${name}`)).map((part) => {
     const copy = part?.cloneNode(true);
     copy?.removeAttribute("id");
@@ -33,7 +33,7 @@ const drawMoving = (svg, chain, { size, wall, pitch, joint: length, mass }) => {
       if (path < 2) return (x) => (u) => u[place] + (x > start + 1 ? ROOM / 2 : 0);
       return (x) => (u) => u[place + 1] - (x < start + length - 1 ? ROOM / 2 : 0);
     }
-    return [joint(gap), linear(actMinus, actPlus), linear(measMinus, measPlus)][which - chain.names.length];
+    return [joint(gap), linear(measMinus, measPlus), linear(actMinus, actPlus)][which - chain.names.length];
   };
   const moves = [];
   parts.forEach((part, at) =>

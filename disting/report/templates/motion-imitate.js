@@ -7,9 +7,9 @@ const FURTHEST = Math.log(1e4); // of a value from where its start is: a limit c
 const LENT = 0.02;
 const linesOf = (low, high, count = LINES) => Array.from({ length: count }, (_, i) => low * (high / low) ** (i / (count - 1)));
 const alongAxis = (chain, omega) => [chain.damped ? 0 : LENT * omega, omega];
-const createTask = (given, values, other, low, high, lines = LINES) => {
+const createTask = (given, values, other, low, high, { lines = LINES, more = [] } = {}) => { // `more`: further frequencies
   const solver = createSolver(given), parts = partsOf(given, values);
-  const points = linesOf(low, high, lines).map((omega) => alongAxis(given, omega));
+  const points = [...linesOf(low, high, lines), ...more].map((omega) => alongAxis(given, omega));
   return { given, values, parts, other, low, high, points, wanted: points.map(([re, im]) => solver.response(parts, re, im)), solver: createSolver(other) };
 };
 // What is varied: logarithms, which keep values positive; or values in units of given ones, which may change their signs.
@@ -97,4 +97,20 @@ const partedMost = (task, values) => {
   }
   const omega = (left + right) / 2;
   return Math.abs(at(omega)) >= sizes[best] ? { omega, decibels: at(omega) } : { omega: lines[best], decibels: at(lines[best]) };
+};
+// An imitation may hide a resonance without damping between two lines, which costs nothing there. Lines are put where both part
+// far more than at any line, until none does.
+const CROWD = 9;
+const withoutSpikes = (task, found) => {
+  const spacing = (task.high / task.low) ** (1 / (LINES - 1)), more = [];
+  const seen = ({ r }) => r.reduce((most, x, i) => (i % 2 ? most : Math.max(most, (20 * Math.abs(x)) / Math.PI)), 0);
+  let [best, now] = [found, task];
+  for (let round = 0; round < 6; round++) {
+    const { omega, decibels } = partedMost(now, best.values);
+    if (Math.abs(decibels) <= 1.2 * seen(residuals(now, best.unknowns)) + 0.1) break;
+    more.push(...linesOf(omega / spacing, omega * spacing, CROWD), omega);
+    now = createTask(task.given, task.values, task.other, task.low, task.high, { more });
+    best = descended(now, best.unknowns);
+  }
+  return best;
 };

@@ -36,7 +36,7 @@ const createSecond = (onFound) => {
     return best;
   };
   const search = (mine, task, usual, kind) => {
-    const [coarse, fine] = [COARSE, LINES].map((lines) => createTask(task.given, task.values, task.other, task.low, task.high, lines));
+    const [coarse, fine] = [COARSE, LINES].map((lines) => createTask(task.given, task.values, task.other, task.low, task.high, { lines }));
     const starts = startsOf(task, usual, STARTS), found = [], refined = [], exact = kind !== "never";
     const step = () => {
       if (mine !== turn) return;
@@ -45,7 +45,8 @@ const createSecond = (onFound) => {
         if (!refined.length) found.sort((a, b) => a.cost - b.cost).splice(exact ? EXACT.refined : REFINED, Infinity, { unknowns: last.values.map(Math.log) });
         refined.push(descended(fine, found.shift().unknowns, exact ? EXACT : {}));
         const best = refined.reduce((a, b) => (b.cost < a.cost ? b : a));
-        if (isSame(fine, best) || !found.length) return onFound({ ...judged(fine, best, kind), searching: false });
+        const done = isSame(fine, best) ? best : !found.length && withoutSpikes(fine, best);
+        if (done) return onFound({ ...judged(fine, done, kind), searching: false });
       }
       setTimeout(step);
     };
@@ -56,7 +57,7 @@ const createSecond = (onFound) => {
     // the values now; a search for better ones begins, and what it finds is told. `usual`: of machine 2, where to begin;
     // `kind`: how many positive values of machine 1 have an equivalent there
     follow: ({ given, other, values, usual, kind, pair }) => {
-      const mine = ++turn, [low, high] = band(given, values), task = createTask(given, values, other, low, high, kind === "never" ? COARSE : LINES);
+      const mine = ++turn, [low, high] = band(given, values), task = createTask(given, values, other, low, high, { lines: kind === "never" ? COARSE : LINES });
       const explicit = mapped(given, other, values);
       if (explicit) return told(task, { values: explicit, cost: 0 }, "formula");
       if (last?.pair !== pair) last = { pair, values: startOf(task, usual).map(Math.exp), cost: Infinity, real: null };

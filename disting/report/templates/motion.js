@@ -104,7 +104,7 @@
     const asked = { steps, duration: SECONDS, frequency: sineFrequency(), from, to };
     const force = forceOf(forceKind(), asked), motions = [[given(), one], [other(), two]].map(([chain, of]) => moved(chain, of, force, SECONDS / steps));
     const [first, next] = motions.map(({ places }, which) => widest(places, chains[pair[which] - 1].ports[0], data.masses));
-    run = { ...asked, force, motions, gain: (0.9 * ROOM) / (Math.min(Math.max(first, next), 2 * first) || 1) };
+    run = { ...asked, force, motions, gain: (0.9 * ROOM) / (Math.max(first, next) || 1) };
   };
   const draw = () => {
     const shown = byId("drive").elements.shown.value === "sensor" ? "acceleration" : "distance";
