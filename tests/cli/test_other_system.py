@@ -36,7 +36,7 @@ COMMANDS = [
     ["compare", "3:1", "3:4", "--damped", "--prove"],
     ["verdicts", "2", "--csv", "pairs ü.csv", "--json", "pairs ü.json", "--jobs", "2"],
     ["dampers", "2:1", "--damped"],
-    ["equivalents", "2:1", "--to", "2", "--set", "m1=1,m2=2,k12=3"],
+    ["equivalents", "2:1", "--to", "2", "--undamped", "--set", "m1=1,m2=2,k12=3"],
     ["simulate", "--csv", "bench ß.csv"],
     ["fit", "bench ß.csv", "--masses", "1", "--json", "fit ñ.json"],
     ["verify", "3:1", "3:4"],

@@ -149,7 +149,7 @@ def test_other_sizes_dampers_and_extras():
     undamped = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70}
     smaller = equivalents("3:1", undamped, Family(2), damped=False).listings
     assert all(li.status is Status.EMPTY and li.complete for li in smaller)
-    larger = equivalents("3:1", undamped, "4:1").listings[0]
+    larger = equivalents("3:1", undamped, "4:1", damped=False).listings[0]
     assert larger.status is Status.NOT_COVERED and "more masses" in larger.sentence
     without = equivalents(Family(3, True)[1], DAMPED, Family(3)[1]).listings[0]
     assert without.status is Status.EMPTY
@@ -266,20 +266,20 @@ def test_lag_and_dead_time_are_inherited(extra, name):
     values = {"m1": 1, "m2": 2, "k12": 100, name: "0.01"}
     found = equivalents(f"2:1+{extra}", values, "2", damped=False)
     assert [listing.name for listing in found.listings] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
-    (named,) = equivalents(f"2:1+{extra}", values, f"2:3+{extra}").listings
-    (short,) = equivalents(f"2:1+{extra}", values, "2:3").listings
+    (named,) = equivalents(f"2:1+{extra}", values, f"2:3+{extra}", damped=False).listings
+    (short,) = equivalents(f"2:1+{extra}", values, "2:3", damped=False).listings
     assert short == named == found.listings[2]
     (member,) = named.members
     assert (member.signs, member.text["m1"], member.text["k01"]) == (Signs.POSITIVE, "1.5", "225")
-    assert [c.name for c in equivalents(f"2:1+{extra}", values, Family(2)).listings] == [
-        f"2:{i}+{extra}" for i in (1, 2, 3)
-    ]
+    assert [
+        c.name for c in equivalents(f"2:1+{extra}", values, Family(2), damped=False).listings
+    ] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
 
 
 def test_a_chain_is_taken_as_it_is():
     """Asked of a chain without a dead time, the answer is about that chain."""
     (listing,) = equivalents(
-        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3]
+        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3], damped=False
     ).listings
     assert (
         listing.members == ()
