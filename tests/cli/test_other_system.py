@@ -45,6 +45,7 @@ COMMANDS = [
         "plan",
         "2:1+b1",
         "2:1+b2",
+        "--undamped",
         "--set",
         "m1=1,m2=1,k12=9,b1=1",
         "--noise",
