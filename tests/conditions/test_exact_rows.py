@@ -25,7 +25,9 @@ WALLED = (Chain(5, 4, 1, 5, 3, 5, damped=True), Chain(5, 4, 2, 5, 4, 5, damped=T
 INSIDE = (Chain(6, 4, 1, 5, 3, 6, damped=True), Chain(6, 4, 2, 5, 4, 6, damped=True))
 
 
-@pytest.mark.parametrize("pair", [WALLED, INSIDE], ids=["5 masses", "6 masses"])
+@pytest.mark.parametrize(
+    "pair", [pytest.param(WALLED, marks=pytest.mark.slow), INSIDE], ids=["5 masses", "6 masses"]
+)
 def test_a_row_known_once_decides_chains_of_any_size(pair):
     found = by_row(*pair)
     assert (found.outcome, found.certainty) == (

@@ -455,6 +455,7 @@ def test_a_coarse_grid_does_not_pass_for_scatter():
     assert fitted.practical.relative_errors["Td2"] < 0.05
 
 
+@pytest.mark.slow
 def test_the_load_side_of_the_bench_sharpens_the_intervals():
     """Weighted by deviations; without weights the load side, which is noisier, harms k12."""
     motor, load = bench("A"), bench("A", "load")

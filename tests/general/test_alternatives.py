@@ -283,6 +283,7 @@ def test_a_wrong_sign_is_not_certified():
     )
 
 
+@pytest.mark.slow
 def test_a_larger_ideal_is_solved_in_a_process_of_its_own_or_given_up():
     two, five = (Model.from_chain(Family(3, damped=True)[i]) for i in (2, 5))
     values = {name: Fraction(1 + 3 * i % 7) for i, name in enumerate(two.parameters)}

@@ -121,6 +121,7 @@ def test_what_a_check_finds(findings, key):
     assert claim(key).check(findings) == Found(FOUND[key], claim(key).outcome is Outcome.AGREES)
 
 
+@pytest.mark.slow
 def test_a_fit_of_small_candidates_follows_the_thresholds_too(findings):
     assert claim("thresholds").check(findings).agrees
     assert len(findings.selection.candidates) == len(figure_1((1, 2))) == 24

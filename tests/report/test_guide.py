@@ -249,7 +249,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize(
     ("width", "scheme", "read"),
-    [(320, "dark", "decisions"), (320, "light", "commands"), (1280, "light", "python-disting")],
+    [(320, "dark", "decisions"), (320, "light", "commands"), (1280, "light", "python-measurement")],
 )
 def test_pages_are_legible_and_only_boxes_scroll(visit, width: int, scheme: str, read: str) -> None:  # type: ignore[no-untyped-def]
     names = [page.name for part in parts() for page in part.pages]
