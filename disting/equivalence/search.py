@@ -45,11 +45,11 @@ def equivalents(
     function of the given model.
 
     `model` and `to` are chains (or a family), or text: 3:11 is model 11 of the 3-mass family, 3
-    the family; `damped` says how `model` is meant if it is text, and `to` follows it, a lag and a
-    dead time included; 3:11+b1+lag has a damper from mass 1 to the ground and a lag, 3+b* are all
-    structures with any such dampers. `values` by parameter name, numbers or text such as 3/4,
-    positive, any consistent units; they are taken exactly, floats by their decimal text. Raises
-    InputError for wrong names and values.
+    the family; `damped` says how `model` is meant if it is text (else it is as the chains of `to`),
+    and `to` follows it, a lag and a dead time included; 3:11+b1+lag has a damper from mass 1 to the
+    ground and a lag, 3+b* are all structures with any such dampers. `values` by parameter name,
+    numbers or text such as 3/4, positive, any consistent units; they are taken exactly, floats by
+    their decimal text. Raises InputError for wrong names and values.
 
     `also`: further experiments, as `Experiment` or as text such as "sensor=3", at masses of the
     given model; of the equivalents those are listed that keep all responses. Masses of another
@@ -62,7 +62,8 @@ def equivalents(
     >>> found.listings[0].sentence
     'all there are'
     """
-    (given,) = chains_named([model], damped=damped)
+    beside = [] if isinstance(to, str) else [to[1] if isinstance(to, Family) else to]
+    given = chains_named([model, *beside], damped=damped)[0]
     point = point_of(given, values)
     others = chains_of(to, given)
     if others[0].sensor is not given.sensor:

@@ -147,7 +147,7 @@ def test_equal_ratios_are_named_and_proportional_members_given():
 
 def test_other_sizes_dampers_and_extras():
     undamped = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70}
-    smaller = equivalents("3:1", undamped, Family(2), damped=False).listings
+    smaller = equivalents("3:1", undamped, Family(2)).listings
     assert all(li.status is Status.EMPTY and li.complete for li in smaller)
     larger = equivalents("3:1", undamped, "4:1", damped=False).listings[0]
     assert larger.status is Status.NOT_COVERED and "more masses" in larger.sentence
@@ -279,7 +279,7 @@ def test_lag_and_dead_time_are_inherited(extra, name):
 def test_a_chain_is_taken_as_it_is():
     """Asked of a chain without a dead time, the answer is about that chain."""
     (listing,) = equivalents(
-        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3], damped=False
+        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3]
     ).listings
     assert (
         listing.members == ()
