@@ -176,7 +176,7 @@ def test_the_focus_is_seen(visit) -> None:  # type: ignore[no-untyped-def]
 
 def test_the_wheel_zooms_where_the_pointer_is_and_dragging_moves(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGE)
-    tab.evaluate("document.getElementById('matrix').scrollIntoView()")
+    tab.evaluate("document.getElementById('matrix').scrollIntoView({behavior: 'instant'})")
     tab.mouse.click(**_place(tab, 40, 20))
     size, at = float(tab.get_attribute("#matrix", "data-cell")), _place(tab, 40, 20)
     tab.mouse.move(**at)

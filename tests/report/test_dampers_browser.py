@@ -172,7 +172,7 @@ def test_a_click_shows_names_drawings_rule_and_command(visit, small: DamperFamil
     tab = visit(SMALL)
     low, high = small.place((2, (1, 2))), small.place((5, (2, 3)))
     assert small.look_up((2, (1, 2)), (5, (2, 3)))[0].value == "indistinguishable"
-    tab.evaluate("document.getElementById('matrix').scrollIntoView()")
+    tab.evaluate("document.getElementById('matrix').scrollIntoView({behavior: 'instant'})")
     tab.mouse.click(**_field(tab, high + 1, low + 1))
     assert tab.inner_text("#detail h3") == "A2+b1+b2 and A5+b2+b3"
     assert tab.inner_text("#detail .badge") == "indistinguishable"
