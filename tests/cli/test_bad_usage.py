@@ -121,6 +121,7 @@ def test_processes_say_the_same():
     assert done.stderr == "disting: the 3-mass family has models 1 to 11, not 12\n"
 
 
+@pytest.mark.slow
 def test_no_cluster_answers():
     done = disting("verdicts", 3, "--scheduler", "tcp://127.0.0.1:9")
     assert (done.returncode, done.stdout) == (2, "")

@@ -168,6 +168,7 @@ def test_catalog_build_and_verify(tmp_path):
     assert "line 5 is not what is computed now" in bad.stdout
 
 
+@pytest.mark.slow
 def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
     alone = called("verdicts", 2, "--damped", "--csv", "-").stdout
     assert disting("verdicts", 2, "--damped", "--csv", "-", "--jobs", 2).stdout == alone

@@ -164,6 +164,7 @@ def test_the_demonstration_drive_is_recognised():
     assert "A/(rad/s²)" in done.stdout
 
 
+@pytest.mark.slow
 def test_time_series_are_fitted_like_their_response():
     records = [measured_data(f"fditools_motorbench_{x}.mat") for x in "AB"]
     options = [

@@ -92,6 +92,7 @@ def selection():
     return select(train, [Chain(2, damped=True), ROW, replace(ROW, dead_time=True)], test=test)
 
 
+@pytest.mark.slow
 def test_each_member_has_its_own_twins_in_whatever_order_workers_finish(selection):
     """The first one takes longest, so its twins come last."""
     chosen = sorted(selection.candidates, key=lambda c: -c.chain.n_masses)

@@ -349,6 +349,7 @@ def test_the_exact_decision_tells_some_candidates_of_three_masses_apart(left, ri
     assert verdict(*pair).relation is Relation.DISTINGUISHABLE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("n_masses", "left", "right"),
     [(2, (1,), (2,)), (3, (2,), (3,))]

@@ -4,6 +4,7 @@ derivatives.
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Symbol, diff, sympify
@@ -17,6 +18,7 @@ from tests.laws.strategies import chains
 MODULUS = 10**9 + 7
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(chains(max_masses=3, dead_time=True))
 def test_equivalent_forms_say_the_same_in_other_names(chain):

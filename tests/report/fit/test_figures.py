@@ -56,6 +56,7 @@ def test_files_are_what_they_claim(figure: Drawn) -> None:
     assert b"atplotlib" not in figure.png and b"<dc:date>" not in figure.svg
 
 
+@pytest.mark.slow
 def test_nothing_is_cut_off_where_units_are_not_known(train: FrequencyResponse) -> None:
     """The legend then says "input per acceleration", its longest, behind inertias of seven
     characters.
