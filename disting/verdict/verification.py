@@ -282,7 +282,8 @@ def _drawn(evidence: FibreAt, sides: _Sides) -> bool:
 
 def _condition_again(v: Verdict, query: Query, sides: _Sides) -> bool:
     """Whether the condition finds the same; what `prove` proved of it is proven again."""
-    alone = Query(View.COMBINED, (v.decided_by,), query.markov)
+    view = query.view if query.view in (View.TF, View.MARKOV) else View.COMBINED
+    alone = Query(view, (v.decided_by,), query.markov)
     again = replace(decide(sides.left, sides.right, alone), domain=v.domain)
     if v.certainty is Certainty.PROVEN and again.certainty is Certainty.BOUNDED:
         again = prove(again, sides.left.chain, sides.right.chain, SECONDS)

@@ -70,12 +70,9 @@ def told(data, found):
     plain = selection_to_dict(found)
     assert plain["explained"] is False and plain["not_excluded"] == []
     assert plain["chi2_per_line"] > 3 or found.explanation.noisy
-    explains = "explains this data"
-    determined = "whose parameters this data determines "
-    some = any(c.chi2 <= LARGEST for c in found.candidates)
-    assert first_lines(found)[0].startswith(
-        f"none of the candidates {determined if some else ''}{explains}"
-    )
+    told = found.explanation.noisy or not any(c.chi2 <= LARGEST for c in found.candidates)
+    which = "" if told else "whose parameters this data determines "
+    assert first_lines(found)[0].startswith(f"none of the candidates {which}explains this data")
     assert suspicions(found)[0] == first_lines(found)[0] and len(first_lines(found)) <= 5
 
 
