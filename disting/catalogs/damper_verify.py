@@ -10,7 +10,7 @@ from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import name_of, read, text_of, was_patient
 from disting.catalogs.damper_settled import read_settled
 from disting.model.symmetry import canonical
-from disting.questions.same.verify import Witness
+from disting.questions.same.evidence_check import Witness
 from disting.verdict import Engine, Progress, Relation, silent
 
 

@@ -11,7 +11,7 @@ from disting.fibres.ideals.row_answers import false_answers
 from disting.model.symmetry import canonical
 from disting.questions.inclusion import confirms
 from disting.questions.positive import proves
-from disting.questions.same.verify import Witness
+from disting.questions.same.evidence_check import Witness
 from disting.verdict import Engine, Progress, View, silent
 from disting.verdict.chains import ComparedChain
 

@@ -108,16 +108,10 @@ def verify(options: argparse.Namespace) -> int:
         for n in options.masses:
             for damped in (False, True):
                 fresh = Engine()  # nothing is taken from the cache: a verification computes
-                found = verify(
-                    n,
-                    damped=damped,
-                    folder=options.catalog,
-                    engine=fresh,
-                    executor=pool,
-                    progress=progress,
-                )
-                if n in SHIPPED_SIZES:
-                    found += verify_dampers(
+                checks = [verify, *([verify_dampers] if n in SHIPPED_SIZES else [])]
+                found: list[str] = []
+                for check in checks:
+                    found += check(
                         n,
                         damped=damped,
                         folder=options.catalog,

@@ -15,10 +15,10 @@ from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import write_mat
-from disting.fit.plain import selection_to_dict
 from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
+from disting.fit.selection_json import selection_to_dict
 from disting.fit.swarm import by_swarm
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

@@ -50,8 +50,6 @@ from disting.fit.modes import physical as physical
 from disting.fit.modes import poles as poles
 from disting.fit.modes import zeros as zeros
 from disting.fit.noise import Noise as Noise
-from disting.fit.plain import read_model as read_model
-from disting.fit.plain import selection_to_dict as selection_to_dict
 from disting.fit.plan import Plan as Plan
 from disting.fit.plan import plan as plan
 from disting.fit.plant import Plant as Plant
@@ -67,6 +65,8 @@ from disting.fit.rival import gain as gain
 from disting.fit.scatter import Scatter as Scatter
 from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select
+from disting.fit.selection_json import read_model as read_model
+from disting.fit.selection_json import selection_to_dict as selection_to_dict
 from disting.fit.setup import Setup as Setup
 from disting.fit.sweep import Profile as Profile
 from disting.fit.sweep import Sweep as Sweep

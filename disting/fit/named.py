@@ -13,7 +13,7 @@ from typing import Any
 
 from disting.errors import InputError
 from disting.fit.candidates import as_listed, reference
-from disting.fit.plain import chain_from_dict, model_from_dict
+from disting.fit.selection_json import chain_from_dict, model_from_dict
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of

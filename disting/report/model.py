@@ -169,7 +169,6 @@ def model_page(catalog: Catalog, number: int) -> str:
         if seen[other] is not Relation.DISTINGUISHABLE
     ]
     told = advice(found_for(catalog), number)
-    over_complex = {other: catalog.relation(number, other, View.EXACT) for other in verdicts}
     return render(
         "model.html",
         catalog=catalog,
@@ -180,14 +179,8 @@ def model_page(catalog: Catalog, number: int) -> str:
         always=[t for t in twins if t.relation is Relation.INDISTINGUISHABLE],
         sometimes=[t for t in twins if t.relation is Relation.SOMETIMES],
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
-        complex_same=[
-            other
-            for other, relation in over_complex.items()
-            if relation is Relation.INDISTINGUISHABLE
-        ],
-        complex_open=[
-            other for other, relation in over_complex.items() if relation is Relation.UNDECIDED
-        ],
+        complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),
+        complex_open=_over_complex(catalog, number, Relation.UNDECIDED),
         drawn=len(twins) <= DRAWN,
         transfer=written(model.row.chain),
         free=catalog.records[number]["free"],
@@ -203,6 +196,12 @@ def model_page(catalog: Catalog, number: int) -> str:
         last=len(catalog.family),
         plural=plural,
     )
+
+
+def _over_complex(catalog: Catalog, number: int, relation: Relation) -> list[int]:
+    """The models that stand so to this one over complex parameters."""
+    others = (n for n in range(1, len(catalog.family) + 1) if n != number)
+    return [n for n in others if catalog.relation(number, n, View.EXACT) is relation]
 
 
 def told_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:

@@ -5,9 +5,13 @@ above it another. What the drawing shows is said in text too: by the field under
 panel of a pair, and by the table of groups.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from markupsafe import Markup
+
 from disting.catalogs import Catalog
+from disting.catalogs.next_files import NextCatalog
 from disting.conditions.rule import EXACT, Role, Rule
 from disting.conditions.table import RULES
 from disting.files import __version__
@@ -66,6 +70,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         for of in domains
     ]
     further = found_for(catalog)
+    data = _payload(catalog, domains, further, bool(dampers))
     return render(
         "page.html",
         title=title(catalog),
@@ -91,21 +96,28 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         additions=definitions(menu_of(further)),
         motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
-        payload=payload(
-            catalog,
-            domains,
-            masses=catalog.n_masses,
-            damped=catalog.damped,
-            version=__version__,
-            dampers=bool(dampers),
-            motion=motion_of(catalog),
-            next=for_pairs(further),
-            sketches={
-                pair: [[s.box, s.parts, s.label] for s in sketches]
-                for pair, sketches in sketches_for_pairs(further).items()
-            },
-        ),
+        payload=data,
         plural=plural,
+    )
+
+
+def _payload(
+    catalog: Catalog, domains: Sequence[Over], further: NextCatalog | None, has_dampers: bool
+) -> Markup:
+    """What the page's script knows of the pairs."""
+    return payload(
+        catalog,
+        domains,
+        masses=catalog.n_masses,
+        damped=catalog.damped,
+        version=__version__,
+        dampers=has_dampers,
+        motion=motion_of(catalog),
+        next=for_pairs(further),
+        sketches={
+            pair: [[s.box, s.parts, s.label] for s in sketches]
+            for pair, sketches in sketches_for_pairs(further).items()
+        },
     )
 
 

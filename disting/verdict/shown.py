@@ -1,12 +1,14 @@
 """What a verdict means for who measures: one sentence for the engineer at the drive.
 
 It is derived from the evidence, which says the same in algebra (`Verdict.sentence`). A curve here
-is a frequency response from the force to the sensor, generic parameters give it.
+is all that is measured, a frequency response from the force to the sensor; the parameters are
+generic, finite and not zero.
 """
 
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
 from disting.model.domain import Domain
+from disting.questions.inclusion import Inclusion
 from disting.verdict.result import Relation, Verdict
 
 DECADE = 20  # decibels that a power of s falls in a decade of frequency
@@ -29,8 +31,8 @@ def shown(verdict: Verdict) -> str:
     if verdict.relation is Relation.INDISTINGUISHABLE:
         over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
         return (
-            f"Every machine {left} has a twin {right}{over} with the same curve, and the reverse:"
-            " what is measured here does not tell them apart."
+            f"Every machine {left} has a twin {right}{over} with the same curve, special values"
+            " aside, and the reverse: what is measured here does not tell them apart."
         )
     if verdict.relation is Relation.SOMETIMES:
         return (
@@ -50,10 +52,14 @@ def shown(verdict: Verdict) -> str:
         case None:
             return ""
         case _:
+            said = (
+                f"One of {left} and {right} has machines whose curve no machine of the other gives"
+            )
+            # one that is a limit of the other comes as close as one likes
+            if verdict.closure is not Inclusion.NEITHER:
+                return f"{said}."
             return (
-                f"There are machines of one of the two whose curve no machine of the other gives:"
-                f" fitted to it, the wrong one of {left} and {right} leaves an error however well"
-                " it is measured."
+                f"{said}: fitted to it, the wrong one leaves an error however well it is measured."
             )
 
 

@@ -2,7 +2,7 @@
 that the file says follows from it.
 
 Nothing is looked up, and nothing is searched that the evidence names: see
-`disting.questions.same.verify`.
+`disting.questions.same.evidence_check`.
 """
 
 import json
@@ -37,9 +37,9 @@ from disting.model.symmetry import canonical
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding
 from disting.questions.inclusion import confirms as confirms_inclusion
 from disting.questions.positive import proves
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import by_synthesis, mirrored
 from disting.questions.same.real_and_positive import RATIONAL, positive_share, positive_ways
-from disting.questions.same.verify import Witness
 from disting.verdict.cascade import PROVES, decide
 from disting.verdict.chains import ComparedChain
 from disting.verdict.proof import prove

@@ -24,8 +24,8 @@ from disting.cli import main
 from disting.conditions import Outcome
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.limited import quick_finding, quick_profile
-from disting.questions.same.verify import Witness
 from disting.store.scheduling import executor
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED

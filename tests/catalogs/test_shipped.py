@@ -11,7 +11,7 @@ from disting.catalogs.files import PROVENANCE, lines, name_of, shipped_folder
 from disting.catalogs.provenance import provenance_of
 from disting.catalogs.verify import false_evidence, verify
 from disting.errors import InputError
-from disting.questions.same.verify import Witness
+from disting.questions.same.evidence_check import Witness
 
 SMALL = [(n, damped) for n in (1, 2, 3) for damped in (False, True)]
 # seconds to minutes

@@ -13,8 +13,8 @@ from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.model.settings import Settings
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding, mirrored
-from disting.questions.same.verify import Witness
 from tests.catalogs.variants import (
     originals_against_lagged,
     sensor_effects,

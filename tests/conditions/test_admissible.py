@@ -40,13 +40,13 @@ from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.inclusion import Inclusion
 from disting.questions.positive import positive_finding, proves
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.real_and_positive import (
     by_counts,
     positive_share,
     positive_ways,
     resting_on,
 )
-from disting.questions.same.verify import Witness
 from disting.report.domains import VIEWS, over
 from disting.report.payload import payload
 from disting.verdict import Verdict

@@ -17,8 +17,8 @@ from disting.fibres.ideals.by_one_row import row_pairs
 from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.questions.same import exact
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import by_row, exact_finding
-from disting.questions.same.verify import Witness
 from disting.verdict import decide
 
 WALLED = (Chain(5, 4, 1, 5, 3, 5, damped=True), Chain(5, 4, 2, 5, 4, 5, damped=True))

@@ -10,9 +10,9 @@ import pytest
 from disting.fit.candidates import figure_1
 from disting.fit.cost import Cost
 from disting.fit.explained import LARGEST, chi2, explanation, yardstick
-from disting.fit.plain import selection_to_dict
 from disting.fit.scatter import between, scatter
 from disting.fit.select import select
+from disting.fit.selection_json import selection_to_dict
 from disting.fit.telling import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor

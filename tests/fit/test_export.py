@@ -14,8 +14,8 @@ from disting.fit.export import (
     write_mat,
 )
 from disting.fit.modes import oscillating, poles, zeros
-from disting.fit.plain import candidate_to_dict, model_from_dict, read_model
 from disting.fit.select import select
+from disting.fit.selection_json import candidate_to_dict, model_from_dict, read_model
 from disting.model.chain import Chain
 from tests.fit.drives import CHAINS, OMEGA, response, truth
 

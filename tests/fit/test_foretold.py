@@ -11,8 +11,8 @@ from disting.experiments.menu import Item, Kind
 from disting.fit.export import predicted
 from disting.fit.foretold import MOVES, STILL, Bench, bench_of, foretold, shown, step
 from disting.fit.named import named_by
-from disting.fit.plain import _named
 from disting.fit.plan import power
+from disting.fit.selection_json import _named
 from disting.fit.standing import Standing, stood
 from disting.model.chain import Chain
 from disting.model.family import Family

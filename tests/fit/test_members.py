@@ -16,9 +16,9 @@ from disting.fit.alternatives import limits_of
 from disting.fit.candidates import as_listed, reference
 from disting.fit.export import predicted
 from disting.fit.members import members, twins
-from disting.fit.plain import selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.select import select
+from disting.fit.selection_json import selection_to_dict
 from disting.fit.telling import commands, first_lines, renamed
 from disting.model.chain import Chain
 from disting.model.family import Family

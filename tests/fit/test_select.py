@@ -14,10 +14,10 @@ from disting.fit.candidates import figure_1, variants
 from disting.fit.cost import lines_by_deviation
 from disting.fit.export import predicted
 from disting.fit.modes import oscillating, physical, poles, zeros
-from disting.fit.plain import model_from_dict, selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.repeatability import repeatability
 from disting.fit.select import select
+from disting.fit.selection_json import model_from_dict, selection_to_dict
 from disting.fit.sweep import CRITERIA, profile, sweep
 from disting.model.chain import Chain
 from disting.verdict import Relation

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from disting import Chain, Engine, Family, Query, View, compare
 from disting.evidence.conditions import Counts, Embedding, Forms, Ranks, Renaming
-from disting.questions.same.verify import Witness
+from disting.questions.same.evidence_check import Witness
 from disting.verdict import audit, decide
 from tests.laws.strategies import chains
 

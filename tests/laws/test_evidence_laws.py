@@ -15,7 +15,7 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
-from disting.questions.same.verify import Witness
+from disting.questions.same.evidence_check import Witness
 from disting.verdict import steps
 from tests.laws.pairs import (
     EXAMPLES,

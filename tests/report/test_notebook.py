@@ -100,7 +100,7 @@ def test_a_verdict_says_domain_certainty_and_what_it_rests_on():
     verdict = catalog(3, damped=True).verdict(2, 5)
     said = text(verdict._repr_html_())
     assert verdict.sentence in said
-    assert "Every machine A2 has a twin A5 with the same curve" in said
+    assert "Every machine A2 has a twin A5 with the same curve, special values aside" in said
     assert "holds for generic positive parameters" in said
     assert f"certainty {verdict.certainty}" in said and f"rests on {verdict.rule}" in said
     assert "positive A2 always with a positive equivalent A5" in said

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -11,6 +12,7 @@ from disting import Family, View, catalog, compare, transfer_function
 from disting.evidence.conditions import Counts, Ranks
 from disting.experiments import Experiment
 from disting.model.names import chain_of
+from disting.questions.inclusion import Inclusion
 from disting.verdict import Relation
 from disting.verdict.shown import shown
 
@@ -104,6 +106,13 @@ def test_a_law_in_numbers():
 def test_other_evidence(left, right, said):
     chains = [chain_of(text, Family(1, damped=True)) for text in (left, right)]
     assert said in shown(compare(*chains))
+
+
+def test_an_error_is_promised_only_where_neither_is_a_limit_of_the_other():
+    verdict = catalog(3, damped=True).verdict(1, 6)
+    assert verdict.closure is Inclusion.NEITHER and "leaves an error" in shown(verdict)
+    for closure in set(Inclusion) - {Inclusion.NEITHER}:
+        assert "error" not in shown(replace(verdict, closure=closure))
 
 
 def test_a_sensor_that_stands_still():

@@ -9,8 +9,8 @@ from typing import Any
 
 from disting.files import write_whole
 from disting.fit.modes import Result, physical
-from disting.fit.plain import candidate_to_dict, selection_to_dict
 from disting.fit.select import Selection
+from disting.fit.selection_json import candidate_to_dict, selection_to_dict
 from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode

@@ -13,8 +13,8 @@ from disting.catalogs.dampers import DamperSets
 from disting.evidence.ideals import FullRows
 from disting.fibres.ideals import Limits, same_by_full_rows
 from disting.model.settings import Settings
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import by_full_rows, by_ideals
-from disting.questions.same.verify import Witness
 
 LIMITS = Limits(seconds=600, entries=500_000, safety=100)
 

@@ -20,8 +20,8 @@ from disting.model.chain import Chain
 from disting.model.row import rows_of
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding
-from disting.questions.same.verify import Witness
 
 S = sympy.Symbol("s")
 

@@ -16,7 +16,7 @@ from disting.questions.identifiability.solutions import foster_count
 from disting.questions.positive import always_real, confirms_real, real_witness
 from disting.questions.positive.points import random_point, read
 from disting.questions.positive.real import lacks_real
-from disting.questions.same.verify import Witness
+from disting.questions.same.evidence_check import Witness
 from tests.oracles.real_equivalents import is_real, solutions
 
 OPEN_OF_3 = [(1, 4), (1, 6), (4, 6), (4, 8), (4, 11), (6, 8), (6, 11)]

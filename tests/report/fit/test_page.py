@@ -12,9 +12,9 @@ import pytest
 from disting.errors import InputError
 from disting.fit.candidates import chosen_ports
 from disting.fit.modes import physical
-from disting.fit.plain import read_model, selection_to_dict
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
+from disting.fit.selection_json import read_model, selection_to_dict
 from disting.measurement import FrequencyResponse
 from disting.model.names import name_of
 from disting.report.fit import (

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from disting.fit.candidates import figure_1
 from disting.fit.export import predicted
-from disting.fit.plain import selection_to_dict
 from disting.fit.scatter import Scatter
 from disting.fit.select import Selection, select
+from disting.fit.selection_json import selection_to_dict
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.report.fit import residuals
 from disting.report.fit.distorted import beneath, gathered
