@@ -91,12 +91,11 @@ def false_evidence(stored: SizesCatalog, progress: Progress = silent) -> Iterato
     """Yield a sentence for each piece of evidence on two sizes that does not hold."""
     witness, chains = Witness(), stored.family
     subjects = [ComparedChain(*named) for named in zip(stored.names, chains, strict=True)]
-    total = len(stored.records) - 1
-    across = (
+    across = [
         (i, j)
         for i, j in combinations(range(len(chains)), 2)
         if chains[i].n_masses != chains[j].n_masses
-    )
+    ]
     for done, (i, j) in enumerate(across, 1):
         v = stored.verdict(i + 1, j + 1, View.EXACT)
         where = f"{stored.name}, {v.left} and {v.right}"
@@ -105,7 +104,7 @@ def false_evidence(stored: SizesCatalog, progress: Progress = silent) -> Iterato
         limits = None if v.inclusions is None else v.inclusions.closure.evidence
         if limits is not None and not confirms(limits, subjects[i], subjects[j]):
             yield f"{where}: the evidence of the inclusion (limits) does not hold"
-        progress("evidence", done, total)
+        progress("evidence", done, len(across))
 
 
 def _pairs(found: Decisions) -> Iterator[Record]:

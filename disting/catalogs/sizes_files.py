@@ -91,7 +91,7 @@ class SizesCatalog(Shown):
         (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
         if one is other:
             return one.relation(i, j, view)
-        return relation_of(deciding(self._across[low, high], view)[1])
+        return relation_of(deciding(self._record(low, high), view)[1])
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""
@@ -124,7 +124,7 @@ class SizesCatalog(Shown):
         if view is not View.EXACT:  # what distinguishes over complex parameters does so over all
             return replace(self.verdict(low, high, View.EXACT), domain=view.domain)
         try:
-            return replace(stored_verdict(self._across[low, high], view), **names)
+            return replace(stored_verdict(self._record(low, high), view), **names)
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             raise CatalogError(
                 f"{self.name}, {names['left']} and {names['right']} cannot be read ({reason!r});"
@@ -158,9 +158,12 @@ class SizesCatalog(Shown):
         return {}
 
     @cached_property
-    def _across(self) -> dict[tuple[int, int], Record]:
-        number = {name: i for i, name in enumerate(self.names, 1)}
-        return {(number[r["left"]], number[r["right"]]): r for r in self.records[1:]}
+    def _across(self) -> dict[tuple[str, str], Record]:
+        """The records by the names of their models."""
+        return {(r["left"], r["right"]): r for r in self.records[1:]}
+
+    def _record(self, low: int, high: int) -> Record:
+        return self._across[self.names[low - 1], self.names[high - 1]]
 
 
 def sizes_catalog(
