@@ -91,7 +91,8 @@ class SizesCatalog(Shown):
         (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
         if one is other:
             return one.relation(i, j, view)
-        return relation_of(deciding(self._record(low, high), view)[1])
+        names = self.names[low - 1], self.names[high - 1]
+        return relation_of(deciding(self._across[names], view)[1])
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""
@@ -117,17 +118,18 @@ class SizesCatalog(Shown):
         )
 
     def _read(self, low: int, high: int, view: View) -> Verdict:
-        names = {"left": self.names[low - 1], "right": self.names[high - 1]}
+        left, right = self.names[low - 1], self.names[high - 1]
         (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
         if one is other:
-            return replace(one.verdict(i, j, view), **names)
+            return replace(one.verdict(i, j, view), left=left, right=right)
         if view is not View.EXACT:  # what distinguishes over complex parameters does so over all
             return replace(self.verdict(low, high, View.EXACT), domain=view.domain)
         try:
-            return replace(stored_verdict(self._record(low, high), view), **names)
+            found = stored_verdict(self._across[left, right], view)
+            return replace(found, left=left, right=right)
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             raise CatalogError(
-                f"{self.name}, {names['left']} and {names['right']} cannot be read ({reason!r});"
+                f"{self.name}, {left} and {right} cannot be read ({reason!r});"
                 f" make it with '{COMMAND}'"
             ) from None
 
@@ -161,9 +163,6 @@ class SizesCatalog(Shown):
     def _across(self) -> dict[tuple[str, str], Record]:
         """The records by the names of their models."""
         return {(r["left"], r["right"]): r for r in self.records[1:]}
-
-    def _record(self, low: int, high: int) -> Record:
-        return self._across[self.names[low - 1], self.names[high - 1]]
 
 
 def sizes_catalog(
