@@ -1,6 +1,6 @@
 """A printed statement and its check."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -16,16 +16,50 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class Seen:
+    """Where verdicts can be seen: all pairs of a family, one of its models, or two of them.
+
+    `models` as their names go on behind the number of masses: 4, 1+b2, 1+lag. With `dampers`,
+    the family is that of all sets of ground dampers.
+    """
+
+    n_masses: int
+    damped: bool = False
+    models: tuple[str, ...] = ()
+    dampers: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Found:
-    """What is found here, in words, and whether the printed statement holds."""
+    """What is found here, in words, whether the printed statement holds, and where the verdicts
+    that it speaks of can be seen.
+    """
 
     value: str
     agrees: bool
+    seen: tuple[Seen, ...] = ()
 
     @property
     def outcome(self) -> Outcome:
         """As an outcome."""
         return Outcome.AGREES if self.agrees else Outcome.DIFFERS
+
+
+def families(*sizes: int, damped: bool = False) -> tuple[Seen, ...]:
+    """All pairs of each family."""
+    return tuple(Seen(n, damped) for n in sizes)
+
+
+def models(n_masses: int, numbers: Iterable[int], *, damped: bool = False) -> tuple[Seen, ...]:
+    """Single models of a family."""
+    return tuple(Seen(n_masses, damped, (str(number),)) for number in numbers)
+
+
+def pairs(
+    n_masses: int, numbers: Iterable[tuple[int, int]], *, damped: bool = False
+) -> tuple[Seen, ...]:
+    """Pairs of models of a family."""
+    return tuple(Seen(n_masses, damped, (str(i), str(j))) for i, j in numbers)
 
 
 @dataclass(frozen=True, slots=True)

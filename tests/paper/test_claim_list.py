@@ -118,7 +118,8 @@ def claim(key):
 
 @pytest.mark.parametrize("key", FOUND)
 def test_what_a_check_finds(findings, key):
-    assert claim(key).check(findings) == Found(FOUND[key], claim(key).outcome is Outcome.AGREES)
+    found = claim(key).check(findings)
+    assert found == Found(FOUND[key], claim(key).outcome is Outcome.AGREES, found.seen)
 
 
 @pytest.mark.slow

@@ -88,6 +88,25 @@ def test_nothing_comes_from_elsewhere(page):
     assert len(page) < 1_000_000
 
 
+def test_claims_lead_to_their_verdicts(findings):
+    """Where the pages of the families lie beside: every page is there, every pair in it."""
+    site = Path(__file__).parents[2] / "reports"
+    outline = Outline(paper_page(findings, [], {path.stem for path in site.glob("*.html")}))
+    links = [a["href"] for _, a in outline.elements if (a.get("href") or "").startswith("../")]
+    pairs = [link for link in links if "#" in link]
+    assert all((site / "paper" / link.split("#")[0]).is_file() for link in links)
+    assert "../chains-4-undamped.html#11-13" in pairs and len(pairs) == 54
+    sizes = {"3": 11, "4": 29, "5": 73}
+    for link in pairs:
+        if found := re.fullmatch(r"\.\./chains-(\d)-(?:un)?damped\.html#(\d+)-(\d+)", link):
+            assert int(found[2]) < int(found[3]) <= sizes[found[1]]
+        else:
+            assert re.fullmatch(r"\.\./dampers-[34]-damped\.html#(A1|3/3\+b1|3\+b1/3\+b2)", link)
+    claims = [c for c in CLAIMS if c.check and re.match("Section 5|Table [23]|Section 6", c.place)]
+    unseen = [c.key for c in claims if not c.check(findings).seen]
+    assert unseen == ["figure-9"]  # it violates the constraints: no family has it
+
+
 def test_table_2_and_table_3(page):
     assert re.findall(
         r'<th scope="row" class="n">(\d+)</th><td class="n">(\d*)</td><td class="n">(\d+)</td>',
