@@ -21,6 +21,7 @@ from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
 from disting.report.model import Drawing, folder_of, model_of, motion_of
+from disting.report.motion import start_values
 from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
@@ -113,6 +114,9 @@ def _payload(
         version=__version__,
         dampers=has_dampers,
         motion=motion_of(catalog),
+        order=catalog.family[1].sensor.order,
+        chains=[chain.indices[1:] for chain in catalog.family],
+        values=[start_values(chain) for chain in catalog.family],
         next=for_pairs(further),
         sketches={
             pair: [[s.box, s.parts, s.label] for s in sketches]
