@@ -20,8 +20,9 @@ from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
-from disting.report.model import Drawing, folder_of, model_of, motion_of
+from disting.report.model import folder_of, model_of, motion_of
 from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
+from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
 from disting.verdict import Relation, View
