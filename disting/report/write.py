@@ -19,7 +19,7 @@ from disting.report.damper_page import damper_page
 from disting.report.environment import source
 from disting.report.guide import guide, guide_files
 from disting.report.index import Link, index, sizes
-from disting.report.matrix import figure, figure_png
+from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.motion import motion_page
 from disting.report.next_page import next_page
@@ -27,6 +27,7 @@ from disting.report.next_steps import found_for, page_of
 from disting.report.page import page
 from disting.report.search import ADDRESS, search_script
 from disting.report.svg import svg
+from disting.report.words import VIEW_TITLES
 
 STYLE = "models/style.css"
 
@@ -151,6 +152,8 @@ def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, byte
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()
     yield f"{c.name}-matrix.png", figure_png(scene)
+    for view in VIEW_TITLES if has_slides(c) else ():
+        yield slide_name(c, view), slide_png(c, view)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
     found = found_for(c)
