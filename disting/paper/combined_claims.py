@@ -139,6 +139,7 @@ NINE = (
 COMBINED_CLAIMS = (
     Claim(
         key="condition-9",
+        about="Reach of condition 9",
         place="Section 5.2",
         text=(
             "Condition 9: “For three masses there is no such occurrence, for four masses the"
@@ -165,6 +166,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="eight-cases",
+        about="What Markov parameters add, undamped",
         place="Section 5.2, Fig. 13",
         text=(
             "“In eight cases the MPA proved indistinguishability which could not be proved by the"
@@ -177,6 +179,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="11-and-13",
+        about="Which condition settles models 11 and 13",
         place="Section 5.2, Fig. 13",
         text="“Equivalence of models 11 and 13 was shown by cond. 9.”",
         printed="by condition 9",
@@ -186,6 +189,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="condition-6",
+        about="Condition 6 with damping",
         place="Section 5.2",
         text="“Damping is neglected because otherwise … condition 6 could never be applied.”",
         printed="condition 6 never applies",
@@ -198,6 +202,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="2-and-8",
+        about="Need of conditions 2 and 8",
         place="Section 6",
         text="“Conditions 2 and 8 never appeared to be pivotal.”",
         printed="never",

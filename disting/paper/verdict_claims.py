@@ -227,6 +227,7 @@ VERDICT_CLAIMS = (
     ),
     Claim(
         key="determinable",
+        about="Number of determinable parameters",
         place="Section 5.2",
         text="“the 5 determinable parameters” (3 masses, undamped)",
         printed="5 determinable parameters",
@@ -260,6 +261,7 @@ VERDICT_CLAIMS = (
     ),
     Claim(
         key="all-12",
+        about="Cost of all Markov parameters",
         place="Section 5.2",
         text="“for significantly more than 8, up to 12 the computation time would be formidable”",
         printed="out of reach",
@@ -305,6 +307,7 @@ VERDICT_CLAIMS = (
     ),
     Claim(
         key="beyond",
+        about="What Markov parameters add, damped",
         place="Section 5.2",
         text=(
             "“in some cases the MPA proves indistinguishability that cannot be proved with the TFA”"

@@ -22,7 +22,7 @@ from disting.report.environment import source
 from disting.report.families import Families, families
 from disting.report.guide import guide, guide_files
 from disting.report.index import Link, index
-from disting.report.matrix import figure, figure_png
+from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.motion import motion_page
 from disting.report.next_page import next_page
@@ -31,6 +31,7 @@ from disting.report.page import page
 from disting.report.search import ADDRESS, search_script
 from disting.report.sizes import sizes_page
 from disting.report.svg import svg
+from disting.report.words import VIEW_TITLES
 
 STYLE = "models/style.css"
 
@@ -165,6 +166,8 @@ def _files(c: Catalog, pages: Families) -> Iterator[tuple[str, bytes]]:
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()
     yield f"{c.name}-matrix.png", figure_png(scene)
+    for view in VIEW_TITLES if has_slides(c) else ():
+        yield slide_name(c, view), slide_png(c, view)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
     found = found_for(c)

@@ -69,7 +69,7 @@ def test_every_claim_stands_on_the_page_with_its_outcome(page):
     assert len(ids) == len(set(ids))
     for claim in CLAIMS:
         assert f"claim-{claim.key}" in ids
-        for text in (claim.place, claim.text, claim.printed, claim.reason):
+        for text in (claim.about, claim.place, claim.text, claim.printed, claim.reason):
             assert re.sub(r"\s+", " ", html.unescape(re.sub("<[^>]*>", "", raised(text)))) in said
 
 

@@ -357,6 +357,28 @@ def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore
     )
 
 
+@pytest.mark.parametrize("width", [320, 390])
+def test_the_names_of_the_last_fields_are_whole(visit, width: int) -> None:  # type: ignore[no-untyped-def]
+    tab = visit(LARGE, width)
+    tab.evaluate(
+        """() => {
+          window.written = [];
+          const of = CanvasRenderingContext2D.prototype, fill = of.fillText;
+          of.fillText = function (text, ...rest) {
+            const { e, f } = this.getTransform();
+            window.written.push([text, this.canvas.width - e, this.canvas.height - f]);
+            fill.call(this, text, ...rest);
+          };
+          location.hash = "#72-73";
+        }"""
+    )
+    _settle(tab)
+    written = [one for one in tab.evaluate("window.written") if one[0].startswith("A")]
+    assert {"A72", "A73"} <= {text for text, _, _ in written}
+    half = 5.5 * tab.evaluate("devicePixelRatio")  # of a name's height
+    assert all(right >= half and below >= half for _, right, below in written)
+
+
 @pytest.mark.parametrize("width", [320, 390, 1280])
 def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     for path in (
