@@ -88,7 +88,7 @@ def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
     """HTML of models of several sizes; `beside`: the pages of pairs beside it (see `families`)."""
     pages = families([], across=[found]) | dict(beside or {})
     counts, domains = list(between(found)), [over(found, view) for view in VIEWS]
-    parts, drawings = shared(found.family)
+    parts, drawings = shared(dict(enumerate(found.family, 1)))
     return render(
         "sizes.html",
         damped=found.damped,
