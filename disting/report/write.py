@@ -100,10 +100,10 @@ def write_report(
     guide, with a reference of the `commands` where they are given, the search, and index.html.
 
     Of families with ground dampers, `dampers`, and of catalogues of several sizes, `across`, a page
-    each. The same catalogues give the same
-    bytes. `out` is made if it does not exist; other files in it stay as they are, and the index
-    leads to the pages of shipped catalogues and to other known pages among them too. Returns the
-    paths, in order.
+    each. Executed notebooks in the folder `notebooks` of `out` become pages of the guide. The same
+    catalogues and notebooks give the same bytes. `out` is made if it does not exist; other files
+    in it stay as they are, and the index leads to the pages of shipped catalogues and to other
+    known pages among them too. Returns the paths, in order.
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
@@ -118,7 +118,7 @@ def write_report(
     files = [file for c in catalogs for file in _files(c, pages)]
     files += [_damper_file(f, pages) for f in dampers]
     files += [(f"{s.name}.html", sizes_page(s, beside=pages).encode()) for s in across]
-    parts = guide(commands)
+    parts = guide(commands, _notebooks(out))
     files += guide_files(parts)
     files.append((ADDRESS, search_script(parts, pages, links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
@@ -127,6 +127,11 @@ def write_report(
     for folder in {(out / name).parent for name, _ in files}:
         folder.mkdir(parents=True, exist_ok=True)
     return [write_whole(out / name, content) for name, content in files]
+
+
+def _notebooks(out: Path) -> dict[str, str]:
+    """Texts of the executed notebooks in the folder `notebooks` there, by name."""
+    return {p.stem: p.read_text("utf-8") for p in sorted((out / "notebooks").glob("*.ipynb"))}
 
 
 def _beside(catalogs: Sequence[Catalog], out: Path) -> Iterator[Catalog]:
