@@ -83,6 +83,7 @@ def test_nothing_comes_from_elsewhere(page):
     ids = {"#" + (a.get("id") or "") for _, a in outline.elements}
     beside = {n + e for n in NAMES for e in (".svg", ".png", ".pdf")} | {"../index.html"}
     guide = {f"../guide/{name}.html" for name in ("start", "index", "glossary")}
+    guide.add("../guide/glossary.html#port")
     assert {link for link in links if not link.startswith("data:")} <= ids | beside | guide
     assert not re.search(r"https?://(?!www\.w3\.org)|@import|<script[^>]", page)
     assert len(page) < 1_000_000
