@@ -7,7 +7,8 @@ from pathlib import Path
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.files import SHIPPED_SIZES
+from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import add_out, add_work, size_or_file
 from disting.cli.common import relations_in_words
@@ -78,7 +79,7 @@ def _catalogues(options: argparse.Namespace) -> None:
     """Write the pages of catalogues."""
     from disting.report.write import write_report
 
-    choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
+    choices = _choices(options)
     with engine_for(options) as (engine, pool, progress):
         catalogs = [
             _catalog(n, damped, engine, pool, progress)
@@ -110,7 +111,8 @@ def _paper(options: argparse.Namespace) -> None:
     from disting.report.paper import write_paper
 
     with engine_for(options) as (engine, pool, progress):
-        paths = write_paper(Findings(engine, pool, progress), options.out / "paper")
+        found = Findings(engine, pool, progress)
+        paths = write_paper(found, options.out / "paper", _names(options))
     counts = Counter(claim.outcome for claim in CLAIMS)
     agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
     print(
@@ -118,6 +120,19 @@ def _paper(options: argparse.Namespace) -> None:
         " checked"
     )
     print(f"{len(paths)} files in {options.out / 'paper'}; open {paths[0]}")
+
+
+def _names(options: argparse.Namespace) -> set[str]:
+    """Pages of families that the folder has, or will have when the command is done."""
+    there = {p.stem for p in options.out.glob("*.html")}
+    kinds = [(n, d) for n in options.masses for d in _choices(options)]
+    dampers = {damper_name(n, d) for n, d in kinds if n in DAMPER_SIZES}
+    return there | {name_of(n, d) for n, d in kinds} | dampers
+
+
+def _choices(options: argparse.Namespace) -> list[bool]:
+    """Undamped, damped, or both."""
+    return [False, True] if options.damping == "both" else [options.damping == "damped"]
 
 
 def _catalog(

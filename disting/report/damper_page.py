@@ -15,19 +15,19 @@ from disting.catalogs.files import name_of as chains_name
 from disting.conditions.rule import EXACT
 from disting.conditions.table import RULES
 from disting.model.chain import Chain
-from disting.report.damper_drawing import (
+from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
+from disting.report.drawing import draw
+from disting.report.environment import render
+from disting.report.families import Families, families
+from disting.report.page import decides
+from disting.report.page_drawing import (
+    Drawing,
     SharedDrawing,
     definitions,
     ground_dampers,
     height_with_dampers,
     shared,
 )
-from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
-from disting.report.drawing import draw
-from disting.report.environment import render
-from disting.report.families import Families, families
-from disting.report.model import Drawing
-from disting.report.page import decides
 from disting.report.words import plural
 from disting.verdict import Relation
 
@@ -86,7 +86,7 @@ def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
     pages = families([], [found]) | dict(beside or {})
     catalog = chains_name(found.family.n_masses, found.family.damped) in pages
     family, by_size, totals = found.family, numbered(found.found), found.found.counts()
-    parts, drawings = shared(tuple(family))
+    parts, drawings = shared(dict(enumerate(family, 1)))
     ground = tuple(ground_dampers(family.n_masses))
     undecided = list(opened(found, by_size))
     return render(

@@ -9,14 +9,14 @@ from disting.catalogs import Catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_files import name_of
 from disting.catalogs.sizes_files import SizesCatalog
-from disting.report.damper_drawing import definitions
 from disting.report.damper_page import family_title
 from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
 from disting.report.families import families
 from disting.report.matrix import thumbnail
-from disting.report.model import Drawing, model_of, motion_of
+from disting.report.model import model_of, motion_of
+from disting.report.page_drawing import Drawing, definitions
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number

@@ -23,8 +23,11 @@ from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
 from disting.report.families import Families, families
-from disting.report.model import Drawing, folder_of, model_of, motion_of
+from disting.report.matrix import has_slides, slide_name
+from disting.report.model import folder_of, model_of, motion_of
+from disting.report.motion import start_values
 from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
+from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
 from disting.verdict import Relation, View
@@ -106,6 +109,9 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         additions=definitions(menu_of(further)),
         motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
+        slides=[(name, slide_name(catalog, view)) for view, name in VIEW_TITLES.items()]
+        if has_slides(catalog)
+        else [],
         payload=data,
         plural=plural,
     )
@@ -123,6 +129,9 @@ def _payload(
         version=__version__,
         families=pages,
         motion=motion_of(catalog),
+        order=catalog.family[1].sensor.order,
+        chains=[chain.indices[1:] for chain in catalog.family],
+        values=[start_values(chain) for chain in catalog.family],
         next=for_pairs(further),
         sketches={
             pair: [[s.box, s.parts, s.label] for s in sketches]

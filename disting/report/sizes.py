@@ -14,10 +14,10 @@ from itertools import combinations
 from disting.catalogs.sizes_files import SizesCatalog
 from disting.files import __version__
 from disting.questions.inclusion import Inclusion, InclusionFinding
-from disting.report.damper_drawing import SharedDrawing, definitions, shared
 from disting.report.domains import VIEWS, over
 from disting.report.environment import render
 from disting.report.families import Families, families
+from disting.report.page_drawing import SharedDrawing, definitions, shared
 from disting.report.payload import packed, payload
 from disting.report.words import VIEW_TITLES, plural, probability
 from disting.verdict import Verdict, View
@@ -88,7 +88,7 @@ def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
     """HTML of models of several sizes; `beside`: the pages of pairs beside it (see `families`)."""
     pages = families([], across=[found]) | dict(beside or {})
     counts, domains = list(between(found)), [over(found, view) for view in VIEWS]
-    parts, drawings = shared(found.family)
+    parts, drawings = shared(dict(enumerate(found.family, 1)))
     return render(
         "sizes.html",
         damped=found.damped,

@@ -22,7 +22,7 @@ from disting.report.environment import source
 from disting.report.families import Families, families
 from disting.report.guide import guide, guide_files
 from disting.report.index import Link, index
-from disting.report.matrix import figure, figure_png
+from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.motion import motion_page
 from disting.report.next_page import next_page
@@ -31,6 +31,7 @@ from disting.report.page import page
 from disting.report.search import ADDRESS, search_script
 from disting.report.sizes import sizes_page
 from disting.report.svg import svg
+from disting.report.words import VIEW_TITLES
 
 STYLE = "models/style.css"
 
@@ -99,10 +100,10 @@ def write_report(
     guide, with a reference of the `commands` where they are given, the search, and index.html.
 
     Of families with ground dampers, `dampers`, and of catalogues of several sizes, `across`, a page
-    each. The same catalogues give the same
-    bytes. `out` is made if it does not exist; other files in it stay as they are, and the index
-    leads to the pages of shipped catalogues and to other known pages among them too. Returns the
-    paths, in order.
+    each. Executed notebooks in the folder `notebooks` of `out` become pages of the guide. The same
+    catalogues and notebooks give the same bytes. `out` is made if it does not exist; other files
+    in it stay as they are, and the index leads to the pages of shipped catalogues and to other
+    known pages among them too. Returns the paths, in order.
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
@@ -117,7 +118,7 @@ def write_report(
     files = [file for c in catalogs for file in _files(c, pages)]
     files += [_damper_file(f, pages) for f in dampers]
     files += [(f"{s.name}.html", sizes_page(s, beside=pages).encode()) for s in across]
-    parts = guide(commands)
+    parts = guide(commands, _notebooks(out))
     files += guide_files(parts)
     files.append((ADDRESS, search_script(parts, pages, links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
@@ -126,6 +127,11 @@ def write_report(
     for folder in {(out / name).parent for name, _ in files}:
         folder.mkdir(parents=True, exist_ok=True)
     return [write_whole(out / name, content) for name, content in files]
+
+
+def _notebooks(out: Path) -> dict[str, str]:
+    """Texts of the executed notebooks in the folder `notebooks` there, by name."""
+    return {p.stem: p.read_text("utf-8") for p in sorted((out / "notebooks").glob("*.ipynb"))}
 
 
 def _beside(catalogs: Sequence[Catalog], out: Path) -> Iterator[Catalog]:
@@ -165,6 +171,8 @@ def _files(c: Catalog, pages: Families) -> Iterator[tuple[str, bytes]]:
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()
     yield f"{c.name}-matrix.png", figure_png(scene)
+    for view in VIEW_TITLES if has_slides(c) else ():
+        yield slide_name(c, view), slide_png(c, view)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
     found = found_for(c)

@@ -89,6 +89,34 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
     assert str(verdict.relation) in cited and cited.endswith(tab.url)
 
 
+def test_two_curves_fall_as_the_sentence_says(visit) -> None:  # type: ignore[no-untyped-def]
+    """Where the curves fall unequally above all resonances, both are drawn with example values;
+    what they do is computed from the curves, the sentence from degrees.
+    """
+    tab = visit(SMALL)
+    drawn = {}
+    for low, high, found in catalog(3, damped=True).pairs(View.POSITIVE):
+        tab.evaluate("(pair) => { location.hash = pair; }", f"#{low}-{high}")
+        tab.wait_for_function(
+            "(t) => document.querySelector('[data-slot=title]').textContent === t",
+            arg=f"A{low} and A{high}",
+        )
+        if tab.is_visible('[data-slot="curves"]'):
+            assert found.decided_by == "1"
+            drawn[low, high] = tab.inner_text("#curves-said")
+        else:
+            assert "a decade more" not in tab.inner_text('[data-slot="shown"]'), (low, high)
+    ends = r"stays level|falls by (\d+) dB a decade"
+    falls = {pair: [int(fall or 0) for fall in re.findall(ends, drawn[pair])] for pair in drawn}
+    ranks = {row.number: row for row in catalog(3, damped=True).rows}
+    assert len(drawn) == 26 and all(
+        fall == 20 * (ranks[number].denominator_degree - ranks[number].numerator_degree)
+        for pair, both in falls.items()
+        for number, fall in zip(pair, both, strict=True)
+    )
+    assert tab.locator("#curves path.curve").count() == 2
+
+
 def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.mouse.click(**_place(tab, 2, 5))
@@ -327,6 +355,28 @@ def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore
     assert "Cop" in tab.inner_text("[data-copy] >> nth=-1") or "Ctrl" in tab.inner_text(
         "[data-copy] >> nth=-1"
     )
+
+
+@pytest.mark.parametrize("width", [320, 390])
+def test_the_names_of_the_last_fields_are_whole(visit, width: int) -> None:  # type: ignore[no-untyped-def]
+    tab = visit(LARGE, width)
+    tab.evaluate(
+        """() => {
+          window.written = [];
+          const of = CanvasRenderingContext2D.prototype, fill = of.fillText;
+          of.fillText = function (text, ...rest) {
+            const { e, f } = this.getTransform();
+            window.written.push([text, this.canvas.width - e, this.canvas.height - f]);
+            fill.call(this, text, ...rest);
+          };
+          location.hash = "#72-73";
+        }"""
+    )
+    _settle(tab)
+    written = [one for one in tab.evaluate("window.written") if one[0].startswith("A")]
+    assert {"A72", "A73"} <= {text for text, _, _ in written}
+    half = 5.5 * tab.evaluate("devicePixelRatio")  # of a name's height
+    assert all(right >= half and below >= half for _, right, below in written)
 
 
 @pytest.mark.parametrize("width", [320, 390, 1280])

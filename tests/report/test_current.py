@@ -3,6 +3,7 @@ PNG to the pixel.
 """
 
 import io
+import shutil
 from pathlib import Path
 
 import pytest
@@ -31,6 +32,7 @@ def written_anew(folder: Path) -> dict[str, Path]:
     for address in others(REPORTS):
         (folder / address).parent.mkdir(exist_ok=True)
         (folder / address).touch()
+    shutil.copytree(REPORTS / "notebooks", folder / "notebooks")
     kinds = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
     dampers = [damper_catalog(n, damped=damped) for n, damped in kinds if n in DAMPER_SIZES]
     shipped = [catalog(n, damped=damped) for n, damped in kinds]

@@ -15,12 +15,12 @@ from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.dampers import DamperSets
 from disting.errors import InputError
 from disting.report import damper_page
-from disting.report.damper_drawing import ground_dampers, shared
 from disting.report.damper_page import counts
 from disting.report.damper_payload import bits, mirror, numbered, payload
 from disting.report.damper_thumbnail import runs
 from disting.report.drawing import draw
 from disting.report.families import families
+from disting.report.page_drawing import ground_dampers, shared
 from disting.report.scene import Ink
 from disting.verdict import Relation
 
@@ -86,7 +86,7 @@ def test_the_mirror_is_the_one_of_the_free_part(found: DamperFamily) -> None:
 
 
 def test_shared_drawings_are_the_single_ones(found: DamperFamily) -> None:
-    parts, drawings = shared(tuple(found.family))
+    parts, drawings = shared(dict(enumerate(found.family, 1)))
     layers = [part.layer for part in parts]
     assert len(set(layers)) == len(layers)
     for chain, drawing in zip(found.family, drawings, strict=True):

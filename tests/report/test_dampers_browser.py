@@ -374,12 +374,23 @@ def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None: 
     ) or "That is no verdict" in tab.text_content("#counts")
 
 
-@pytest.mark.parametrize("width", [390, 1280])
+@pytest.mark.parametrize("width", [320, 390, 1280])
 def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     # never two fragments of one page in turn: the second would not load it
     for path in (PAIR, LARGE, SMALL + "#A3"):
         tab = visit(path, width)
         assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, path
+        # nor does the panel: no column of its table is cut off, whatever the names
+        tab.evaluate(
+            "slot('facts').querySelectorAll('tbody th').forEach((e) => e.append(e.cloneNode(true)))"
+        )
+        for cut in ("#detail", ".beside"):
+            assert (
+                tab.evaluate(
+                    f"(({{ scrollWidth, clientWidth }}) => scrollWidth - clientWidth)(document.querySelector('{cut}'))"
+                )
+                <= 0
+            ), path
 
 
 @pytest.mark.parametrize(("path", "scheme"), [(PAIR, "dark"), (SMALL + "#A3", "light")], ids=str)

@@ -117,10 +117,7 @@ def told_again(data: dict[str, Any], **lies: Any) -> dict[str, Any]:
     """A liar who writes all that is derived anew, sentences included."""
     from disting.verdict.verdict_file import as_file, read_file
 
-    stored = read_file(data | lies)
-    return as_file(
-        stored.chains, stored.query, stored.settings, stored.verdict, stored.over_complex
-    )
+    return as_file(read_file(data | lies))
 
 
 def test_who_alters_a_verdict_and_all_that_is_derived_from_it_is_found_too() -> None:

@@ -70,6 +70,14 @@
     figure.append(svg, caption);
     return figure;
   });
+  const compare = (numbers, v) => { // both curves, where how they fall is what differs
+    const figure = slot("curves"), [svg, caption] = figure.children;
+    figure.hidden = !data.chains || v.relation !== "distinguishable" || v.by !== "1";
+    if (figure.hidden) return;
+    const models = numbers.map((i) => [chainOf(data.masses, data.damped, data.chains[i - 1], data.order), data.values[i - 1]]);
+    caption.textContent = twoCurves(svg, models, numbers.map(nameOf));
+    figure.hidden = !caption.textContent;
+  };
   const takeAway = (low, high, v) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
     slot("takeaway").hidden = Boolean(data.names);
     if (data.names) return;
@@ -85,6 +93,7 @@
     const v = verdict(low, high, view);
     put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: v.why, formula: v.formula, link: "", next: further(low, high) });
     explain(v);
+    compare([low, high], v);
     slot("sketches").replaceChildren(...sketches(`${low}-${high}`));
     slot("badge").className = `badge ${v.relation}`;
     slot("where").textContent = `over ${v.domain} parameters${v.by ? ` (${v.rule})` : ""}`;
@@ -117,7 +126,7 @@
     slot("sketches").replaceChildren();
     slot("badge").className = "badge";
     draw("left", model);
-    slot("right-figure").hidden = slot("views").hidden = slot("algebra").hidden = slot("takeaway").hidden = true;
+    slot("right-figure").hidden = slot("curves").hidden = slot("views").hidden = slot("algebra").hidden = slot("takeaway").hidden = true;
     if (limits) fillLimits(model, others);
     slot("link").replaceChildren(...(names.page(model) ? [linkTo(names.page(model), `Formulas and identifiability of ${nameOf(model)}`)] : []));
     byId("status").textContent = `${nameOf(model)}. ${slot("shown").textContent}`;
