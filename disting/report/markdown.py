@@ -60,11 +60,19 @@ class GuidePage:
         return tuple((s.anchor, s.title) for s in self.sections if s.level == 2)
 
 
+NOTHING: Mapping[str, str] = MappingProxyType({})
+
+
 def guide_page(
-    name: str, text: str, known: Container[str], drawings: Mapping[str, str] = MappingProxyType({})
+    name: str,
+    text: str,
+    known: Container[str],
+    drawings: Mapping[str, str] = NOTHING,
+    outputs: Mapping[str, str] = NOTHING,
 ) -> GuidePage:
     """A page of Markdown whose first block is its title; `known`: names of the pages that links
-    may lead to; `drawings`: SVG by the names of the files that images may name.
+    may lead to; `drawings`: SVG by the names of the files that images may name; `outputs`: HTML
+    in the place of blocks, by what these are named.
 
     >>> text = "# Title\\n\\n## Of *one*\\n\\nSee [b](b.md) and [code](../b.py), <b>."
     >>> page = guide_page("a", text, ["a", "b"])
@@ -87,7 +95,9 @@ def guide_page(
             if [child.type for child in token.children] == ["image"]:
                 before.hidden = after.hidden = True  # a figure is no part of a paragraph
     title = _words(tokens[1])
-    found = parser.renderer.render(tokens[3:], parser.options, {"drawings": drawings})
+    found = parser.renderer.render(
+        tokens[3:], parser.options, {"drawings": drawings, "outputs": outputs}
+    )
     return GuidePage(name, title, sections, Markup(found))
 
 
@@ -136,7 +146,11 @@ def _picture(model: str) -> str:
     return FIGURE.format(drawn, f"{name}: {scene.title}")
 
 
-def _code(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
+def _code(
+    _: object, tokens: Sequence[Token], place: int, __: object, env: Mapping[str, Mapping[str, str]]
+) -> str:
+    if tokens[place].info in env["outputs"]:
+        return env["outputs"][tokens[place].info]
     if tokens[place].info == "picture":
         return _pictures(tokens[place].content.splitlines())
     return f'<pre tabindex="0"><code>{escape(tokens[place].content.rstrip())}</code></pre>\n'
