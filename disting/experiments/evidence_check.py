@@ -75,7 +75,8 @@ def confirms(
         case FibreUnder():
             return _missed(evidence, left, right)
         case Solved() | Refuted():
-            return seen_again(evidence, *matched(left, right))
+            # normalised coordinates are those of a chain alone
+            return not evidence.is_normalised and seen_again(evidence, *matched(left, right))
         case BothWays():
             return _both_ways(evidence, left, right)
     return False  # it speaks of other models

@@ -47,7 +47,8 @@ def confirms_models(
         case Constants():
             return _differ(evidence, left, right)
         case Solved() | Refuted():
-            return seen_again(evidence, *_maps(left, right), AGAIN)
+            # normalised coordinates are those of a chain
+            return not evidence.is_normalised and seen_again(evidence, *_maps(left, right), AGAIN)
         case Theorem():
             return evidence.name == "Foster and Cauer" and are_one_ports(left, right)
         case Explicit():
