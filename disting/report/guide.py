@@ -7,7 +7,7 @@ there (`disting.report.reference`).
 
 import argparse
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from importlib.resources import files
 
@@ -28,13 +28,15 @@ class Part:
     pages: tuple[GuidePage, ...]
 
 
-def guide(commands: argparse.ArgumentParser | None = None) -> tuple[Part, ...]:
+def guide(
+    commands: argparse.ArgumentParser | None = None, beside: Collection[str] = ()
+) -> tuple[Part, ...]:
     """All pages, part by part, the listing first; `commands`: the command line, whose reference
-    is the last page then.
+    is the last page then; `beside`: addresses of the site's further pages, to which links lead.
     """
     texts = guide_texts()
-    drawings = _files(".svg")
-    pages = {name: guide_page(name, text, texts, drawings) for name, text in texts.items()}
+    drawings, known = _files(".svg"), {*texts, *beside}
+    pages = {name: guide_page(name, text, known, drawings) for name, text in texts.items()}
     made = (*python_pages(), *([command_page(commands)] if commands else []))
     *parts, last = [
         Part(title, tuple(pages[name] for name in names)) for title, names in guide_parts(texts)

@@ -1,10 +1,11 @@
 """Pages of Markdown as pages of the site.
 
 Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
-to another page of the guide leads to the rendered page; a link that leads out of the guide has no
-place in the site and stays as its words. An image is a drawing (SVG) beside the pages, and becomes
-a part of the page. A block named "picture" holds a model a line, such as `3:1 --damped`, and is
-shown as their drawings; what follows a name is for those who read the text.
+to another page of the guide leads to the rendered page, one into `reports` to what stands in the
+site; a link that leads elsewhere has no place in the site and stays as its words. An image is a
+drawing (SVG) beside the pages, and becomes a part of the page. A block named "picture" holds a
+model a line, such as `3:1 --damped`, and is shown as their drawings; what follows a name is for
+those who read the text.
 """
 
 import re
@@ -29,6 +30,7 @@ LONG = 40
 ENLARGED = 1.4  # drawings of chains
 FIGURE = Markup('<figure class="picture">{}<figcaption>{}</figcaption></figure>\n')
 ADDRESS = re.compile(r"([a-z0-9-]+)\.md(#[\w-]+)?")
+REPORTS = "../../reports/"  # the shipped site, as seen from the guide's folder
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +66,8 @@ def guide_page(
     name: str, text: str, known: Container[str], drawings: Mapping[str, str] = MappingProxyType({})
 ) -> GuidePage:
     """A page of Markdown whose first block is its title; `known`: names of the pages that links
-    may lead to; `drawings`: SVG by the names of the files that images may name.
+    may lead to, and addresses of further pages of the site; `drawings`: SVG by the names of the
+    files that images may name.
 
     >>> text = "# Title\\n\\n## Of *one*\\n\\nSee [b](b.md) and [code](../b.py), <b>."
     >>> page = guide_page("a", text, ["a", "b"])
@@ -231,5 +234,8 @@ def _rendered(address: str, known: Container[str]) -> str:
     """Where a link of a page leads in the site; empty if that is nowhere."""
     if address.startswith("#"):
         return address
+    if address.startswith(REPORTS):
+        further = address.removeprefix(REPORTS)
+        return f"../{further}" if further in known else ""
     match = ADDRESS.fullmatch(address)
     return f"{match[1]}.html{match[2] or ''}" if match and match[1] in known else ""

@@ -72,6 +72,26 @@ PAGES: tuple[SitePage, ...] = (
         )
     ),
     *(
+        SitePage(link=(f"notebooks/{name}.ipynb", f"Notebook: {title}", text))
+        for name, title, text in (
+            (
+                "structure-and-behaviour",
+                "structure and behaviour",
+                "a lecture: twins, an explicit map, what can be determined; Jupyter opens it",
+            ),
+            (
+                "bench-commissioned",
+                "a bench commissioned",
+                "records are read, checked and fitted, and what to measure next; Jupyter opens it",
+            ),
+            (
+                "own-models",
+                "your own models",
+                "state spaces, their matrix and groups; Jupyter opens it",
+            ),
+        )
+    ),
+    *(
         SitePage(
             link=(
                 address,
@@ -109,7 +129,7 @@ def write_report(
     with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
     files = [file for c in catalogs for file in _files(c, with_dampers)]
     files += [_damper_file(f, names) for f in dampers]
-    parts = guide(commands)
+    parts = guide(commands, [address for address, *_ in links])
     files += guide_files(parts)
     files.append((ADDRESS, search_script(parts, sizes(listed, families), links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))

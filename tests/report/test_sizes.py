@@ -1,17 +1,12 @@
-"""The page of models of several sizes: its counts, its fields, its words; a browser finds no
-barrier.
-"""
-
-from pathlib import Path
+"""The page of models of several sizes: its counts, its fields, its words."""
 
 import pytest
 
 from disting.catalogs.combined import combined
 from disting.questions.inclusion import Inclusion, Sense
 from disting.report.scene import Text
-from disting.report.sizes import between, figure, outside, sizes_page, write_sizes
+from disting.report.sizes import between, figure, outside, sizes_page
 from disting.verdict import Decisions, Query
-from tests.report.barriers import barriers
 
 
 @pytest.fixture(scope="module")
@@ -52,15 +47,3 @@ def test_the_page_says_it_in_words(decided: Decisions) -> None:
 def test_what_is_not_known_is_said() -> None:
     text = sizes_page(combined((1, 2), query=Query(inclusion=False)))
     assert "<strong>3</strong> it is not known" in text
-
-
-@pytest.fixture(scope="module")
-def site(decided: Decisions, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_sizes(decided, tmp_path_factory.mktemp("sizes")).parent
-
-
-@pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
-def test_the_page_has_no_serious_barrier_and_fits(visit, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    tab = visit("sizes-undamped.html", width, scheme)
-    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
-    assert barriers(tab) == []
