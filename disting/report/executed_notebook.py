@@ -10,9 +10,10 @@ from collections.abc import Container, Iterator, Mapping
 from markupsafe import Markup, escape
 
 from disting.errors import InputError, shown
+from disting.report.markdown import PREFIX as PREFIX
 from disting.report.markdown import GuidePage, guide_page
 
-PREFIX = "notebook-"  # of the names of these pages
+OPENED = Markup('<p>Jupyter opens it: <a href="../notebooks/{0}.ipynb">{0}.ipynb</a>.</p>\n')
 MADE = Markup('<div class="output" tabindex="0" role="group" aria-label="Output">{}</div>\n')
 PICTURE = Markup('<img alt="Figure that the code above draws" src="data:image/png;base64,{}">')
 
@@ -39,14 +40,16 @@ def notebook_page(name: str, text: str, known: Container[str]) -> GuidePage:
             f"output {number}": MADE.format(made)
             for number, cell in enumerate(cells)
             if (made := Markup("").join(_made(cell)))
-        }
+        } | {"file": OPENED.format(name)}
         parts = [
             part for number, cell in enumerate(cells) for part in _parts(number, cell, outputs)
         ]
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         raise InputError(f"{shown(name)} is no executed notebook: {error}") from error
     title = [] if parts and parts[0].startswith("# ") else [f"# {name}"]
-    return guide_page(PREFIX + name, "\n\n".join(title + parts), known, outputs=outputs)
+    return guide_page(
+        PREFIX + name, "\n\n".join([*title, *parts, "```file\n```"]), known, outputs=outputs
+    )
 
 
 def _parts(number: int, cell: Mapping[str, object], outputs: Container[str]) -> Iterator[str]:

@@ -1,10 +1,10 @@
 """Pages of Markdown as pages of the site.
 
 Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
-to another page of the guide leads to the rendered page; a link that leads out of the guide has no
-place in the site and stays as its words. An image is a drawing (SVG) beside the pages, and becomes
-a part of the page. A block named "picture" holds a model a line, such as `3:1 --damped`, and is
-shown as their drawings; what follows a name is for those who read the text.
+to another page of the guide, or to a notebook, leads to the rendered page; a link that leads
+elsewhere has no place in the site and stays as its words. An image is a drawing (SVG) beside the
+pages, and becomes a part of the page. A block named "picture" holds a model a line, such as `3:1
+--damped`, and is shown as their drawings; what follows a name is for those who read the text.
 """
 
 import re
@@ -29,6 +29,8 @@ LONG = 40
 ENLARGED = 1.4  # drawings of chains
 FIGURE = Markup('<figure class="picture">{}<figcaption>{}</figcaption></figure>\n')
 ADDRESS = re.compile(r"([a-z0-9-]+)\.md(#[\w-]+)?")
+NOTEBOOK = re.compile(r"\.\./\.\./reports/notebooks/([\w-]+)\.ipynb")
+PREFIX = "notebook-"  # of the names of pages of executed notebooks
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,5 +247,8 @@ def _rendered(address: str, known: Container[str]) -> str:
     """Where a link of a page leads in the site; empty if that is nowhere."""
     if address.startswith("#"):
         return address
+    if notebook := NOTEBOOK.fullmatch(address):
+        name = f"{PREFIX}{notebook[1]}"
+        return f"{name}.html" if name in known else ""
     match = ADDRESS.fullmatch(address)
     return f"{match[1]}.html{match[2] or ''}" if match and match[1] in known else ""

@@ -19,9 +19,11 @@ from disting.catalogs.sizes_files import name_of as sizes_name
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
+from disting.report.executed_notebook import PREFIX
 from disting.report.families import Families, families
 from disting.report.guide import guide, guide_files
 from disting.report.index import Link, index
+from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.motion import motion_page
@@ -119,6 +121,7 @@ def write_report(
     files += [_damper_file(f, pages) for f in dampers]
     files += [(f"{s.name}.html", sizes_page(s, beside=pages).encode()) for s in across]
     parts = guide(commands, _notebooks(out))
+    links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
     files += guide_files(parts)
     files.append((ADDRESS, search_script(parts, pages, links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
@@ -127,6 +130,11 @@ def write_report(
     for folder in {(out / name).parent for name, _ in files}:
         folder.mkdir(parents=True, exist_ok=True)
     return [write_whole(out / name, content) for name, content in files]
+
+
+def _link(notebook: GuidePage) -> Link:
+    """What leads from the index to the page of a notebook."""
+    return (f"guide/{notebook.name}.html", f"Notebook: {notebook.title}", "with code and outputs")
 
 
 def _notebooks(out: Path) -> dict[str, str]:

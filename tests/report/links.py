@@ -1,4 +1,62 @@
-"""Follow a link as a reader does: what is read next is read after the page has answered."""
+"""Links of pages: where they lead, and how a reader follows them."""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from tests.report.outline import Outline
+
+REPORTS = Path(__file__).parents[2] / "reports"
+COPIED = "paper"  # takes minutes, so tests take it from the shipped site, within which it leads
+NUMBER = r"(?:A?\d+)"
+SETS = rf"{NUMBER}(?:\+b\d)*"
+# what the scripts of a page understand beside the names of its parts
+UNDERSTOOD = {
+    "chains-": rf"{NUMBER}|{NUMBER}[-:]{NUMBER}",
+    "sizes-": rf"\d:{NUMBER}(?:-\d:{NUMBER})?",
+    "list-": rf"{NUMBER}-{NUMBER}",
+    "dampers-": rf"{SETS}|{SETS}/{SETS}|group-\d+",
+    "motion-": rf"{NUMBER}-{NUMBER}(?:,present)?",
+    "index": r"machine=[\w,]+",
+}
+
+
+@cache
+def outline(page: Path) -> Outline:
+    """What stands in a page, read once."""
+    return Outline(page.read_text(encoding="utf-8"))
+
+
+def is_there(page: Path, link: str) -> bool:
+    """Whether a link of a page leads to a file, and within it to a part or to what its script
+    understands.
+    """
+    address = urlsplit(link)
+    if page.parent.name == COPIED:
+        page = REPORTS / COPIED / page.name
+    target = (page.parent / unquote(address.path)).resolve() if address.path else page.resolve()
+    if address.scheme not in ("", "data") or not (address.scheme or target.is_file()):
+        return False
+    if not address.fragment:
+        return True
+    understood = next((u for name, u in UNDERSTOOD.items() if target.name.startswith(name)), "(?!)")
+    fragment = unquote(address.fragment)
+    return fragment in _anchors(target) or re.fullmatch(understood, fragment) is not None
+
+
+@cache
+def _anchors(page: Path) -> frozenset[str]:
+    return frozenset(str(a["id"]) for _, a in outline(page).elements if "id" in a)
+
+
+def dead_links(page: Path) -> Iterator[str]:
+    """Links and sources of a page that lead nowhere."""
+    for tag, attributes in outline(page).elements:
+        link = attributes.get("href") or attributes.get("src")
+        if link and tag not in ("use", "mpath") and not is_there(page, link):
+            yield link
 
 
 def follow_link(tab, link: str) -> None:  # type: ignore[no-untyped-def]

@@ -15,7 +15,6 @@ from disting.report import page, write_report
 from disting.verdict import View
 from disting.verdict.shown import shown
 from tests.cli.process import called
-from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
@@ -379,19 +378,6 @@ def test_the_names_of_the_last_fields_are_whole(visit, width: int) -> None:  # t
     assert all(right >= half and below >= half for _, right, below in written)
 
 
-@pytest.mark.parametrize("width", [320, 390, 1280])
-def test_no_page_scrolls_sideways(visit, width: int) -> None:  # type: ignore[no-untyped-def]
-    for path in (
-        START,
-        SMALL + "#2-5",
-        LARGE,
-        "models/3-damped/1.html",
-        "models/3-undamped/6.html",
-    ):
-        tab = visit(path, width)
-        assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, path
-
-
 @pytest.mark.parametrize("width", [390, 1280])
 def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#9-10", width)
@@ -399,26 +385,6 @@ def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[
     field, sheet = (tab.locator(s).bounding_box() for s in (CURSOR, "#detail"))
     below = sheet["y"] if width == 390 else 800
     assert field["y"] > 0 and field["y"] + field["height"] < below
-
-
-@pytest.mark.parametrize(
-    ("path", "scheme"),
-    [
-        (START, "light"),
-        (SMALL + "#2-5", "dark"),
-        (SMALL + "#2-5", "light"),
-        ("models/3-damped/3.html", "dark"),
-    ],
-)
-def test_there_is_no_serious_barrier(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    tab = visit(path, 390 if scheme == "dark" else 1280, scheme)
-    assert barriers(tab) == []
-
-
-def test_a_barrier_would_be_found(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
-    nameless = '<!doctype html><html lang="en"><title>t</title><main><button></button></main>'
-    (site / "barrier.html").write_text(nameless, encoding="utf-8")
-    assert [rule for rule, _, _ in barriers(visit("barrier.html"))] == ["button-name"]
 
 
 def test_printing_shows_the_matrix_and_no_controls(visit) -> None:  # type: ignore[no-untyped-def]

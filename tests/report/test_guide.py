@@ -17,7 +17,6 @@ from markdown_it import MarkdownIt
 from disting.catalogs import catalog
 from disting.cli.parser import parser
 from disting.errors import InputError
-from disting.files import __version__
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
 from disting.model.names import chain_of
@@ -91,26 +90,6 @@ def test_every_page_is_in_the_site_with_its_title_and_headings() -> None:
         images = len(re.findall(r"^!\[", text, re.MULTILINE))
         assert outline.count("figure") == images + sum(len(d.splitlines()) for d in drawn)
         assert outline.count("a", **{"aria-current": "page"}) == 1
-
-
-def test_no_link_and_no_anchor_is_dead() -> None:
-    ids = {
-        name: [a["id"] for _, a in Outline(text).elements if "id" in a]
-        for name, text in written().items()
-        if "html" in name
-    }
-    for name, text in written().items():
-        if not name.endswith(".html"):
-            continue
-        assert len(ids[name]) == len(set(ids[name]))
-        links = [str(a["href"]) for tag, a in Outline(text).elements if tag == "a"]
-        assert len(links) > len(ids)
-        for link in links:
-            target, _, anchor = link.partition("#")
-            page = f"guide/{target.removeprefix('../guide/')}" if target else name
-            assert link == "../index.html" or (
-                page in ids and (not anchor or anchor in ids[page])
-            ), (name, link)
 
 
 def test_links_lead_to_files_and_the_listing_to_every_page() -> None:
@@ -249,19 +228,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(
-    ("width", "scheme", "read"),
-    [(320, "dark", "decisions"), (320, "light", "commands"), (1280, "light", "python-measurement")],
-)
-def test_pages_are_legible_and_only_boxes_scroll(visit, width: int, scheme: str, read: str) -> None:  # type: ignore[no-untyped-def]
-    names = [page.name for part in parts() for page in part.pages]
-    for name in names if (width, scheme) == (320, "dark") else [read]:
-        tab = visit(f"guide/{name}.html", width, scheme)
-        assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0, name
-    tab = visit(f"guide/{read}.html", width, scheme)
-    assert barriers(tab) == []
-
-
 def found(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
     """Titles of what is found."""
     tab.fill("#finder", text)
@@ -317,18 +283,6 @@ def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
     assert len(data["sections"]) > 500
     for place, anchor, title, _ in data["sections"]:
         assert title and anchor in ids[data["pages"][place][0]], (place, anchor)
-
-
-def test_every_page_of_the_site_has_the_same_bar(site: Path) -> None:
-    pages = sorted(site.rglob("*.html"))
-    assert len(pages) > 50
-    for path in pages:
-        outline = Outline(path.read_text(encoding="utf-8"))
-        links = [str(a["href"]) for tag, a in outline.elements if "href" in a]
-        root = "../" * (len(path.relative_to(site).parts) - 1)
-        for page in ("index", "guide/start", "guide/index", "guide/glossary"):
-            assert f"{root}{page}.html" in links, path
-        assert outline.count("link", rel="icon") == 1 and f"disting {__version__}" in outline.text
 
 
 def test_executed_notebooks_are_pages_with_their_outputs(tmp_path: Path) -> None:

@@ -18,7 +18,6 @@ from disting.report import write_report
 from disting.report.describe_machine import descriptions, machines, part_name, parts
 from disting.report.drawing import draw
 from disting.report.index import index
-from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
@@ -210,16 +209,6 @@ def test_a_size_with_one_kind_offers_that_kind(visit, site: Path) -> None:  # ty
 def test_without_catalogues_nothing_is_asked(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
     (site / "empty.html").write_text(index([]), encoding="utf-8")
     assert visit("empty.html").locator("#machine").count() == 0
-
-
-@pytest.mark.parametrize(("width", "scheme"), [(320, "light"), (390, "dark"), (1280, "light")])
-def test_it_is_legible_everywhere(visit, site: Path, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    tab = visit("index.html", width, scheme)
-    list(_described(tab, [Chain(5, 2, 2, 5, 1, 4)]))
-    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
-    box = tab.locator("#machine svg").bounding_box()
-    assert box["width"] > min(300, width - 70) and box["height"] > 65
-    assert barriers(tab, context="#machine") == []
 
 
 def test_the_page_stays_small(site: Path) -> None:

@@ -230,17 +230,3 @@ def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[n
     tab.click("#detail summary")
     assert tab.inner_text("#detail .why").startswith("{L} has a numerator of degree 0")
     assert "{R} and {L} a numerator" in tab.inner_text("#detail .why")
-
-
-@pytest.mark.parametrize(
-    ("path", "scheme"), [(f"{NAME}.html#1-2", "light"), ("list-hostile.html", "dark")]
-)
-def test_pages_are_accessible_and_only_boxes_scroll(visit, path: str, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    axe = pytest.importorskip(
-        "axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed"
-    )
-    width = 390 if scheme == "dark" else 1280
-    tab = visit(path, width, scheme)
-    found = axe.Axe().run(tab, options={"preload": False}).response["violations"]
-    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found] == []
-    assert tab.evaluate("document.documentElement.scrollWidth") == width

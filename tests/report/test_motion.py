@@ -24,7 +24,6 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report import write_report
 from disting.report.motion import motion_page, start_values
-from tests.report.barriers import barriers
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
@@ -452,23 +451,6 @@ def test_less_motion_is_respected(visit, site: Path) -> None:  # type: ignore[no
     assert tab.inner_text("#play") == "Play" and float(tab.input_value("#time")) == 0
     tab.click("#play")
     tab.wait_for_function("() => +document.getElementById('time').value > 0")
-
-
-@pytest.mark.parametrize(
-    ("path", "width", "scheme"),
-    [
-        (SMALL + "#A1-A11", 1280, "light"),
-        (SMALL + "#A1-A4", 390, "dark"),
-        (SMALL + "#A1-A4,present", 1280, "dark"),
-        (LARGER + "#A1-A5", 320, "light"),
-    ],
-)
-def test_everyone_can_use_it(visit, path: str, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
-    tab = visit(path, width, scheme)
-    tab.wait_for_function("() => document.getElementById('how').textContent", timeout=PATIENT)
-    tab.evaluate("() => document.getElementById('play').click()")
-    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
-    assert barriers(tab) == []
 
 
 def test_the_pages_stay_small(site: Path) -> None:

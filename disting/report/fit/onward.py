@@ -50,13 +50,20 @@ class Site:
             (self._link(*page) for page in _pages(chain) if (self.root / page[1]).is_file()), None
         )
 
+    @property
+    def home(self) -> str | None:
+        """What the addresses of its pages begin with; None where it has no guide."""
+        there = (self.root / "guide" / "index.html").is_file()
+        return f"{self._way(self.root.resolve())}/" if there else None
+
     def _link(self, name: str, file: str, fragment: str) -> Link:
-        target = (self.root / file).resolve()
+        return Link(name, self._way((self.root / file).resolve()) + fragment)
+
+    def _way(self, target: Path) -> str:
         try:
-            way = quote(fsencode(Path(relpath(target, self.folder.resolve())).as_posix()))
+            return quote(fsencode(Path(relpath(target, self.folder.resolve())).as_posix()))
         except ValueError:  # another drive
-            way = target.as_uri()
-        return Link(name, way + fragment)
+            return target.as_uri()
 
 
 @dataclass(frozen=True, slots=True)

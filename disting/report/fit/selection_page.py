@@ -63,7 +63,8 @@ def fit_page(
     """HTML of a selection; `results` and `figures` are those of the described candidate, Bode
     diagram and residuals of each response first.
 
-    `site`: where the pages of the catalogues lie, to which the structures are linked.
+    `site`: where the pages of the catalogues and the guide lie, to which structures and bar are
+    linked.
     """
     candidate = selection.described
     shown = shown_responses(selection, train, test, figures)
@@ -97,6 +98,7 @@ def fit_page(
         suspicions=suspicions(selection),
         steps=next_steps(selection),
         members=shown_set(selection, train, site),
+        home=site.home if site else None,
         folded=FOLDED,
         first=FIRST,
         name=name,

@@ -62,12 +62,6 @@ def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection)
     assert column(1) == list(range(1, len(selection.candidates) + 1))
 
 
-@pytest.mark.parametrize("width", [390, 1280])
-def test_the_page_never_scrolls_sideways(tab, width: int) -> None:  # type: ignore[no-untyped-def]
-    tab.set_viewport_size({"width": width, "height": 800})
-    assert tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
-
-
 def test_figures_follow_light_and_dark(tab) -> None:  # type: ignore[no-untyped-def]
     def paper() -> str:
         return str(tab.evaluate("getComputedStyle(document.querySelector('.plot path')).fill"))

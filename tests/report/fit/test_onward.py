@@ -51,6 +51,14 @@ def test_pages_beside_are_found_and_addresses_are_quoted(tmp_path: Path) -> None
     assert beside(tmp_path) == tmp_path
 
 
+def test_a_page_finds_the_way_home_where_there_is_a_guide(tmp_path: Path) -> None:
+    assert Site(REPORTS, REPORTS / "fit").home == "../" and Site(REPORTS, REPORTS).home == "./"
+    (tmp_path / "a b" / "guide").mkdir(parents=True)
+    assert Site(tmp_path / "a b", tmp_path).home is None
+    (tmp_path / "a b" / "guide" / "index.html").touch()
+    assert Site(tmp_path / "a b", tmp_path).home == "a%20b/"
+
+
 @pytest.fixture(scope="module")
 def both(selection: Selection) -> Selection:
     """As if the data excluded neither of two structures."""

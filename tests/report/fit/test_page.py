@@ -186,7 +186,8 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(
     assert nothing.selected is None
     said = " ".join(empty.text.split())
     assert said.startswith(
-        "Fit: no admissible model disting 0.1.0 No model is admissible Each of the 3 fitted candidates"
+        "Fit: no admissible model disting 0.1.0 Help: disting fit --help Guide and glossary: disting"
+        " report 3 writes them No model is admissible Each of the 3 fitted candidates"
     )
     first = nearest(nothing)[0]
     assert all(reason in said for reason in first.reasons)

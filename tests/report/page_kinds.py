@@ -1,0 +1,117 @@
+"""Every kind of page that is written, and a folder with all of them."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+from disting import Engine
+from disting.catalogs import catalog
+from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.sizes_files import sizes_catalog
+from disting.cli.parser import parser
+from disting.fit.candidates import figure_1
+from disting.fit.joint import Further
+from disting.fit.select import Selection, select
+from disting.fit.setup import Setup
+from disting.measurement import FrequencyResponse
+from disting.report import write_report
+from disting.report.fit import fit_page, waterfall, write_fit_report
+from disting.report.fit.onward import Site
+from disting.report.fit.style import Drawn
+from disting.report.model_list import judged, write_model_list
+from tests.report.fit.conftest import DRIVE, response
+from tests.report.fit.test_responses import data
+from tests.report.test_model_list import MODELS, hostile, of
+
+REPORTS = Path(__file__).parents[2] / "reports"
+SHIPPED = ("paper", "notebooks")  # parts of the site that other commands write, in minutes
+LONG = (
+    "fit", "glossary", "theorems", "notebook", "notebook-bench-commissioned", "commands",
+    "python-measurement",
+)  # fmt: skip
+SIGHTS = ((1280, 800), (1920, 1080), (390, 844), (320, 640))
+SCHEMES = ("light", "dark")
+
+
+def kinds(masses: int) -> dict[str, str]:
+    """Addresses of pages of every kind, for chains of so many masses, in the folder that
+    `write_all` writes.
+    """
+    chains, dampers, motion = (
+        f"{kind}-{masses}-damped.html" for kind in ("chains", "dampers", "motion")
+    )
+    return {
+        "start": "index.html",
+        "start, a machine described": f"index.html#machine={masses},damped,2,2,{masses},1,3",
+        "catalogue": chains,
+        "catalogue, a pair": f"{chains}#2-5",
+        "catalogue, a model": f"{chains}#A5",
+        "list of models": "list-vessels.html#1-2",
+        "list of models alone, hostile": "alone/list-hostile.html",
+        "model": f"models/{masses}-damped/1.html",
+        "sizes": "sizes-damped.html",
+        "sizes, a pair": "sizes-damped.html#2:1-3:4",
+        "dampers": dampers,
+        "dampers, a pair": f"{dampers}#2+b1+b2/5+b1+b2+b3",
+        "dampers, a structure": f"{dampers}#A3",
+        "next": f"next-{masses}-damped.html",
+        "motion": f"{motion}#A1-A4",
+        "motion, presented": f"{motion}#A1-A2,present",
+        "guide": "guide/index.html",
+        **{f"guide, {name}": f"guide/{name}.html" for name in LONG},
+        "paper": "paper/index.html",
+        "fit": "fit/fit.html",
+        "fit of two responses": "alone/joint/fit.html",
+        "fit, nothing explains": "alone/nothing/fit.html",
+    }
+
+
+def write_all(folder: Path, masses: int, *, whole: bool) -> None:
+    """Write a site of chains of so many masses, and pages without one in `alone`; `whole`: fits with
+    all their figures and all their candidates.
+    """
+    for part in SHIPPED:
+        shutil.copytree(REPORTS / part, folder / part)
+    write_report(
+        [catalog(masses, damped=True)],
+        folder,
+        [damper_catalog(masses, damped=True)],
+        parser(),
+        across=[sizes_catalog(damped=True)],
+    )
+    engine = Engine()
+    write_model_list(judged(of(MODELS), engine), "Two vessels", "list-vessels", folder)
+    write_model_list(judged(hostile(), engine), "Hostile", "list-hostile", folder / "alone")
+    found = fits(whole)
+    starts = waterfall(found[0][1].described)
+    for address, selection, train, test in found:
+        if whole:
+            write_fit_report(selection, folder / address, train, test)
+        else:
+            _write_fit(selection, folder / address, train, starts)
+
+
+def fits(whole: bool) -> list[tuple[str, Selection, FrequencyResponse, FrequencyResponse]]:
+    """Where the pages of three fits lie, and what they show: an answer, two responses, none."""
+    train, test = response(0, 2, 1), response(1, 3, 2)
+    some = figure_1((1, 2)) if whole else [replace(DRIVE, dead_time=late) for late in (False, True)]
+    second = Setup("2")
+    further = Further(data(second, 2, 0.01), second, data(second, 3, 0.03))
+    both = data(Setup(), 10, 0.01), data(Setup(), 11, 0.03)
+    pair = [DRIVE, replace(DRIVE, ground_dampers=(1, 2))]
+    return [
+        ("fit", select(train, some, test=test), train, test),
+        ("alone/joint", select(both[0], pair, test=both[1], further=[further]), *both),
+        ("alone/nothing", select(train, figure_1((1,))[:2], test=test), train, test),
+    ]
+
+
+def _write_fit(selection: Selection, out: Path, train: FrequencyResponse, one: Drawn) -> None:
+    """The page of a fit with one figure, and empty files beside it."""
+    out.mkdir(parents=True, exist_ok=True)
+    page = fit_page(selection, [], [one], train, site=Site(out.parent, out))
+    (out / "fit.html").write_text(page, encoding="utf-8")
+    for name in ("svg", "png", "pdf"):
+        (out / f"{one.name}.{name}").touch()
+    for name in ("fit.json", "candidates.csv"):
+        (out / name).touch()

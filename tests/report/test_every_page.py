@@ -1,0 +1,162 @@
+"""Every kind of page in a real browser: all of it can be seen and reached by everyone, nothing is
+fetched, nothing goes wrong, every link leads somewhere, and the way to help is the same.
+
+By default on the smallest phone and on a desk; all sizes and schemes, with the largest catalogue,
+by hand.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from disting.files import __version__
+from tests.report.barriers import barriers
+from tests.report.links import dead_links, is_there, outline
+from tests.report.page_kinds import SCHEMES, SIGHTS, kinds, write_all
+from tests.report.sight import out_of_sight
+
+pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+KINDS, LARGEST = kinds(3), kinds(5)
+# axe takes seconds: by default it looks at one page of each template
+JUDGED = (
+    "start, a machine described", "catalogue, a pair", "list of models", "model", "sizes",
+    "dampers, a pair", "next", "motion", "motion, presented", "guide, glossary", "guide, commands", "fit",
+)  # fmt: skip
+WITHOUT_SITE = ("alone",)  # folders of pages that lie anywhere
+SETTLED = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("pages")
+    write_all(folder, 3, whole=False)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def largest(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("largest")
+    write_all(folder, 5, whole=True)
+    return folder
+
+
+def look(
+    window,
+    address: str,
+    sight: tuple[int, int],
+    scheme: str,
+    axe: bool = True,
+) -> list[object]:  # type: ignore[no-untyped-def]
+    """What is wrong with a page as it is shown in a window of this size."""
+    tab, wrong = window.new_page(), list[object]()
+    tab.on("console", lambda message: wrong.append(message.text))
+    tab.on("pageerror", lambda error: wrong.append(str(error)))
+    tab.on("request", lambda r: wrong.append(r.url) if not r.url.startswith("file:") else None)
+    tab.set_viewport_size(dict(zip(("width", "height"), sight, strict=True)))
+    tab.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    tab.goto(address)
+    if "motion-" in address:  # until machine 2 is found
+        tab.wait_for_function("() => document.getElementById('how').textContent", timeout=120_000)
+    tab.evaluate(SETTLED)
+    wrong += [*out_of_sight(tab), *(barriers(tab) if axe else [])]
+    here = Path(tab.evaluate("decodeURIComponent(location.pathname)"))
+    links = tab.eval_on_selector_all("a[href]", "all => all.map((a) => a.getAttribute('href'))")
+    wrong += [link for link in set(links) if not is_there(here, link)]
+    tab.close()
+    return wrong
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_can_be_seen_and_reached(window, site: Path, kind: str) -> None:  # type: ignore[no-untyped-def]
+    address, turn = f"{site.as_uri()}/{KINDS[kind]}", list(KINDS).index(kind) % 2
+    for place, (sight, scheme) in enumerate(((SIGHTS[0], "light"), (SIGHTS[-1], "dark"))):
+        axe = kind in JUDGED and place == turn
+        assert look(window, address, sight, scheme, axe) == [], (sight, scheme)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("sight", SIGHTS, ids=str)
+@pytest.mark.parametrize("kind", LARGEST)
+def test_all_can_be_seen_and_reached_everywhere(
+    window, largest: Path, kind: str, sight, scheme: str
+) -> None:  # type: ignore[no-untyped-def]
+    assert look(window, f"{largest.as_uri()}/{LARGEST[kind]}", sight, scheme) == []
+
+
+def test_no_page_scrolls_sideways_on_a_phone(window, site: Path) -> None:  # type: ignore[no-untyped-def]
+    tab = window.new_page()
+    tab.set_viewport_size({"width": 320, "height": 640})
+    wide = []
+    for page in (*site.glob("guide/*.html"), *sorted(site.glob("models/*/*.html"))[::3]):
+        tab.goto(page.as_uri())
+        wide += [(page.name, one) for one in out_of_sight(tab)]
+    tab.close()
+    assert wide == []
+
+
+def test_what_is_wrong_would_be_found(window, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    wrong = {
+        "a button": ("<button></button>", "button-name"),
+        "words": ('<p style="width: 4em; overflow: hidden">incomprehensibilities</p>', "cut off"),
+        "a box": ('<p style="margin-left: -5em">words</p>', "before the page"),
+        "a wide box": ('<p style="width: 99em">words</p>', "scrolls sideways"),
+        "a covered one": ('<p style="position: fixed; top: 99vh">words<br>more</p>', "beyond"),
+        "a field": (
+            '<input type="text" style="width: 3em" aria-label="f" value="abcdefgh">',
+            "cut",
+        ),
+        "a drawing": (
+            '<svg width="40" height="20"><text x="30" y="9">long</text></svg>',
+            "drawing",
+        ),
+        "letters": ('<svg width="9" viewBox="0 0 99 30"><text y="20">m1</text></svg>', "too small"),
+        "a link": ('<a href="nowhere.html">there</a>', "nowhere.html"),
+        "an anchor": ('<a href="#nowhere">there</a>', "#nowhere"),
+        "a script": ("<script>console.log('oh')</script>", "oh"),
+        "a request": ('<img alt="i" src="http://localhost:9/i.png">', "localhost"),
+    }
+    bodies = "".join(body for body, _ in wrong.values())
+    page = tmp_path / "page.html"
+    page.write_text(
+        f'<!doctype html><html lang="en"><title>t</title><main><h1>t</h1>{bodies}</main></html>',
+        encoding="utf-8",
+    )
+    found = list(map(str, look(window, page.as_uri(), (320, 640), "light")))
+    assert [
+        name for name, (_, said) in wrong.items() if not any(said in one for one in found)
+    ] == []
+
+
+def test_no_link_of_any_page_is_dead_and_no_name_is_given_twice(site: Path) -> None:
+    pages = [page for page in site.rglob("*.html") if "joint" not in page.parts]
+    assert len(pages) > 50
+    for page in pages:
+        assert list(dead_links(page)) == [], page
+        ids = [a["id"] for _, a in outline(page).elements if "id" in a]
+        assert len(ids) == len(set(ids)), page
+
+
+def test_notebooks_are_listed_where_they_are(site: Path) -> None:
+    names = sorted(path.stem for path in (site / "notebooks").glob("*.ipynb"))
+    for address, root in (("index.html", "guide/"), ("guide/notebook.html", "")):
+        links = {str(a["href"]) for _, a in outline(site / address).elements if "href" in a}
+        assert [name for name in names if f"{root}notebook-{name}.html" not in links] == []
+    assert len(names) == 3
+
+
+def test_every_page_has_its_sign_the_product_and_help(site: Path) -> None:
+    pages = [page for page in site.rglob("*.html") if page.parent.name != "paper"]
+    alone = 0
+    for page in pages:
+        found, way = outline(page), page.relative_to(site).parts
+        links = [str(a["href"]) for _, a in found.elements if "href" in a]
+        assert found.count("link", rel="icon") == 1 and f"disting {__version__}" in found.text
+        if way[0] in WITHOUT_SITE:
+            alone += 1
+            assert "Guide and glossary: disting report 3" in found.text and "--help" in found.text
+            assert not any("index.html" in link for link in links)
+            continue
+        for name in ("index", "guide/start", "guide/index", "guide/glossary"):
+            assert f"{'../' * (len(way) - 1)}{name}.html" in links, page
+    assert alone == 3
