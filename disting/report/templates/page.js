@@ -74,7 +74,7 @@
     const figure = slot("curves"), [svg, caption] = figure.children;
     figure.hidden = !data.chains || v.relation !== "distinguishable" || v.by !== "1";
     if (figure.hidden) return;
-    const models = numbers.map((i) => [chainOf(data.masses, data.damped, data.chains[i - 1], data.order), data.values[i - 1]]);
+    const models = numbers.map((i) => [chainOf(names.masses(i), data.damped, data.chains[i - 1], data.order), data.values[i - 1]]);
     caption.textContent = twoCurves(svg, models, numbers.map(nameOf));
     figure.hidden = !caption.textContent;
   };
