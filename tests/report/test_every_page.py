@@ -110,6 +110,7 @@ def test_what_is_wrong_would_be_found(window, tmp_path: Path) -> None:  # type: 
             '<svg width="40" height="20"><text x="30" y="9">long</text></svg>',
             "drawing",
         ),
+        "a low box": ('<div style="height: 1em"><p>words<br>on<br>words</p></div>', "spills over"),
         "letters": ('<svg width="9" viewBox="0 0 99 30"><text y="20">m1</text></svg>', "too small"),
         "a link": ('<a href="nowhere.html">there</a>', "nowhere.html"),
         "an anchor": ('<a href="#nowhere">there</a>', "#nowhere"),

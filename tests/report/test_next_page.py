@@ -61,6 +61,13 @@ def test_the_panel_says_what_to_measure_next(visit):
     assert page.locator('[data-slot="next"]').inner_text() == ""
 
 
+def test_a_link_to_a_structure_lands_there(visit):
+    page = visit("next-3-damped.html#A10")  # the last; those before it are laid out later
+    page.wait_for_function("() => scrollY > 0")
+    box = page.locator("#A10").bounding_box()
+    assert 0 <= box["y"] < 800 - min(box["height"], 700)
+
+
 @pytest.mark.parametrize("width", [1280, 390])
 def test_the_panel_draws_what_it_proposes(visit, width):
     page = visit("chains-3-damped.html#2-5", width=width)
