@@ -40,6 +40,8 @@ DOMAIN = (
     " of another structure can be any, as it is not known which is which"
 )
 
+BRIEF = "menus on which nothing is surely enough are left out here; --json has them all"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
@@ -92,6 +94,7 @@ def run(options: argparse.Namespace) -> int:
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     """Of the structures that a fit left; only here are the libraries of fits loaded."""
     from disting.cli.next_fit import onward
+    from disting.report.fit.left_first import first_sentence
     from disting.report.fit.left_words import (
         MEASURED_COLUMNS,
         left_rows,
@@ -105,12 +108,14 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     if options.csv:
         emitted(options.csv, _table([(*CSV_COLUMNS, *MEASURED_COLUMNS), *left_rows(found)]))
     if options.json:
-        text = json.dumps(left_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False)
+        plain = {"first": first_sentence(found)} | left_to_dict(found)
+        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
         emitted(options.json, text + "\n")
     if "-" not in (options.csv, options.json):
-        menus = (line for group in found.groups for line in ("", *_told(group)))
-        domain = ["", DOMAIN] if found.groups else []
-        lines = [*set_in_words(found), "", *measured_in_words(found), *domain, *menus]
+        menus = (line for group in found.groups for line in ("", *_told(group, brief=True)))
+        domain = ["", DOMAIN, BRIEF] if found.groups else []
+        first = [first_sentence(found), ""] if found.seen else []
+        lines = [*first, *set_in_words(found), "", *measured_in_words(found), *domain, *menus]
         print(printable("\n".join(lines)))
     return 0
 
@@ -120,7 +125,8 @@ def told(found: Further) -> str:
     return "\n".join(_told(found, ["", LEGEND, DOMAIN]))
 
 
-def _told(found: Further, words: Sequence[str] = ()) -> list[str]:
+def _told(found: Further, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
+    """The menu of each structure; `brief`: only where something on it is surely enough."""
     width = max(map(len, found.names))
     drawings = [
         f"  {name:{width}}  {text_drawing(chain)}"
@@ -132,7 +138,7 @@ def _told(found: Further, words: Sequence[str] = ()) -> list[str]:
     lines = [head, *drawings, *words, *told]
     for structure, name in enumerate(found.names):
         lines += ["", f"if it is {name}:"]
-        for kind in found.kinds:
+        for kind in found.kinds if found.least(structure) or not brief else ():
             cost = f"{kind.value:8} cost {found.costs.cost(kind):g}"
             for at in range(1, found.n_masses + 1):
                 lines.append(f"  {cost}  mass {at}: {in_words(found, structure, Item(kind, at))}")

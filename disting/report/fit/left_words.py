@@ -105,7 +105,7 @@ def measured_in_words(found: Onward) -> Iterator[str]:
     yield f"how much more measuring tells apart what noise leaves: disting plan {found.source}"
     yield ""
     yield from (sentence(found, a, b) for a, b in found.pairs())
-    items = [(item, _nearest(found, item)) for item in _cheapest_first(found, seen, 0)]
+    items = [(item, _nearest(found, item)) for item in cheapest_first(found, seen, 0)]
     yield ""
     yield f"if it is {found.left[0].name}, for the rival that each experiment tells least:"
     head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
@@ -198,7 +198,7 @@ def _measured(found: Onward, seen: Foretold) -> dict[str, Any]:
 def _least(found: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
     """What tells a structure least from another one, for each item of its menu."""
     for a, b in permutations(range(len(found.left)), 2):
-        for item in _cheapest_first(found, seen, a):
+        for item in cheapest_first(found, seen, a):
             nearest = seen.least(a, item, b)
             if nearest is not None:
                 step, at = nearest
@@ -237,7 +237,8 @@ def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
                     yield kind.value, *names, relation.value, rule, "", ""
 
 
-def _cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:
+def cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:
+    """The menu of a structure in the order of cost, then of masses."""
     order = found.costs.cheapest_first
     return sorted(seen.items(structure), key=lambda i: (order.index(i.kind), i.at))
 
@@ -263,7 +264,7 @@ def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:
     """The cheapest item that is enough at the fitted values, else the one that shows most."""
     best: tuple[float, str] | None = None
     unsure = False
-    for item in _cheapest_first(found, seen, a):
+    for item in cheapest_first(found, seen, a):
         nearest = seen.least(a, item, b)
         if nearest is None:
             return "its values are not known"
