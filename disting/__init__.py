@@ -58,6 +58,7 @@ from disting.verdict import View as View
 from disting.verdict.comparison import compare as compare
 from disting.verdict.comparison import findings as findings
 from disting.verdict.everywhere import compare_everywhere as compare_everywhere
+from disting.verdict.everywhere_file import everywhere_file as everywhere_file
 from disting.verdict.identifiable import identifiability as identifiability
 from disting.verdict.proof import prove as prove
 from disting.verdict.verdict_file import verdict_file as verdict_file

@@ -37,6 +37,12 @@ class ContradictionError(DistingError):
     """Two conditions decided one pair differently: a defect of the program, never of the input."""
 
 
+class NotSeenError(DistingError):
+    """Evidence that takes more work to see again than is done for it: the message says what was not
+    seen.
+    """
+
+
 def shown(value: object) -> str:
     """What a user gave, as Python writes it, but no longer than an eye takes in.
 

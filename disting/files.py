@@ -13,7 +13,7 @@ from typing import BinaryIO
 from disting.errors import CatalogError
 
 PROVENANCE = "provenance.json"
-__version__ = "0.1.0"  # of the package; files that it writes name it
+__version__ = "0.2.0"  # of the package; files that it writes name it
 
 
 def shipped_folder() -> Path:

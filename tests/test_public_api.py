@@ -62,6 +62,7 @@ NAMES = [
         "prove",
         "read_models",
         "transfer_function",
+        "everywhere_file",
         "verdict_file",
         "verify",
         "write_models",

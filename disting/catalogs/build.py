@@ -109,7 +109,7 @@ def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
                 | told
                 | _shares(found[Stage.FIBRE], i, j)
                 | {
-                    part: _step(decided, i, j)
+                    part: step(decided, i, j)
                     for part, decided in found.items()
                     if decided.relation(i, j) is not Relation.UNDECIDED
                     and (part in ("tf", "markov") or _only_by(part, decided, i, j))
@@ -130,7 +130,8 @@ def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:
     return (i, j) in decided.steps and decided.steps[i, j].representation == where
 
 
-def _step(decided: Decisions, i: int, j: int) -> Record:
+def step(decided: Decisions, i: int, j: int) -> Record:
+    """The deciding step of subjects i and j as plain data."""
     verdict = decided.verdict(i, j)
     assert verdict.evidence is not None  # only decided pairs get here
     assert verdict.certainty is not None

@@ -182,6 +182,15 @@ def add_deciding(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--prove", action="store_true", help=text)
 
 
+def add_also(parser: argparse.ArgumentParser) -> None:
+    """--also: further experiments on two chains."""
+    text = (
+        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
+        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+
+
 def add_no_cache(parser: argparse.ArgumentParser) -> None:
     """--no-cache."""
     parser.add_argument("--no-cache", action="store_true", help="neither read nor write the cache")

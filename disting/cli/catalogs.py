@@ -24,6 +24,12 @@ def add_candidates_arguments(parser: argparse.ArgumentParser) -> None:
     add_work(parser)
 
 
+def add_sizes_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `sizes`."""
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
 def add_settle_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `settle`."""
     add_masses(parser)
@@ -71,6 +77,17 @@ def candidates(options: argparse.Namespace) -> int:
     return 0
 
 
+def sizes(options: argparse.Namespace) -> int:
+    """Compute the verdicts on pairs of models of different sizes."""
+    from disting.catalogs.sizes_build import build_sizes, write
+
+    with engine_for(options) as (engine, pool, progress):
+        for damped in (False, True):
+            text = build_sizes(damped=damped, engine=engine, executor=pool, progress=progress)
+            print(write(text, damped, options.out))
+    return 0
+
+
 def settle(options: argparse.Namespace) -> int:
     """Decide the rows of masses that leave pairs open, and on request the classes with dampers
     to the ground.
@@ -99,8 +116,10 @@ def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
     from disting.catalogs.damper_files import SHIPPED_SIZES, read
     from disting.catalogs.damper_verify import verify_dampers
+    from disting.catalogs.files import SHIPPED_SIZES as CATALOGUED
     from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
     from disting.catalogs.next_files import WITH_DAMPERS, verify_next
+    from disting.catalogs.sizes_build import verify_sizes
     from disting.catalogs.verify import verify
 
     wrong: list[str] = []
@@ -129,6 +148,21 @@ def verify(options: argparse.Namespace) -> int:
                         one, options.catalog, fresh, executor=pool, progress=progress
                     )
                 what = f"{n} masses, {'damped' if damped else 'undamped'}"
-                print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")
-                wrong += found
+                wrong += _told(what, found)
+        if set(CATALOGUED) <= set(options.masses):
+            for damped in (False, True):
+                found = verify_sizes(
+                    damped=damped,
+                    folder=options.catalog,
+                    engine=Engine(),
+                    executor=pool,
+                    progress=progress,
+                )
+                wrong += _told(f"different sizes, {'damped' if damped else 'undamped'}", found)
     return 1 if wrong else 0
+
+
+def _told(what: str, found: list[str]) -> list[str]:
+    """Say what was found wrong; returns it."""
+    print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")
+    return found

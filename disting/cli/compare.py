@@ -9,6 +9,7 @@ from typing import Any
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import (
+    add_also,
     add_bounds,
     add_damped,
     add_deciding,
@@ -32,9 +33,10 @@ from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Query, Relation, Verdict, View
 from disting.verdict.comparison import compare, names_of
 from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere
+from disting.verdict.everywhere_file import everywhere_file
 from disting.verdict.proof import prove
 from disting.verdict.shown import shown
-from disting.verdict.verdict_file import as_file, exact, has_more
+from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
 
 FILE = ".json:"  # between a file and the name of a model in it
 MOST_TERMS = 30  # of a transfer function that is written out
@@ -54,11 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_deciding(parser)
     text = "look only at models within this range of a parameter, of both models; may be repeated"
     add_bounds(parser, text)
-    text = (
-        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
-        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
-    )
-    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    add_also(parser)
     add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
     add_no_cache(parser)
 
@@ -70,42 +68,68 @@ def run(options: argparse.Namespace) -> int:
             "what holds within ranges is told in words only: leave --json or --bound away"
         )
     texts = (options.left, options.right)
-    if any(FILE in text for text in texts):
-        if options.also:
-            raise InputError("--also belongs to chains: a model of a file has no masses to name")
-        return _of_files(options, texts)
-    chains = chains_named(texts, damped=options.damped, sensor=options.quantity)
+    if options.json:
+        emitted(
+            options.json, json.dumps(file_of(texts, options), indent=1, ensure_ascii=False) + "\n"
+        )
+        return 0
+    sides = _sides(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
+    chains = _chains(sides)
     if options.also:
         return _under_experiments(chains, asked, options)
-    if options.json:
-        return _as_json(file_of(chains, asked, options), options)
+    if not chains:
+        with engine_for(options) as (engine, _, _progress):
+            found = compare(*sides, query=asked, engine=engine)
+        print(_explained(found, list(map(_in_letters, sides))))
+        return 0
     chains, verdict = decided(chains, asked, options)
     ways = _both_ways(verdict, chains, dict(options.bound)) if _tells_ways(verdict, options) else ()
     print("\n".join([_explained(verdict, list(map(text_drawing, chains))), *ways]))
     return 0
 
 
-def _of_files(options: argparse.Namespace, texts: tuple[str, str]) -> int:
-    """Explain the verdict on models of files, named file.json:name, or on one and a chain."""
+def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
+    """The verdict on two models, as they are named, with all that its check needs."""
+    sides = _sides(texts, options)
+    asked = query(options.conditions, View.EXACT, options.domain)
+    chains = _chains(sides)
+    if options.also:
+        with engine_for(options) as (engine, _, _progress):
+            a, b = chains
+            return everywhere_file(a, b, options.also, query=asked, engine=engine)
+    if not chains:
+        with engine_for(options) as (engine, _, _progress):
+            return verdict_file(*sides, query=asked, engine=engine)
+    ordered, verdict = decided(chains, asked, options)
+    beside = decided(ordered, exact(asked), options)[1] if has_more(verdict) else None
+    return as_file(Stored((ordered[0], ordered[1]), (), asked, Settings(), verdict, beside))
+
+
+def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
+    """Two chains, or models of files, named file.json:name, or one and a chain."""
+    if not any(FILE in text for text in texts):
+        if options.also and (options.prove or getattr(options, "bound", ())):
+            raise InputError(
+                "with --also the verdict is on several experiments: leave --prove and --bound away"
+            )
+        return [*chains_named(texts, damped=options.damped, sensor=options.quantity)]
+    if options.also:
+        raise InputError("--also belongs to chains: a model of a file has no masses to name")
     for name in ("bound", "prove"):
-        if getattr(options, name):
+        if getattr(options, name, ()):
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):
         refuse_chain_options(options)
-    named = chains_named(
-        [text for text in texts if FILE not in text],
-        damped=options.damped,
-        sensor=options.quantity,
-    )
-    sides = [_of_file(text) if FILE in text else named[0] for text in texts]
-    asked = query(options.conditions, View.EXACT, options.domain)
-    with engine_for(options) as (engine, _, _progress):
-        verdict = compare(*sides, query=asked, engine=engine)
-    if options.json:
-        return _as_json(verdict.to_dict(), options)
-    print(_explained(verdict, list(map(_in_letters, sides))))
-    return 0
+    rest = [text for text in texts if FILE not in text]
+    named = iter(chains_named(rest, damped=options.damped, sensor=options.quantity))
+    return [_of_file(text) if FILE in text else next(named) for text in texts]
+
+
+def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
+    """Both, if both are chains; else none."""
+    chains = [side for side in sides if isinstance(side, Chain)]
+    return chains if len(chains) == len(sides) else []
 
 
 def _of_file(text: str) -> AnyModel:
@@ -126,36 +150,18 @@ def _in_letters(side: Chain | AnyModel) -> str:
     return "G(s) of degree {} over {}".format(*side.degrees)
 
 
-def _as_json(data: dict[str, Any], options: argparse.Namespace) -> int:
-    emitted(options.json, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
-    return 0
-
-
-def _under_experiments(chains: list[Chain], asked: Query, options: argparse.Namespace) -> int:
+def _under_experiments(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> int:
     """Explain what further experiments tell, the chains as they are included."""
-    if options.prove or options.bound:
-        raise InputError(
-            "with --also the verdict is on several experiments: leave --prove and --bound away"
-        )
+    left, right = chains
     with engine_for(options) as (engine, _, _progress):
-        found = compare_everywhere(chains[0], chains[1], options.also, query=asked, engine=engine)
+        found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
     experiments = list(dict.fromkeys(named(text).experiment.text for text in options.also))
-    if options.json:
-        data = {
-            "answer": found.answer.value,
-            "experiments": ["as it is", *experiments],
-            "verdicts": [
-                {"places": {str(a): b for a, b in places}, **verdict.to_dict()}
-                for places, verdict in found.verdicts
-            ],
-        }
-        return _as_json(data, options)
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
     print("\n".join([*_every_way(found, chains), "", *lines]))
     return 0
 
 
-def _every_way(found: Everywhere, chains: list[Chain]) -> Iterator[str]:
+def _every_way(found: Everywhere, chains: Sequence[Chain]) -> Iterator[str]:
     """One way in full, several with what is common to them."""
     if len(found.verdicts) == 1:
         places, verdict = found.verdicts[0]
@@ -197,13 +203,6 @@ def decided(
     turned = found.left != names_of(chains[0], chains[1])[0]
     ordered = list(reversed(chains)) if turned else list(chains)
     return ordered, prove(found, ordered[0], ordered[1]) if options.prove else found
-
-
-def file_of(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> dict[str, Any]:
-    """The verdict with all that its check needs."""
-    ordered, verdict = decided(chains, asked, options)
-    beside = decided(ordered, exact(asked), options)[1] if has_more(verdict) else None
-    return as_file(ordered, asked, Settings(), verdict, beside)
 
 
 def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:

@@ -4,8 +4,10 @@ be told apart.
 
 import argparse
 import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import combinations
+from textwrap import fill
 
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
@@ -39,6 +41,8 @@ COMPLEX_ONLY = "c"
 NOT_ASKED = (
     "positive parameters are not asked here: 'disting compare' and 'disting dampers N:I' ask"
 )
+WIDTH = 80  # columns of a terminal
+FIXED = "\xa0"  # a space at which no line ends
 SETS = "0 no damper to the ground, 1+3 dampers at masses 1 and 3"
 
 
@@ -191,16 +195,49 @@ def _rule(rule: str) -> str:
 
 def matrix(table: DamperTable, over_complex: DamperTable) -> str:
     """A line a set, a column a set, a sign where they meet."""
-    names = [spelled(s) for s in table.sets]
-    width = max(map(len, names))
-    lines = [" " * (width + 1) + " ".join(names)]
-    for i, name in enumerate(names):
-        signs = ("\\" if i == j else _sign(table, over_complex, i, j) for j in range(len(names)))
-        lines.append(
-            f"{name:>{width}} "
-            + " ".join(f"{s:>{len(n)}}" for s, n in zip(signs, names, strict=True))
-        )
-    return "\n".join(lines) + "\n"
+
+    def sign(i: int, j: int) -> str:
+        """Of two sets."""
+        return "\\" if i == j else _sign(table, over_complex, i, j)
+
+    return grid([spelled(s) for s in table.sets], sign)
+
+
+def grid(names: Sequence[str], sign: Callable[[int, int], str]) -> str:
+    """The signs of all pairs of names (line, column), at most 80 columns wide. Where the names are
+    too wide to stand above the columns, their numbers do, one digit below the other, in blocks.
+    """
+    columns = range(len(names))
+    block = list(_block(names, [names], columns, sign))
+    if len(block[0]) <= WIDTH:
+        return "\n".join(block) + "\n"
+    digits, longest = len(str(len(names))), max(map(len, names))
+    numbers = [f"{k:>{digits}}" for k in range(1, len(names) + 1)]
+    heads = [f"{k} {name:>{longest}}" for k, name in zip(numbers, names, strict=True)]
+    tops = [[number[place] for number in numbers] for place in range(digits)]
+    fit = (WIDTH - len(heads[0])) // 2
+    parts = (columns[k : k + fit] for k in range(0, len(names), fit))
+    return "\n\n".join("\n".join(_block(heads, tops, part, sign)) for part in parts) + "\n"
+
+
+def _block(
+    heads: Sequence[str],
+    tops: Sequence[Sequence[str]],
+    columns: Sequence[int],
+    sign: Callable[[int, int], str],
+) -> Iterator[str]:
+    """Some columns of a matrix below the lines of their heads."""
+    margin, widths = max(map(len, heads)), [len(tops[0][j]) for j in columns]
+
+    def line(head: str, cells: Iterable[str]) -> str:
+        """A head and its cells."""
+        aligned = (f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
+        return f"{head:>{margin}} {' '.join(aligned)}"
+
+    for top in tops:
+        yield line("", (top[j] for j in columns))
+    for i, head in enumerate(heads):
+        yield line(head, (sign(i, j) for j in columns))
 
 
 def _sign(table: DamperTable, over_complex: DamperTable, i: int, j: int) -> str:
@@ -217,11 +254,13 @@ def legend(domain: Domain) -> str:
         if sign != "s" or domain is not Domain.COMPLEX
     )
     more = (
-        f", {COMPLEX_ONLY} undecided, but indistinguishable over complex ones"
+        f", {COMPLEX_ONLY} undecided but indistinguishable over complex ones"
         if domain is not Domain.COMPLEX
         else ""
     )
-    return f"over {domain} parameters: {signs}{more}\n{SETS}"
+    said = f"{signs}{more}".replace(" ", FIXED).replace(f",{FIXED}", ", ")
+    lines = fill(f"over {domain} parameters: {said}", WIDTH, break_long_words=False)
+    return f"{lines.replace(FIXED, ' ')}\n{SETS}"
 
 
 def summary(table: DamperTable, over_complex: DamperTable) -> str:

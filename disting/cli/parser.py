@@ -112,6 +112,12 @@ CATALOG = Group(
             next.add_build_arguments,
         ),
         Command(
+            "sizes",
+            "compute the verdicts on pairs of models of different sizes, 1 to 5 masses",
+            catalogs.sizes,
+            catalogs.add_sizes_arguments,
+        ),
+        Command(
             "settle",
             "decide the rows of masses that leave pairs open, to be shipped",
             catalogs.settle,

@@ -1,15 +1,15 @@
 """disting report: pages, figures and tables of whole catalogues, and of the paper."""
 
 import argparse
-from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.combined import answers_in, combined
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.files import SHIPPED_SIZES
+from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.files import SHIPPED_SIZES, name_of
+from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import add_out, add_work, size_or_file
 from disting.cli.common import relations_in_words
 from disting.cli.verdicts import list_of
@@ -17,8 +17,6 @@ from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList
 from disting.verdict import Engine, Progress, View
-
-MOST_TOGETHER = 4  # masses: sizes that are compared with each other, in seconds
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -81,18 +79,21 @@ def _catalogues(options: argparse.Namespace) -> None:
     """Write the pages of catalogues."""
     from disting.report.write import write_report
 
-    choices = [False, True] if options.damping == "both" else [options.damping == "damped"]
+    choices = _choices(options)
     with engine_for(options) as (engine, pool, progress):
         catalogs = [
             _catalog(n, damped, engine, pool, progress)
             for n in options.masses
             for damped in choices
         ]
-    paths = list(_together(options, choices))
+    asked = set(options.masses)
     with_dampers = [
         damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices
     ]
-    paths += write_report(catalogs, options.out, with_dampers, options.grammar)
+    # of all shipped sizes, whichever are asked for
+    together = len(asked.intersection(SHIPPED_SIZES)) > 1
+    across = [sizes_catalog(damped=d, known=catalogs) for d in choices if together]
+    paths = write_report(catalogs, options.out, with_dampers, options.grammar, across)
     for c in catalogs:
         relations = relations_in_words(v.relation for *_, v in c.pairs())
         print(
@@ -100,24 +101,6 @@ def _catalogues(options: argparse.Namespace) -> None:
             " indistinguishable models"
         )
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
-
-
-def _together(options: argparse.Namespace, choices: Sequence[bool]) -> Iterator[Path]:
-    """Write the pages of several sizes, and yield their paths."""
-    from disting.report.sizes import write_sizes
-
-    # whichever are asked for: the pages are the same in every run
-    sizes = range(1, MOST_TOGETHER + 1)
-    for damped in choices if len(set(options.masses).intersection(sizes)) > 1 else []:
-        with engine_for(options) as (engine, pool, progress):
-            for shipped in (catalog(n, damped=damped) for n in sizes):
-                if shipped.records[0]["settings"] == engine.settings.to_dict():
-                    for known in answers_in(shipped):
-                        engine.remember(*known)
-            decided = combined(
-                sizes, damped=damped, engine=engine, executor=pool, progress=progress
-            )
-        yield write_sizes(decided, options.out)
 
 
 def _paper(options: argparse.Namespace) -> None:
@@ -128,7 +111,8 @@ def _paper(options: argparse.Namespace) -> None:
     from disting.report.paper import write_paper
 
     with engine_for(options) as (engine, pool, progress):
-        paths = write_paper(Findings(engine, pool, progress), options.out / "paper")
+        found = Findings(engine, pool, progress)
+        paths = write_paper(found, options.out / "paper", _names(options))
     counts = Counter(claim.outcome for claim in CLAIMS)
     agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
     print(
@@ -136,6 +120,19 @@ def _paper(options: argparse.Namespace) -> None:
         " checked"
     )
     print(f"{len(paths)} files in {options.out / 'paper'}; open {paths[0]}")
+
+
+def _names(options: argparse.Namespace) -> set[str]:
+    """Pages of families that the folder has, or will have when the command is done."""
+    there = {p.stem for p in options.out.glob("*.html")}
+    kinds = [(n, d) for n in options.masses for d in _choices(options)]
+    dampers = {damper_name(n, d) for n, d in kinds if n in DAMPER_SIZES}
+    return there | {name_of(n, d) for n, d in kinds} | dampers
+
+
+def _choices(options: argparse.Namespace) -> list[bool]:
+    """Undamped, damped, or both."""
+    return [False, True] if options.damping == "both" else [options.damping == "damped"]
 
 
 def _catalog(

@@ -54,7 +54,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         complain(f"{reason.strerror or reason}: {_name(reason.filename)}".rstrip(": "))
         return 2
     except MemoryError as reason:
-        complain(f"there is not enough memory ({reason or 'no more can be had'}); ask for less")
+        complain(
+            f"there is not enough memory ({str(reason) or 'no more can be had'}); ask for less"
+        )
         return 2
     except KeyboardInterrupt:
         complain("interrupted; what was finished is kept in the cache")

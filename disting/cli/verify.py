@@ -3,12 +3,15 @@
 import argparse
 from pathlib import Path
 
-from disting.cli.arguments import add_damped, add_deciding, add_no_cache, add_quantity
-from disting.cli.common import query
+from disting.cli.arguments import (
+    add_also,
+    add_damped,
+    add_deciding,
+    add_no_cache,
+    add_quantity,
+)
 from disting.cli.compare import file_of
 from disting.errors import InputError
-from disting.model.names import chains_named
-from disting.verdict import View
 from disting.verdict.verification import Standing, verify
 
 STATUS = {Standing.HOLDS: 0, Standing.FAILS: 1, Standing.OPEN: 3}
@@ -17,13 +20,14 @@ STATUS = {Standing.HOLDS: 0, Standing.FAILS: 1, Standing.OPEN: 3}
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     text = (
-        "a file that 'disting compare N:I M:J --json' wrote; or two models: their verdict is"
-        " decided, or looked up, and checked"
+        "a file that 'disting compare N:I M:J --json FILE' wrote; or two models, as compare takes"
+        " them: their verdict is decided, or looked up, and checked"
     )
     parser.add_argument("what", nargs="+", metavar="FILE.json|N:I M:J", help=text)
     add_damped(parser)
     add_quantity(parser)
     add_deciding(parser)
+    add_also(parser)
     add_no_cache(parser)
 
 
@@ -34,12 +38,8 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("name one file of a verdict, or two models such as 3:1 3:4")
     if is_file and ":" in options.what[0] and not Path(options.what[0]).exists():
         raise InputError(f"name the other model too, such as: disting verify {options.what[0]} 3:4")
-    found = verify(options.what[0] if is_file else _decided(options))
+    if is_file and options.also:
+        raise InputError("the file names its experiments: leave --also away")
+    found = verify(options.what[0] if is_file else file_of(options.what, options))
     print(f"{' and '.join(options.what)}: {found.sentence}")
     return STATUS[found.standing]
-
-
-def _decided(options: argparse.Namespace) -> dict[str, object]:
-    """The file of a verdict on two models."""
-    chains = chains_named(options.what, damped=options.damped, sensor=options.quantity)
-    return file_of(chains, query(options.conditions, View.EXACT, options.domain), options)

@@ -3,8 +3,9 @@ in methods of these names.
 """
 
 from collections.abc import Iterable
-from dataclasses import asdict
-from typing import Any
+from dataclasses import asdict, is_dataclass
+from types import UnionType
+from typing import Any, ClassVar, Union, get_args, get_origin, get_type_hints
 
 
 def to_dict(evidence: Any) -> dict[str, object]:
@@ -36,3 +37,35 @@ def fields(data: dict[str, Any]) -> dict[str, Any]:
 def tupled(value: Any) -> Any:
     """Lists as tuples, however deep."""
     return tuple(map(tupled, value)) if isinstance(value, list | tuple) else value
+
+
+def is_well_typed(evidence: Any) -> bool:
+    """Whether every field of evidence, however deep, is of the type that its class says: what a
+    file holds may be anything. None is no evidence.
+    """
+    return evidence is None or all(
+        _is_of(getattr(evidence, name), hint) for name, hint in _hints(type(evidence)).items()
+    )
+
+
+def _hints(kind: type[Any]) -> dict[str, Any]:
+    """Types of the fields of a dataclass or a named tuple."""
+    found = get_type_hints(kind)
+    return {name: hint for name, hint in found.items() if get_origin(hint) is not ClassVar}
+
+
+def _is_of(value: Any, hint: Any) -> bool:
+    if get_origin(hint) in (Union, UnionType):
+        return any(_is_of(value, one) for one in get_args(hint))
+    if get_origin(hint) is tuple:
+        return isinstance(value, tuple) and _items_are_of(value, get_args(hint))
+    if hint in (int, bool, str):
+        return type(value) is hint
+    whole = is_dataclass(hint) or hasattr(hint, "_fields")
+    return isinstance(value, hint) and (not whole or is_well_typed(value))
+
+
+def _items_are_of(value: tuple[Any, ...], items: tuple[Any, ...]) -> bool:
+    if items[1:] == (Ellipsis,):
+        return all(_is_of(item, items[0]) for item in value)
+    return len(value) == len(items) and all(map(_is_of, value, items))

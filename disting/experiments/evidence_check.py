@@ -1,46 +1,153 @@
-"""Whether what the exact decision found of two measured chains is true, seen anew."""
+"""Whether what a verdict on two measured chains rests on is true, seen anew, and how surely it
+shows what it shows.
+"""
 
-from disting.behaviour.sample import Representation
-from disting.evidence.conditions import Embedding
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+from disting.algebra.certainty import Certainty, Grade, weakest
+from disting.algebra.sampling import PROOF_BITS
+from disting.behaviour.sample import Representation, Sample
+from disting.conditions.finding import Finding
+from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refuted, Solved
-from disting.evidence.limits import MissingElements
+from disting.evidence.kinds import Evidence, InclusionEvidence
+from disting.evidence.limits import FullImage, LargerProjection, MissingElements
+from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
+from disting.evidence.real import BothWays
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import numberings
-from disting.experiments.listing import listed_at, without_dead_time
+from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
 from disting.experiments.maps import matched
-from disting.experiments.stacked_profiles import profile
-from disting.fibres.ideals import confirms_matched
+from disting.experiments.polynomials import is_renaming
+from disting.experiments.positive import answer_of, positive_finding
+from disting.experiments.stacked_profiles import degrees, drawn, profile, seen_at
+from disting.fibres.ideals import seen_again
+from disting.fibres.synthesis.result import Answer
 from disting.fibres.synthesis.target import fraction
+from disting.model.chain import Chain
 from disting.model.settings import Settings
+from disting.model.symmetry import canonical
+from disting.questions.identifiability import identifiability
+from disting.questions.positive import proves
+from disting.questions.same.decided_again import by_labels
+from disting.questions.same.evidence_check import is_complete
+from disting.questions.same.real_and_positive import positive_ways
+from disting.questions.same.summary_check import POINTS, Summary, confirms_summary
 
 FRESH = Settings(seed="checked again", subset_limit=0)
+OfMeasured = Evidence | InclusionEvidence
 
 
 def confirms(
-    evidence: FibreUnder | Solved | Refuted | Embedding | MissingElements,
-    left: MeasuredChain,
-    right: MeasuredChain,
+    evidence: OfMeasured, left: MeasuredChain, right: MeasuredChain, representation: str = "tf"
 ) -> bool:
-    """Whether the evidence holds: lists are made again at the stored point, solutions are put into
-    all transfer functions, contradictions are found again by plain elimination; a part is looked
-    for again, and ranks are computed again at other points.
+    """Whether the evidence holds: summaries are looked at at fresh points, renamings and solutions
+    are put into all transfer functions, lists are made again at the stored point, contradictions
+    are found again; a part is looked for again, and ranks are computed again at other points.
+
+    Raises NotSeenError where a contradiction takes too long.
     """
-    if isinstance(evidence, MissingElements):
-        sides = (left, right) if evidence.left_is_part else (right, left)
-        return dict(evidence.numbering) in numberings(*sides)
-    if isinstance(evidence, Embedding):
-        sides = (left, right) if evidence.left_is_submodel else (right, left)
-        ranks = {profile(m, Representation.TF, 0, FRESH).rank for m in sides}
-        return ranks == {evidence.rank} and dict(evidence.numbering) in numberings(*sides)
+    match evidence:
+        case Counts() if len(evidence.left) < 2 * len(left.experiments):
+            return _one_experiment(evidence, left, right)
+        case Counts() | Forms() | Ranks() | FreeChoice():
+            return confirms_summary(evidence, representation, *map(_summary, (left, right)))
+        case LargerProjection():
+            return _larger(evidence, left, right)
+        case FullImage():
+            larger = _summary(left if evidence.left_is_larger else right)
+            free = FreeChoice(evidence.rank, evidence.free)
+            return confirms_summary(free, "tf", larger, larger)
+        case Renaming():
+            names = left.chain.parameters, right.chain.parameters
+            whole = is_complete(evidence, *names)
+            return whole and is_renaming(left, right, dict(evidence.pairs))
+        case MissingElements():
+            sides = (left, right) if evidence.left_is_part else (right, left)
+            return dict(evidence.numbering) in numberings(*sides)
+        case Embedding():
+            sides = (left, right) if evidence.left_is_submodel else (right, left)
+            ranks_ = {profile(m, Representation.TF, 0, FRESH).rank for m in sides}
+            return ranks_ == {evidence.rank} and dict(evidence.numbering) in numberings(*sides)
+        case FibreUnder():
+            return _missed(evidence, left, right)
+        case Solved() | Refuted():
+            # normalised coordinates are those of a chain alone
+            return not evidence.is_normalised and seen_again(evidence, *matched(left, right))
+        case BothWays():
+            return _both_ways(evidence, left, right)
+    return False  # it speaks of other models
+
+
+def exact_again(
+    evidence: Evidence, left: MeasuredChain, right: MeasuredChain, settings: Settings
+) -> Finding | None:
+    """What evidence of this kind says of two measured chains of equal ranks and degrees: the list
+    is made again, the labels of ideals are drawn again; None if nothing.
+    """
+    match evidence:
+        case FibreUnder():
+            return by_list(left, right, settings)
+        case Solved() | Refuted():
+            return by_labels(evidence, *matched(left, right), settings.seed)
+    return None
+
+
+def positive_again(
+    left: MeasuredChain, right: MeasuredChain, settings: Settings, equal: Grade | None
+) -> Finding:
+    """What both ways say over positive parameters of two measured chains that are equal over
+    complex ones: `equal` by the exact decision, so surely, or None by all coefficients being free.
+    """
+    ways = (left, right), (right, left)
+    found = positive_ways(*(positive_finding(*way, settings) for way in ways))
+    if equal is None:
+        return found
+    certainty, safety = weakest((found.certainty, found.safety), equal)
+    return replace(found, certainty=certainty, safety=safety)
+
+
+def _summary(measured: MeasuredChain) -> Summary:
+    return Summary(partial(_samples, measured), degrees(measured))
+
+
+def _samples(
+    measured: MeasuredChain, representation: Representation, count: int
+) -> tuple[Sample, ...]:
+    points = (drawn(measured, f"verify:{k}", PROOF_BITS) for k in range(POINTS))
+    return tuple(seen_at(point, representation, count) for point in points)
+
+
+def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """Ranks of the named rows of all experiments, or of all rows of one experiment alone."""
+    ranks = Ranks(evidence.rows, evidence.left, evidence.right, all_rows=False)
+    sides = [_summary(m) for m in (left, right)]
+    if set(evidence.rows) <= sides[0].labels(Representation.TF, 0):
+        return confirms_summary(ranks, "tf", *sides)
+    for k in range(len(left.experiments)):
+        alone = [_summary(MeasuredChain(m.chain, (m.experiments[k],))) for m in (left, right)]
+        rows = tuple(name.replace(f"[{k + 1}]", "[1]") for name in evidence.rows)
+        if set(rows) in [side.labels(Representation.TF, 0) for side in alone]:
+            return confirms_summary(replace(ranks, rows=rows), "tf", *alone)
+    return False
+
+
+def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """Whether these are the degrees of one of several experiments."""
+    sides = (degrees(left), degrees(right))
+    pairs = ([side[i : i + 2] for i in range(0, len(side), 2)] for side in sides)
+    return (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
+
+
+def _missed(evidence: FibreUnder, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """The list once more, and what each of it misses."""
     left, right = without_dead_time(left), without_dead_time(right)
-    if not isinstance(evidence, FibreUnder):
-        return confirms_matched(evidence, *matched(left, right))
     given, searched = (left, right) if evidence.left_given else (right, left)
-    if sorted(name for name, _ in evidence.point) != sorted(given.chain.parameters):
-        return False  # it speaks of another model
     at = evidence.listed - 1
-    if not 0 <= at < len(given.experiments):
+    if not _is_of(evidence.point, given) or not 0 <= at < len(given.experiments):
         return False
     try:
         values = {name: fraction(value) for name, value in evidence.point}
@@ -50,3 +157,62 @@ def confirms(
     return listed is not None and evidence.missed == tuple(
         None if k is None else k + 1 for k in listed.refuted_by
     )
+
+
+def _is_of(point: tuple[tuple[str, str], ...], given: MeasuredChain) -> bool:
+    return sorted(name for name, _ in point) == sorted(given.chain.parameters)
+
+
+def _both_ways(evidence: BothWays, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """What is known of either way, once more; something is."""
+    left, right = without_dead_time(left), without_dead_time(right)
+    ways = [(evidence.left, left, right), (evidence.right, right, left)]
+    known = [way for way in ways if way[0].certainty]
+    return bool(known) and all(_proves(*way) for way in known)
+
+
+def _proves(found: PositiveFinding, given: MeasuredChain, other: MeasuredChain) -> bool:
+    match found.evidence:
+        case Points():
+            with_one = _answer(found.evidence.with_one, given, other)
+            without = _answer(found.evidence.without, given, other)
+            told = found.share is Share.SOMETIMES and found.certainty is Certainty.BOUNDED
+            return told and (with_one, without) == (Answer.YES, Answer.NO)
+        case OnlyOne():
+            at = found.evidence.experiment - 1
+            return found.share is Share.ALWAYS and _is_only_one(at, given, other)
+    pairs = _alone(given, other)
+    return found.share is Share.NEVER and any(proves(found, *pair) for pair in pairs)
+
+
+def _answer(
+    values: tuple[tuple[str, str], ...], given: MeasuredChain, other: MeasuredChain
+) -> Answer:
+    """Whether there is a positive equivalent at a stored positive point."""
+    point = {name: fraction(value) for name, value in values}
+    if not _is_of(values, given) or any(value <= 0 for value in point.values()):
+        return Answer.UNKNOWN
+    for at, _, _ in listable(given, other):
+        listed = listed_at(given, other, at, point)
+        if listed is not None and listed.kept:
+            return answer_of(listed.kept)
+    return Answer.UNKNOWN
+
+
+def _is_only_one(at: int, given: MeasuredChain, other: MeasuredChain) -> bool:
+    """Whether there is one equivalent and no more in this experiment, counted from 0."""
+    if not 0 <= at < len(given.experiments):
+        return False
+    there = other.alone(at)
+    if given.alone(at) is None or there is None:
+        return False
+    count = identifiability(canonical(there).chain, FRESH)
+    return count.least == count.most == 1 and count.count_grade[0] is not Certainty.NUMERICAL
+
+
+def _alone(given: MeasuredChain, other: MeasuredChain) -> Iterator[tuple[Chain, Chain]]:
+    """Yield the canonical chains of each experiment in which both are chains of the class."""
+    for at in range(len(given.experiments)):
+        one, there = given.alone(at), other.alone(at)
+        if one is not None and there is not None:
+            yield canonical(one).chain, canonical(there).chain

@@ -152,7 +152,7 @@ class ComparedMachine:
     def exact(self, other: "ComparedMachine") -> Finding:
         """The exact decision, for equal ranks and degrees."""
         one, there = (side.sketch(Representation.TF, 0) for side in (self, other))
-        if not _comparable(self, other):
+        if not comparable(self, other):
             return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
         found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
         return resting_on_ranks(found, one, there)
@@ -195,7 +195,7 @@ class ComparedMachine:
     @staticmethod
     def prepare_exact(pairs: Sequence[Pair], ask: Callable[..., Any]) -> None:
         """Have the exact decisions on pairs of equal rank and degrees computed."""
-        ask(EXACTLY, [(a.measured, b.measured) for a, b in pairs if _comparable(a, b)])
+        ask(EXACTLY, [(a.measured, b.measured) for a, b in pairs if comparable(a, b)])
 
     @staticmethod
     def prepare_positive(ways: Sequence[Pair], ask: Callable[..., Any]) -> None:
@@ -211,7 +211,8 @@ class ComparedMachine:
         return [a.inclusions(b) for a, b in pairs]
 
 
-def _comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
+def comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
+    """Whether the exact decision is asked: ranks, degrees and dead times are equal."""
     one, other = (side.sketch(Representation.TF, 0) for side in (left, right))
     times = (side.measured.chain.dead_time for side in (left, right))
     return one.rank == other.rank > 0 and one.degrees == other.degrees and len(set(times)) == 1

@@ -94,7 +94,7 @@ def _seen(given: MeasuredChain, other: MeasuredChain, seed: str) -> Iterator[tup
         label = about(f"positive:{seed}:{k}", given, other)
         listed = listed_at(given, other, at, _scaled(given, other, label))
         if listed is not None and listed.kept:
-            yield _answer(listed.kept), listed
+            yield answer_of(listed.kept), listed
 
 
 def _scaled(given: MeasuredChain, other: MeasuredChain, label: str) -> dict[str, fmpq]:
@@ -106,7 +106,7 @@ def _scaled(given: MeasuredChain, other: MeasuredChain, label: str) -> dict[str,
     }
 
 
-def _answer(kept: tuple[Solution, ...]) -> Answer:
+def answer_of(kept: tuple[Solution, ...]) -> Answer:
     """Whether the equivalent among these is positive."""
     if all(s.positive is Answer.NO for s in kept):
         return Answer.NO

@@ -61,7 +61,7 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
             )
     if all(one and one.covering for one in ways):
         return _always(ways, domain)
-    if domain is Domain.POSITIVE and _are_one_ports(left, right):
+    if domain is Domain.POSITIVE and are_one_ports(left, right):
         return Finding(
             ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
         )
@@ -86,7 +86,10 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
 
 
-def _are_one_ports(left: AnyModel, right: AnyModel) -> bool:
+def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
+    """Whether both are one-ports that give any impedance of their kind, one input and output each
+    (see `one_ports`).
+    """
     if isinstance(left, Model) and isinstance(right, Model):
         return same_one_ports(left, right)
     return False

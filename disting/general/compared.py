@@ -191,7 +191,7 @@ class ComparedModel:
     @staticmethod
     def prepare_exact(pairs: Sequence[Pair], ask: Callable[..., Any]) -> None:
         """Have the exact decisions on pairs of equal rank and degrees computed."""
-        ask(EXACTLY, [(a.profiled, b.profiled) for a, b in pairs if _comparable(a, b)])
+        ask(EXACTLY, [(a.profiled, b.profiled) for a, b in pairs if comparable(a, b)])
 
     @staticmethod
     def prepare_positive(ways: Sequence[Pair], ask: Callable[..., Any]) -> None:
@@ -212,7 +212,8 @@ def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyMo
     return replace(left.model, name=LEFT), replace(right.model, name=RIGHT)
 
 
-def _comparable(left: ComparedModel, right: ComparedModel) -> bool:
+def comparable(left: ComparedModel, right: ComparedModel) -> bool:
+    """Whether the exact decision is asked: ranks and degrees are equal, and something varies."""
     one, other = (side.profile(Representation.TF, 0) for side in (left, right))
     return one.rank == other.rank > 0 and one.degrees == other.degrees
 

@@ -136,11 +136,28 @@ def models_text(found: ModelList) -> str:
       {"name": "lag", "num": ["k"], "den": ["T", "1"]}
     ]}
     """
-    for model in found.models:
-        _refuse_s(model)
-    lines = [f"  {json.dumps(_written(model), ensure_ascii=False)}" for model in found.models]
+    lines = [f"  {json.dumps(as_entry(model), ensure_ascii=False)}" for model in found.models]
     head = f'{{"title": {json.dumps(found.title, ensure_ascii=False)}, "models": [\n'
     return head + ",\n".join(lines) + "\n]}\n"
+
+
+def as_entry(model: AnyModel) -> dict[str, object]:
+    """A model as a file has it, by its transfer functions in lowest terms; a matrix as its
+    expressions, parameters that they lack beside them. Raises InputError for a parameter s.
+    """
+    _refuse_s(model)
+    if isinstance(model, Model):
+        return {"name": model.name, **_of_entry(model)}
+    rows = [["0" if e is None else _ratio(_of_entry(e)) for e in row] for row in model.rows]
+    return {"name": model.name, "G": rows}
+
+
+def read_entry(entry: Mapping[str, object]) -> AnyModel:
+    """Inverse of `as_entry`, whatever the model is called; raises InputError."""
+    name, kinds = entry.get("name"), [kind for kind in ("num", "G") if kind in entry]
+    if type(name) is not str or len(kinds) != 1:
+        raise InputError('a model has a name and "num" and "den", or "G"')
+    return _of_kind(entry, name, "s")
 
 
 def models_of(data: object) -> ModelList:
@@ -223,14 +240,6 @@ def _of_chain(given: Plain, name: str) -> Model:
     if chain.dead_time:
         raise InputError("a dead time is no rational function of s; leave +delay away")
     return Model.from_chain(chain, name=name)
-
-
-def _written(model: AnyModel) -> dict[str, object]:
-    """As `_of_entry`; a matrix as its expressions, parameters that they lack beside them."""
-    if isinstance(model, Model):
-        return {"name": model.name, **_of_entry(model)}
-    rows = [["0" if e is None else _ratio(_of_entry(e)) for e in row] for row in model.rows]
-    return {"name": model.name, "G": rows}
 
 
 def _ratio(sides: Mapping[str, list[str]]) -> str:

@@ -7,7 +7,7 @@ from itertools import combinations
 from disting.catalogs.dampers import DamperSets, spelled
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome
+from disting.paper.claim import Claim, Found, Outcome, Seen
 from disting.paper.findings import Findings
 from disting.verdict import Query, Relation, Verdict, View
 
@@ -20,7 +20,11 @@ def dead_time(findings: Findings) -> Found:
         _compared(findings, chain, replace(chain, dead_time=True))
         for chain in Family(3, damped=True)
     ]
-    return Found(f"all {len(found)} pairs are distinguishable", _all_distinguishable(found))
+    return Found(
+        f"all {len(found)} pairs are distinguishable",
+        _all_distinguishable(found),
+        _with_and_without("delay"),
+    )
 
 
 def lag(findings: Findings) -> Found:
@@ -36,7 +40,13 @@ def lag(findings: Findings) -> Found:
         _all_distinguishable(same)
         and _all_distinguishable(every)
         and {v.decided_by for v in same} == {"1"},
+        _with_and_without("lag"),
     )
+
+
+def _with_and_without(extra: str) -> tuple[Seen, ...]:
+    """The first of the pairs of models without and with an extra."""
+    return (Seen(3, True, ("1", f"1+{extra}")),)
 
 
 def figure_14(findings: Findings) -> Found:
@@ -54,6 +64,7 @@ def figure_14(findings: Findings) -> Found:
         f" {counts[Relation.INDISTINGUISHABLE]} not; no damper and every single one are told apart"
         f" in {', '.join(f'A{i}' for i in located)} only",
         1 in located and counts[Relation.UNDECIDED] == 0,
+        (Seen(3, True, dampers=True),),
     )
 
 
@@ -65,6 +76,7 @@ def candidates(findings: Findings) -> Found:
         f"all {len(relations)} pairs of sets of base dampers for 1 to {SIZES[-1]} masses are"
         " distinguishable",
         set(relations) == {Relation.DISTINGUISHABLE},
+        tuple(Seen(n, True, ("1",), dampers=True) for n in SIZES),
     )
 
 
@@ -73,7 +85,12 @@ def model_a3(findings: Findings) -> Found:
     groups = findings.dampers(Family(3, damped=True)[3], DamperSets.ALL).classes()
     told = "; ".join(", ".join(map(spelled, group)) for group in groups)
     return Found(
-        f"told apart are only no damper and any: {told}", [len(g) for g in groups] == [1, 7]
+        f"told apart are only no damper and any: {told}",
+        [len(g) for g in groups] == [1, 7],
+        (
+            Seen(3, True, ("3", "3+b1"), dampers=True),
+            Seen(3, True, ("3+b1", "3+b2"), dampers=True),
+        ),
     )
 
 

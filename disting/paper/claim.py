@@ -1,6 +1,6 @@
 """A printed statement and its check."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -16,16 +16,50 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class Seen:
+    """Where verdicts can be seen: all pairs of a family, one of its models, or two of them.
+
+    `models` as their names go on behind the number of masses: 4, 1+b2, 1+lag. With `dampers`,
+    the family is that of all sets of ground dampers.
+    """
+
+    n_masses: int
+    damped: bool = False
+    models: tuple[str, ...] = ()
+    dampers: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Found:
-    """What is found here, in words, and whether the printed statement holds."""
+    """What is found here, in words, whether the printed statement holds, and where the verdicts
+    that it speaks of can be seen.
+    """
 
     value: str
     agrees: bool
+    seen: tuple[Seen, ...] = ()
 
     @property
     def outcome(self) -> Outcome:
         """As an outcome."""
         return Outcome.AGREES if self.agrees else Outcome.DIFFERS
+
+
+def families(*sizes: int, damped: bool = False) -> tuple[Seen, ...]:
+    """All pairs of each family."""
+    return tuple(Seen(n, damped) for n in sizes)
+
+
+def models(n_masses: int, numbers: Iterable[int], *, damped: bool = False) -> tuple[Seen, ...]:
+    """Single models of a family."""
+    return tuple(Seen(n_masses, damped, (str(number),)) for number in numbers)
+
+
+def pairs(
+    n_masses: int, numbers: Iterable[tuple[int, int]], *, damped: bool = False
+) -> tuple[Seen, ...]:
+    """Pairs of models of a family."""
+    return tuple(Seen(n_masses, damped, (str(i), str(j))) for i, j in numbers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +68,7 @@ class Claim:
 
     `place` where it is printed; `text` the statement, literally where it stands in quotation
     marks; `printed` its value; `check` computes ours, None where nobody can; `outcome` what the
-    check is known to give; `reason` why.
+    check is known to give; `reason` why; `about` the subject of what differs, in a few words.
     """
 
     key: str
@@ -44,9 +78,12 @@ class Claim:
     check: Callable[[Findings], Found] | None
     outcome: Outcome
     reason: str = ""
+    about: str = ""
 
     def __post_init__(self) -> None:
         if (self.check is None) != (self.outcome is Outcome.UNCHECKED):
             raise ValueError(f"{self.key}: a claim without a check is unchecked, and no other")
         if self.outcome is not Outcome.AGREES and not self.reason:
             raise ValueError(f"{self.key}: what does not agree needs a reason")
+        if (self.outcome is Outcome.DIFFERS) != bool(self.about):
+            raise ValueError(f"{self.key}: what differs, and nothing else, says what it is about")

@@ -9,31 +9,36 @@ from disting.conditions.finding import Outcome as Holding
 from disting.conditions.rule import Stage
 from disting.conditions.structural import condition_9
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome
+from disting.paper.claim import Claim, Found, Outcome, Seen, families, pairs
 from disting.paper.findings import Findings
-from disting.paper.told import counted, named, told, undecided
+from disting.paper.told import Pair, counted, named, told, undecided
 from disting.paper.verdict_claims import MISREAD
 from disting.verdict import Relation, View
 
+CASES = families(3) + families(3, damped=True) + families(4)
 FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}
 
 
 def condition_9_holds(findings: Findings) -> Found:
     """How often condition 9 is applicable, and how often it holds."""
-    found = [Counter(o) for o in (_condition_9(findings, n) for n in (3, 4, 5))]
-    applicable = [c[Holding.FAILS] + c[Holding.HOLDS] for c in found]
-    holds = [c[Holding.HOLDS] for c in found]
+    found = {n: _condition_9(findings, n) for n in (3, 4, 5)}
+    holds = [Counter(outcomes.values())[Holding.HOLDS] for outcomes in found.values()]
     return Found(
-        f"{named(applicable)} pairs of 3, 4 and 5 masses differ in the gap alone; condition 9 holds"
-        f" for {named(holds)} of them",
+        f"{named([len(outcomes) for outcomes in found.values()])} pairs of 3, 4 and 5 masses differ"
+        f" in the gap alone; condition 9 holds for {named(holds)} of them",
         holds == [0, 1, 6],
+        tuple(seen for n, outcomes in found.items() for seen in pairs(n, outcomes)),
     )
 
 
-def _condition_9(findings: Findings, n_masses: int) -> list[Holding]:
-    """Outcomes for the pairs with the same force and sensor; with others it is inapplicable."""
+def _condition_9(findings: Findings, n_masses: int) -> dict[Pair, Holding]:
+    """Outcomes for the pairs to which it is applicable: those with the same force and sensor."""
     subjects = [findings.engine.subject("", chain) for chain in Family(n_masses)]
-    return [condition_9(*pair).outcome for pair in combinations(subjects, 2)]
+    found = {
+        (i, j): condition_9(left, right).outcome
+        for (i, left), (j, right) in combinations(enumerate(subjects, 1), 2)
+    }
+    return {pair: o for pair, o in found.items() if o in (Holding.FAILS, Holding.HOLDS)}
 
 
 def figure_13(findings: Findings) -> Found:
@@ -41,17 +46,21 @@ def figure_13(findings: Findings) -> Found:
     catalog = findings.catalog(4)
     found = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
     left = sum(v.relation is Relation.UNDECIDED for *_, v in catalog.pairs(View.EXACT))
-    return Found(f"{told(found)}; the exact decision leaves {left}", found == FIG_13)
+    return Found(f"{told(found)}; the exact decision leaves {left}", found == FIG_13, families(4))
 
 
 def eight_cases(findings: Findings) -> Found:
     """Undamped 4-mass pairs that Markov parameters decide and coefficients do not."""
     catalog = findings.catalog(4)
-    gained = [
-        v.relation for i, j, v in catalog.pairs(View.COMBINED) if v.representation is Stage.MARKOV
-    ]
+    gained = {
+        (i, j): v.relation
+        for i, j, v in catalog.pairs(View.COMBINED)
+        if v.representation is Stage.MARKOV
+    }
     return Found(
-        f"{len(gained)} cases, all distinguishable", set(gained) != {Relation.DISTINGUISHABLE}
+        f"{len(gained)} cases, all distinguishable",
+        set(gained.values()) != {Relation.DISTINGUISHABLE},
+        pairs(4, gained),
     )
 
 
@@ -60,14 +69,20 @@ def eleven_and_thirteen(findings: Findings) -> Found:
     left, right = (findings.engine.subject(f"A{i}", Family(4)[i]) for i in (11, 13))
     by = findings.catalog(4).verdict(11, 13, View.COMBINED).decided_by
     return Found(
-        f"equivalent by condition {by}; condition 9 has {condition_9(left, right).note}", by == "9"
+        f"equivalent by condition {by}; condition 9 has {condition_9(left, right).note}",
+        by == "9",
+        pairs(4, [(11, 13)]),
     )
 
 
 def condition_6_damped(findings: Findings) -> Found:
     """Damped pairs that condition 6 decides."""
     decided = [counted(findings.picture(n, True, View.TF))["6"] for n in (3, 4)]
-    return Found(f"it decides {named(decided)} damped pairs of 3 and 4 masses", decided == [0, 0])
+    return Found(
+        f"it decides {named(decided)} damped pairs of 3 and 4 masses",
+        decided == [0, 0],
+        families(3, 4, damped=True),
+    )
 
 
 def superior(findings: Findings) -> Found:
@@ -79,7 +94,7 @@ def superior(findings: Findings) -> Found:
         for n, damped, count in cases
     ]
     fewer = all(a <= b for a, b in zip(coefficients, series, strict=True))
-    return Found(f"open pairs: {named(coefficients)} against {named(series)}", fewer)
+    return Found(f"open pairs: {named(coefficients)} against {named(series)}", fewer, CASES)
 
 
 def conditions_2_and_8(findings: Findings) -> Found:
@@ -99,6 +114,7 @@ def conditions_2_and_8(findings: Findings) -> Found:
         f"they decide {decisive} pairs within the families of 1 to 5 masses; of the fields of Fig."
         f" 14 condition 2 decides {rules['2']} and condition 8 {rules['8']}",
         decisive + rules["2"] + rules["8"] == 0,
+        (Seen(3, True, dampers=True),),
     )
 
 
@@ -112,6 +128,7 @@ def almost_all(findings: Findings) -> Found:
         f"{named(by_conditions)} pairs stay open (3 masses undamped, damped, 4 undamped); "
         f"with the exact decision {named(exactly)}",
         sum(by_conditions) < 0.05 * sum(len(c.family) * (len(c.family) - 1) // 2 for c in found),
+        CASES,
     )
 
 
@@ -122,6 +139,7 @@ NINE = (
 COMBINED_CLAIMS = (
     Claim(
         key="condition-9",
+        about="Reach of condition 9",
         place="Section 5.2",
         text=(
             "Condition 9: “For three masses there is no such occurrence, for four masses the"
@@ -148,6 +166,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="eight-cases",
+        about="What Markov parameters add, undamped",
         place="Section 5.2, Fig. 13",
         text=(
             "“In eight cases the MPA proved indistinguishability which could not be proved by the"
@@ -160,6 +179,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="11-and-13",
+        about="Which condition settles models 11 and 13",
         place="Section 5.2, Fig. 13",
         text="“Equivalence of models 11 and 13 was shown by cond. 9.”",
         printed="by condition 9",
@@ -169,6 +189,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="condition-6",
+        about="Condition 6 with damping",
         place="Section 5.2",
         text="“Damping is neglected because otherwise … condition 6 could never be applied.”",
         printed="condition 6 never applies",
@@ -181,6 +202,7 @@ COMBINED_CLAIMS = (
     ),
     Claim(
         key="2-and-8",
+        about="Need of conditions 2 and 8",
         place="Section 6",
         text="“Conditions 2 and 8 never appeared to be pivotal.”",
         printed="never",

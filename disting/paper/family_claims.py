@@ -5,7 +5,7 @@ from dataclasses import replace
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome
+from disting.paper.claim import Claim, Found, Outcome, families, models
 from disting.paper.findings import Findings
 from disting.paper.told import named
 
@@ -18,6 +18,7 @@ def table_2(findings: Findings) -> Found:
     return Found(
         f"{named(found[:5])}; going on {named(found[5:])} for 6 to 10 masses",
         found[:5] == [1, 3, 11, 29, 73],
+        families(1, 2, 3, 4, 5),
     )
 
 
@@ -32,7 +33,11 @@ def numbering(findings: Findings) -> Found:
         and left != right
         and replace(left, gap=right.gap) == right
     )
-    return Found("order of (n_gap, n_act−, n_act+, n_meas−, n_meas+): both hold", holds)
+    return Found(
+        "order of (n_gap, n_act−, n_act+, n_meas−, n_meas+): both hold",
+        holds,
+        models(3, [3], damped=True) + models(4, [11, 13]),
+    )
 
 
 def figure_9(findings: Findings) -> Found:
@@ -48,7 +53,9 @@ def figure_1_models(findings: Findings) -> Found:
     """The candidates of Fig. 1 among the families."""
     found = [Family(n, damped=True)[1] == Chain(n, damped=True) for n in (1, 2, 3, 4)]
     return Found(
-        "the candidate without base dampers is model 1 of its family, and collocated", all(found)
+        "the candidate without base dampers is model 1 of its family, and collocated",
+        all(found),
+        tuple(seen for n in (1, 2, 3, 4) for seen in models(n, [1], damped=True)),
     )
 
 
@@ -60,7 +67,7 @@ def collocated(findings: Findings) -> Found:
         for i, c in enumerate(Family(3), 1)
         if (c.act_minus, c.act_plus) == (c.meas_minus, c.meas_plus)
     ]
-    return Found(f"models {named(marked)}", marked == same)
+    return Found(f"models {named(marked)}", marked == same, models(3, marked))
 
 
 def coefficients(findings: Findings, *, damped: bool) -> list[int]:
@@ -86,7 +93,9 @@ def sensors(findings: Findings) -> Found:
             ]
             moved.append(shapes[0] == shapes[1] == shapes[2])
     return Found(
-        "non-constant Markov parameters move by one (two) places in all 22 models", all(moved)
+        "non-constant Markov parameters move by one (two) places in all 22 models",
+        all(moved),
+        families(3) + families(3, damped=True),
     )
 
 

@@ -196,6 +196,7 @@ SELECTION_CLAIMS = (
     ),
     Claim(
         key="phase",
+        about="Continuity of the phase",
         place="Section 2.3, end",
         text=(
             "“A potential problem is, however, that the measured and simulated phase must be"
@@ -223,6 +224,7 @@ SELECTION_CLAIMS = (
     ),
     Claim(
         key="collinearity",
+        about="Formula of the collinearity index",
         place="Equation (17)",
         text="“γ_k = 1/√λ_k … λ_k is the smallest singular value of S̃”",
         printed="smallest singular value under the root",
@@ -262,6 +264,7 @@ SELECTION_CLAIMS = (
     ),
     Claim(
         key="numerical",
+        about="Derivatives for large models",
         place="Section 3.1",
         text=(
             "4-mass models “often require numerical sensitivity matrix calculation due to TF"
@@ -277,6 +280,7 @@ SELECTION_CLAIMS = (
     ),
     Claim(
         key="table-1",
+        about="Values against their thresholds",
         place="Table 1",
         text="Every best model fulfils the thresholds of its setting.",
         printed="18 values within their thresholds",

@@ -10,11 +10,14 @@ from disting.conditions.necessary import DEPENDENCES
 from disting.conditions.sufficient import condition_7
 from disting.model.chain import Sensor
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome
+from disting.paper.claim import Claim, Found, Outcome, Seen, families, models, pairs
 from disting.paper.family_claims import coefficients
 from disting.paper.findings import Findings
 from disting.paper.told import Pair, counted, deciding, named, told, undecided
 from disting.verdict import Relation, View
+
+BOTH = families(3) + families(3, damped=True)
+A1_A4 = (*pairs(3, [(1, 4)], damped=True), Seen(3, False, ("1", "4")))
 
 
 def same_pictures(findings: Findings) -> Found:
@@ -30,13 +33,13 @@ def same_pictures(findings: Findings) -> Found:
         for view in (View.TF, View.MARKOV, View.COMBINED)
         for sensor in (Sensor.POSITION, Sensor.VELOCITY)
     ]
-    return Found("the same condition decides in every field", all(equal))
+    return Found("the same condition decides in every field", all(equal), BOTH)
 
 
 def figure_10_left(findings: Findings) -> Found:
     """Undamped, transfer functions."""
     found = counted(findings.picture(3, False, View.TF))
-    return Found(told(found), "" not in found)
+    return Found(told(found), "" not in found, families(3))
 
 
 def figure_10_right(findings: Findings) -> Found:
@@ -53,19 +56,20 @@ def figure_10_right(findings: Findings) -> Found:
     return Found(
         f"{told(counted(series))}: exactly the {len(same)} indistinguishable pairs",
         undecided(series) == same,
+        pairs(3, sorted(same)),
     )
 
 
 def fewer_than_eight(findings: Findings) -> Found:
     """Undamped, 7 against 8 Markov parameters."""
     eight, seven = (len(undecided(findings.picture(3, False, View.MARKOV, k))) for k in (8, 7))
-    return Found(f"{seven} pairs open with 7, {eight} with 8", seven > eight)
+    return Found(f"{seven} pairs open with 7, {eight} with 8", seven > eight, families(3))
 
 
 def all_twelve(findings: Findings) -> Found:
     """Undamped, all 12 Markov parameters."""
     found = counted(findings.picture(3, False, View.MARKOV))
-    return Found(f"all 12 are computed modulo primes: {told(found)}", "6" not in found)
+    return Found(f"all 12 are computed modulo primes: {told(found)}", "6" not in found, families(3))
 
 
 def no_additional_information(findings: Findings) -> Found:
@@ -73,7 +77,7 @@ def no_additional_information(findings: Findings) -> Found:
     gained = undecided(findings.picture(3, False, View.TF)) - undecided(
         findings.picture(3, False, View.MARKOV, 8)
     )
-    return Found(f"{len(gained)} pairs more", not gained)
+    return Found(f"{len(gained)} pairs more", not gained, pairs(3, sorted(gained)) or families(3))
 
 
 def figure_11(findings: Findings) -> Found:
@@ -90,6 +94,7 @@ def figure_11(findings: Findings) -> Found:
         f" {exact[Relation.INDISTINGUISHABLE]} indistinguishable and"
         f" {exact[Relation.DISTINGUISHABLE]} distinguishable",
         bool(undecided(left)) and bool(undecided(right)),
+        pairs(3, sorted(_open(findings)), damped=True),
     )
 
 
@@ -106,6 +111,7 @@ def non_constant(findings: Findings) -> Found:
         f"{min(damped)} to {max(damped)} damped (7 for A{named(fewest)} only), {min(undamped)} to"
         f" {max(undamped)} undamped",
         agrees,
+        models(3, fewest, damped=True),
     )
 
 
@@ -113,7 +119,9 @@ def determinable(findings: Findings) -> Found:
     """Determinable parameters of the undamped 3-mass models."""
     ranks = [row.rank for row in findings.catalog(3).rows]
     return Found(
-        f"5 parameters, of which {min(ranks)} to {max(ranks)} are determinable", set(ranks) == {5}
+        f"5 parameters, of which {min(ranks)} to {max(ranks)} are determinable",
+        set(ranks) == {5},
+        models(3, [number for number, rank in enumerate(ranks, 1) if rank < 5]),
     )
 
 
@@ -126,17 +134,19 @@ def more_markov_than_parameters(findings: Findings) -> Found:
         f"so in {sum(more)} of {len(more)} models with all 12 Markov parameters; condition 7 holds"
         f" for {sum(holds)} pairs"
     )
-    return Found(said, all(more) and not any(holds))
+    return Found(said, all(more) and not any(holds), families(3))
 
 
 def beyond_coefficients(findings: Findings) -> Found:
     """Damped pairs that Markov parameters decide and coefficients do not."""
     series = findings.picture(3, True, View.MARKOV, 7)
     gained = undecided(findings.picture(3, True, View.TF)) - undecided(series)
-    pairs = named([f"{i}-{j}" for i, j in sorted(gained)])
+    said = named([f"{i}-{j}" for i, j in sorted(gained)])
     kinds = {series.relation(i - 1, j - 1) for i, j in gained}
     return Found(
-        f"{len(gained)} pairs, all distinguishable: {pairs}", kinds != {Relation.DISTINGUISHABLE}
+        f"{len(gained)} pairs, all distinguishable: {said}",
+        kinds != {Relation.DISTINGUISHABLE},
+        pairs(3, sorted(gained), damped=True),
     )
 
 
@@ -146,31 +156,38 @@ def figure_12_pair(findings: Findings) -> Found:
     return Found(
         "open by coefficients, distinguishable by condition 5 on Markov parameters",
         by == ["", DEPENDENCES.name],
+        A1_A4,
     )
 
 
 def figure_12_frequencies(findings: Findings) -> Found:
     """Frequencies of A1 and of the fitted A4."""
     worst = max(mode.detuned for mode in findings.refit.modes)
-    return Found(f"all four within {100 * worst:.1f} %", worst < 0.01)
+    return Found(f"all four within {100 * worst:.1f} %", worst < 0.01, A1_A4)
 
 
 def figure_12_damping(findings: Findings) -> Found:
     """Damping ratios of A1 and of the fitted A4, the best of all starts."""
     errors = [mode.misdamped for mode in findings.refit.modes]
-    return Found(f"off by {100 * min(errors):.0f} to {100 * max(errors):.0f} %", min(errors) > 0.1)
+    return Found(
+        f"off by {100 * min(errors):.0f} to {100 * max(errors):.0f} %", min(errors) > 0.1, A1_A4
+    )
 
 
 def eight_as_seven(findings: Findings) -> Found:
     """Damped, 7 and 8 Markov parameters."""
     seven, eight = (findings.picture(3, True, View.MARKOV, k).decided_by for k in (7, 8))
-    return Found("the same condition decides in every field", np.array_equal(seven, eight))
+    return Found(
+        "the same condition decides in every field",
+        np.array_equal(seven, eight),
+        families(3, damped=True),
+    )
 
 
 def fewer_than_seven(findings: Findings) -> Found:
     """Damped, 6 against 7 Markov parameters."""
     seven, six = (len(undecided(findings.picture(3, True, View.MARKOV, k))) for k in (7, 6))
-    return Found(f"{six} pairs open with 6, {seven} with 7", six > seven)
+    return Found(f"{six} pairs open with 6, {seven} with 7", six > seven, families(3, damped=True))
 
 
 MISREAD = (
@@ -210,6 +227,7 @@ VERDICT_CLAIMS = (
     ),
     Claim(
         key="determinable",
+        about="Number of determinable parameters",
         place="Section 5.2",
         text="“the 5 determinable parameters” (3 masses, undamped)",
         printed="5 determinable parameters",
@@ -243,6 +261,7 @@ VERDICT_CLAIMS = (
     ),
     Claim(
         key="all-12",
+        about="Cost of all Markov parameters",
         place="Section 5.2",
         text="“for significantly more than 8, up to 12 the computation time would be formidable”",
         printed="out of reach",
@@ -288,6 +307,7 @@ VERDICT_CLAIMS = (
     ),
     Claim(
         key="beyond",
+        about="What Markov parameters add, damped",
         place="Section 5.2",
         text=(
             "“in some cases the MPA proves indistinguishability that cannot be proved with the TFA”"

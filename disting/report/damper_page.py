@@ -11,21 +11,23 @@ from itertools import groupby
 
 from disting.catalogs.damper_family import DamperFamily, Name
 from disting.catalogs.dampers import spelled
+from disting.catalogs.files import name_of as chains_name
 from disting.conditions.rule import EXACT
 from disting.conditions.table import RULES
 from disting.model.chain import Chain
-from disting.report.damper_drawing import (
+from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
+from disting.report.drawing import draw
+from disting.report.environment import render
+from disting.report.families import Families, families
+from disting.report.page import decides
+from disting.report.page_drawing import (
+    Drawing,
     SharedDrawing,
     definitions,
     ground_dampers,
     height_with_dampers,
     shared,
 )
-from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
-from disting.report.drawing import draw
-from disting.report.environment import render
-from disting.report.model import Drawing
-from disting.report.page import decides
 from disting.report.words import plural
 from disting.verdict import Relation
 
@@ -77,12 +79,14 @@ class Open:
     pairs: int
 
 
-def damper_page(found: DamperFamily, *, catalog: bool = True) -> str:
-    """HTML of a family with sets of ground dampers; `catalog`: the pages of the family without
-    them are beside it.
+def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
+    """HTML of a family with sets of ground dampers; `beside`: the pages of pairs beside it (see
+    `families`).
     """
+    pages = families([], [found]) | dict(beside or {})
+    catalog = chains_name(found.family.n_masses, found.family.damped) in pages
     family, by_size, totals = found.family, numbered(found.found), found.found.counts()
-    parts, drawings = shared(tuple(family))
+    parts, drawings = shared(dict(enumerate(family, 1)))
     ground = tuple(ground_dampers(family.n_masses))
     undecided = list(opened(found, by_size))
     return render(
@@ -102,7 +106,12 @@ def damper_page(found: DamperFamily, *, catalog: bool = True) -> str:
         parts=definitions((*parts, *ground)),
         drawings=drawings,
         sample=Drawing(0, draw(Chain(3, 1, 1, 3, 1, 2, damped=family.damped, ground_dampers=(2,)))),
-        payload=payload(found, catalog=catalog, tall=height_with_dampers(family.n_masses)),
+        payload=payload(
+            found,
+            catalog=catalog,
+            families=pages,
+            tall=height_with_dampers(family.n_masses),
+        ),
         catalog=catalog,
         plural=plural,
     )

@@ -15,10 +15,10 @@ from itertools import product
 from disting.catalogs import Catalog
 from disting.model.chain import Chain
 from disting.model.constraints import Indices, violated
-from disting.report.damper_drawing import Part
 from disting.report.domains import one_sided
 from disting.report.drawing import draw
 from disting.report.model import folder_of
+from disting.report.page_drawing import Part
 from disting.report.scene import Layer
 from disting.report.words import short_title
 from disting.verdict import Relation

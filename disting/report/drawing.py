@@ -1,8 +1,12 @@
 """A chain as an engineer sketches it: wall, masses, springs, dampers, actuator above, sensor below.
 
 ground      force F: a circle on a bar above the masses, arrows push on the masses at its ends
-  |/        sensor y: a box on a bar below; filled dot: the measured mass, open dot: the reference
+  |/   k01  sensor y: a box on a bar below; filled dot: the measured mass, open dot: the reference
   |/--zz--[m1]  gap  [m2]
+
+Every part carries the name of its parameter: a mass inside, a spring above it, a damper below it, a
+damper to the ground on the left of its cup. Where names and signs stand, nothing else passes:
+above and below the middle of a joint; upright lines are at masses only.
 """
 
 from collections.abc import Iterator
@@ -31,7 +35,10 @@ MASS = 32.0  # side of a mass
 JOINT = 36.0  # length of a spring
 PITCH = MASS + JOINT
 NOTE = 16.0  # height of the line that tells lag and dead time
-RISE = 33.0  # from the middle of the masses to the actuator's and to the sensor's bar
+RISE = 38.0  # from the middle of the masses to the actuator's and to the sensor's bar
+PORT = 13.0  # height of a bar with its sign, from the middle
+LETTERS = 11.0  # size of the name of a spring or a damper
+BESIDE = 21.5  # from the middle of the masses to the names of springs and of dampers
 LOWER = 25.0  # from one sensor's bar to that of a further one
 STEM = 11.0  # a ground damper hangs this far left of its mass's middle
 
@@ -46,7 +53,7 @@ class Layout:
     @property
     def axis(self) -> float:
         """y of the masses' middle."""
-        return 46 + NOTE * (self.chain.lag or self.chain.dead_time)
+        return RISE + PORT + NOTE * (self.chain.lag or self.chain.dead_time)
 
     @property
     def width(self) -> float:
@@ -57,7 +64,8 @@ class Layout:
     @property
     def height(self) -> float:
         """Height of the drawing."""
-        return self.axis + 46 + LOWER * self.more + 32 * bool(self.chain.ground_dampers)
+        bars = RISE + PORT + LOWER * self.more
+        return self.axis + bars + 32 * bool(self.chain.ground_dampers)
 
     def middle(self, node: int) -> float:
         """x of a mass's middle, of the wall's face for the ground."""
@@ -66,6 +74,16 @@ class Layout:
     def joint(self, node: int) -> tuple[float, float]:
         """x where the joint between a node and its right neighbour begins and ends."""
         return WALL + PITCH * node, WALL + PITCH * node + JOINT
+
+    def joint_middle(self, node: int) -> float:
+        """x of the middle of the joint between a node and its right neighbour."""
+        return WALL + PITCH * node + JOINT / 2
+
+    def sign(self, ends: tuple[int, int]) -> float:
+        """x of the sign on the bar between two nodes: at a joint near its middle, where no post
+        is.
+        """
+        return self.joint_middle((sum(ends) - 1) // 2)
 
 
 def chain_svg(chain: Chain) -> str:
@@ -115,15 +133,25 @@ def _node(index: int) -> str:
 
 
 def _element(element: Element, at: Layout) -> tuple[Shape, ...]:
+    name = element.parameter
     match element.kind:
         case "m":
-            return _mass(element.parameter, at.middle(element.at), at.axis)
+            return _mass(name, at.middle(element.at), at.axis)
         case "k":
-            return (_spring(*at.joint(element.at), at.axis - 8 * at.chain.damped),)
+            spring = _spring(*at.joint(element.at), at.axis - 8 * at.chain.damped)
+            return spring, _label(name, at.joint_middle(element.at), at.axis - BESIDE)
         case "d":
-            return _damper(*at.joint(element.at), at.axis + 9)
+            damper = _damper(*at.joint(element.at), at.axis + 9)
+            return *damper, _label(name, at.joint_middle(element.at), at.axis + BESIDE)
         case _:
-            return _ground_damper(at.middle(element.at) - STEM, at)
+            x = at.middle(element.at) - STEM
+            label = _label(name, x - 8, at.height - 21, Anchor.END)
+            return *_ground_damper(x, at), label
+
+
+def _label(name: str, x: float, y: float, anchor: Anchor = Anchor.MIDDLE) -> Text:
+    """The name of a parameter beside its part."""
+    return Text(x, y, name, LETTERS, Ink.LABEL, anchor)
 
 
 def _mass(label: str, x: float, y: float) -> tuple[Shape, ...]:
@@ -182,8 +210,7 @@ def _ground(at: Layout) -> Iterator[Layer]:
 
 
 def _gap(at: Layout) -> Layer:
-    x0, x1 = at.joint(at.chain.gap)
-    return Layer("gap", (Text((x0 + x1) / 2, at.axis, "gap", 11, Ink.MUTED),))
+    return Layer("gap", (Text(at.joint_middle(at.chain.gap), at.axis, "gap", 11, Ink.MUTED),))
 
 
 def _force(at: Layout) -> Layer:
@@ -196,7 +223,7 @@ def force_bar(at: Layout, ends: tuple[int, int]) -> tuple[Shape, ...]:
     """
     y = at.axis - RISE
     x0, x1 = map(at.middle, ends)
-    centre = (x0 + x1) / 2
+    centre = at.sign(ends)
     posts = [_post(at.middle(i), at.axis - MASS / 2, y - 4, Ink.FORCE) for i in ends if i]
     back = (
         arrow((centre, y), (x0 + 1, y), Ink.FORCE)
@@ -222,7 +249,7 @@ def sensor_bar(
     how far right of the middle of a mass it hangs.
     """
     x0, x1 = (at.middle(i) + aside * bool(i) for i in ends)
-    centre = (x0 + x1) / 2
+    centre = at.sign(ends)
     posts = [
         _post(x, at.axis + MASS / 2, y, Ink.SENSOR)
         for x, i in zip((x0, x1), ends, strict=True)

@@ -1,9 +1,8 @@
 """What an experiment adds to the drawing of a chain.
 
 A further sensor is a bar below that of the first; a moved force stands for that of the chain; a
-locked mass is clamped between two pieces of ground; a known inertia is a block +J at a corner of
-the mass, at one where nothing else is. Each is a layer over the drawing of any chain of the size,
-so that a page holds it once.
+locked mass is clamped between two pieces of ground; a known inertia is a block +J on the mass. Each
+is a layer over the drawing of any chain of the size, so that a page holds it once.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -24,15 +23,13 @@ from disting.report.drawing import (
     force_bar,
     sensor_bar,
 )
-from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene, Shape, Text, extent
+from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene, Shape, Text
 from disting.report.svg import body, number
 
 SMALL = 0.62  # of the natural width
 ASIDE = 9.0  # x of a further sensor's post, from the middle of its mass
-CLEAR = 11.0  # least distance of that post from the middle of the first sensor's sign
 BLOCK = (17.0, 12.0)  # an added inertia
-JAW = 20.0  # half of the width of the ground that holds a locked mass
-CORNERS = ((-1, -1), (1, -1), (-1, 1), (1, 1))  # left and right, above and below
+JAW = 18.0  # half of the width of the ground that holds a locked mass
 Port = tuple[int, int]
 """Plus and minus mass; 0 is the ground."""
 
@@ -104,11 +101,9 @@ def state(
     own = draw(chain, at.more)
     layers = [layer for layer in own.layers if layer.name != "sensor" or first]
     for place, sign in enumerate(further, first):
-        side = free_side(chain, sensors[sign][0])
-        bar = further_sensor(at, sensors[sign], place, sign, side)
-        layers.append(Layer(f"sensor {sign}", bar))
+        layers.append(Layer(f"sensor {sign}", further_sensor(at, sensors[sign], place, sign)))
     layers += [Layer(f"lock {i}", clamp(at, i)) for i in locked]
-    layers += [Layer(f"inertia {i}", inertia(at, i, free_corner(chain, i))) for i in inertias]
+    layers += [Layer(f"inertia {i}", inertia(at, i)) for i in inertias]
     return replace(own, layers=tuple(layers))
 
 
@@ -120,26 +115,22 @@ def added(chain: Chain, item: Item) -> Layer:
     name = f"{item.kind.value}-{node}"
     match item.kind:
         case Kind.SENSOR:
-            side = free_side(chain, node)
-            return Layer(
-                f"{name}{'r' if side > 0 else 'l'}", further_sensor(at, (node, 0), 1, "y2", side)
-            )
+            return Layer(name, further_sensor(at, (node, 0), 1, "y2"))
         case Kind.FORCE:
             return Layer(name, (*_wall(at.axis - RISE), *force_bar(at, (0, node))))
         case Kind.LOCK:
             return Layer(name, clamp(at, node))
         case Kind.INERTIA:
-            corner = free_corner(chain, node)
-            return Layer(f"{name}-{corner}", inertia(at, node, corner))
+            return Layer(name, inertia(at, node))
 
 
-def further_sensor(at: Layout, port: Port, place: int, sign: str, side: int) -> tuple[Shape, ...]:
+def further_sensor(at: Layout, port: Port, place: int, sign: str) -> tuple[Shape, ...]:
     """The bar of a further sensor, `place` bars below that of the first, with the piece of the
-    wall where it is fixed to that; its posts are left (-1) or right (1) of the middle.
+    wall where it is fixed to that.
     """
     y = at.axis + RISE + LOWER * place
     wall = () if port[1] else tuple(_wall(y))
-    return *wall, *sensor_bar(at, (port[1], port[0]), y, sign, side * ASIDE)
+    return *wall, *sensor_bar(at, (port[1], port[0]), y, sign, ASIDE)
 
 
 def clamp(at: Layout, node: int) -> tuple[Shape, ...]:
@@ -153,40 +144,13 @@ def clamp(at: Layout, node: int) -> tuple[Shape, ...]:
     return tuple(shapes)
 
 
-def inertia(at: Layout, node: int, corner: int) -> tuple[Shape, ...]:
-    """A known inertia at a corner of a mass, one of CORNERS."""
-    right, below = CORNERS[corner]
+def inertia(at: Layout, node: int) -> tuple[Shape, ...]:
+    """A known inertia on a mass, left of the post of a force."""
     width, height = BLOCK
-    x = at.middle(node) + right * (2.5 + width / 2)
-    y = at.axis + below * (MASS + height) / 2
+    x = at.middle(node) - 2.5 - width / 2
+    y = at.axis - (MASS + height) / 2
     box = Rect(x - width / 2, y - height / 2, width, height, Ink.PAPER, Ink.LINE, radius=2)
     return box, Text(x, y, "+J", 10.5, bold=True)
-
-
-def free_corner(chain: Chain, node: int) -> int:
-    """The first corner of a mass at which an inertia covers nothing; the first of all if there is
-    none.
-    """
-    at = Layout(chain)
-    busy = [x for x in draw(chain).layers if x.name in ("force", "sensor") or x.name[0] == "b"]
-    taken = [extent(shape) for layer in busy for shape in layer.shapes]
-
-    def is_free(corner: int) -> bool:
-        """Whether no shape is there."""
-        left, top, right, bottom = extent(inertia(at, node, corner)[0])
-        return all(c <= left or right <= a or d <= top or bottom <= b for a, b, c, d in taken)
-
-    return next((k for k in range(len(CORNERS)) if is_free(k)), 0)
-
-
-def free_side(chain: Chain, node: int) -> int:
-    """1: a further sensor's post is right of the middle of its mass; -1 where the first sensor's
-    sign is in the way.
-    """
-    at = Layout(chain)
-    sign = (at.middle(chain.meas_minus) + at.middle(chain.meas_plus)) / 2
-    is_free = abs(at.middle(node) + ASIDE - sign) >= CLEAR or node in chain.ground_dampers
-    return 1 if is_free else -1
 
 
 def _wall(y: float) -> Iterator[Shape]:

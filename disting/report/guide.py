@@ -7,12 +7,13 @@ there (`disting.report.reference`).
 
 import argparse
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 
 from disting.report.environment import render, source
-from disting.report.markdown import ADDRESS, GuidePage, guide_page
+from disting.report.executed_notebook import PREFIX, notebook_page
+from disting.report.markdown import ADDRESS, NOTHING, GuidePage, guide_page
 from disting.report.reference.commands import command_page
 from disting.report.reference.python_pages import python_pages
 
@@ -29,18 +30,21 @@ class Part:
 
 
 def guide(
-    commands: argparse.ArgumentParser | None = None, beside: Collection[str] = ()
+    commands: argparse.ArgumentParser | None = None, notebooks: Mapping[str, str] = NOTHING
 ) -> tuple[Part, ...]:
     """All pages, part by part, the listing first; `commands`: the command line, whose reference
-    is the last page then; `beside`: addresses of the site's further pages, to which links lead.
+    is the last page then; `notebooks`: texts of executed notebooks by name, a part of their own.
     """
     texts = guide_texts()
-    drawings, known = _files(".svg"), {*texts, *beside}
+    drawings = _files(".svg")
+    known = {*texts, *(PREFIX + name for name in notebooks)}
     pages = {name: guide_page(name, text, known, drawings) for name, text in texts.items()}
     made = (*python_pages(), *([command_page(commands)] if commands else []))
     *parts, last = [
         Part(title, tuple(pages[name] for name in names)) for title, names in guide_parts(texts)
     ]
+    executed = tuple(notebook_page(name, text, known) for name, text in notebooks.items())
+    parts += [Part("Notebooks", executed)] if executed else []
     return (Part("", (pages[LISTING],)), *parts, Part(last.title, last.pages + made))
 
 

@@ -8,13 +8,15 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.damper_files import name_of
-from disting.report.damper_drawing import definitions
+from disting.catalogs.sizes_files import SizesCatalog
 from disting.report.damper_page import family_title
 from disting.report.damper_thumbnail import thumbnail as damper_thumbnail
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
+from disting.report.families import families
 from disting.report.matrix import thumbnail
-from disting.report.model import Drawing, folder_of, model_of, motion_of
+from disting.report.model import model_of, motion_of
+from disting.report.page_drawing import Drawing, definitions
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
@@ -57,10 +59,13 @@ class Example:
 
 
 def index(
-    catalogs: Sequence[Catalog], links: Sequence[Link] = (), dampers: Sequence[DamperFamily] = ()
+    catalogs: Sequence[Catalog],
+    links: Sequence[Link] = (),
+    dampers: Sequence[DamperFamily] = (),
+    across: Sequence[SizesCatalog] = (),
 ) -> str:
     """HTML of the index: the catalogues in the order given, families with ground dampers, and
-    further pages.
+    further pages; `across`: the catalogues of several sizes that have a page.
     """
     masses = sorted({c.n_masses for c in catalogs})
     return render(
@@ -69,27 +74,14 @@ def index(
         damper_cards=[damper_card(f) for f in dampers],
         example=example(catalogs),
         links=links,
-        sizes=script_json(sizes(catalogs, dampers)),
+        families=script_json(families(catalogs, dampers, across)),
+        across=across,
         machines=script_json(machines(catalogs)),
         machine_parts=definitions(parts(catalogs)),
         machine_sizes=masses,
         machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,
     )
-
-
-def sizes(
-    catalogs: Sequence[Catalog], dampers: Sequence[DamperFamily]
-) -> dict[str, dict[str, object]]:
-    """What a search needs of each page of pairs, by its name: how many models there are, and the
-    folder of their pages where they have any.
-    """
-    with_dampers: dict[str, dict[str, object]] = {
-        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
-    }
-    return {
-        c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
-    } | with_dampers
 
 
 def card(catalog: Catalog) -> Card:

@@ -1,11 +1,10 @@
 """Pages of Markdown as pages of the site.
 
 Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
-to another page of the guide leads to the rendered page, one into `reports` to what stands in the
-site; a link that leads elsewhere has no place in the site and stays as its words. An image is a
-drawing (SVG) beside the pages, and becomes a part of the page. A block named "picture" holds a
-model a line, such as `3:1 --damped`, and is shown as their drawings; what follows a name is for
-those who read the text.
+to another page of the guide, or to a notebook, leads to the rendered page; a link that leads
+elsewhere has no place in the site and stays as its words. An image is a drawing (SVG) beside the
+pages, and becomes a part of the page. A block named "picture" holds a model a line, such as `3:1
+--damped`, and is shown as their drawings; what follows a name is for those who read the text.
 """
 
 import re
@@ -30,7 +29,8 @@ LONG = 40
 ENLARGED = 1.4  # drawings of chains
 FIGURE = Markup('<figure class="picture">{}<figcaption>{}</figcaption></figure>\n')
 ADDRESS = re.compile(r"([a-z0-9-]+)\.md(#[\w-]+)?")
-REPORTS = "../../reports/"  # the shipped site, as seen from the guide's folder
+NOTEBOOK = re.compile(r"\.\./\.\./reports/notebooks/([\w-]+)\.ipynb")
+PREFIX = "notebook-"  # of the names of pages of executed notebooks
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,12 +62,19 @@ class GuidePage:
         return tuple((s.anchor, s.title) for s in self.sections if s.level == 2)
 
 
+NOTHING: Mapping[str, str] = MappingProxyType({})
+
+
 def guide_page(
-    name: str, text: str, known: Container[str], drawings: Mapping[str, str] = MappingProxyType({})
+    name: str,
+    text: str,
+    known: Container[str],
+    drawings: Mapping[str, str] = NOTHING,
+    outputs: Mapping[str, str] = NOTHING,
 ) -> GuidePage:
     """A page of Markdown whose first block is its title; `known`: names of the pages that links
-    may lead to, and addresses of further pages of the site; `drawings`: SVG by the names of the
-    files that images may name.
+    may lead to; `drawings`: SVG by the names of the files that images may name; `outputs`: HTML
+    in the place of blocks, by what these are named.
 
     >>> text = "# Title\\n\\n## Of *one*\\n\\nSee [b](b.md) and [code](../b.py), <b>."
     >>> page = guide_page("a", text, ["a", "b"])
@@ -90,7 +97,9 @@ def guide_page(
             if [child.type for child in token.children] == ["image"]:
                 before.hidden = after.hidden = True  # a figure is no part of a paragraph
     title = _words(tokens[1])
-    found = parser.renderer.render(tokens[3:], parser.options, {"drawings": drawings})
+    found = parser.renderer.render(
+        tokens[3:], parser.options, {"drawings": drawings, "outputs": outputs}
+    )
     return GuidePage(name, title, sections, Markup(found))
 
 
@@ -139,7 +148,11 @@ def _picture(model: str) -> str:
     return FIGURE.format(drawn, f"{name}: {scene.title}")
 
 
-def _code(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
+def _code(
+    _: object, tokens: Sequence[Token], place: int, __: object, env: Mapping[str, Mapping[str, str]]
+) -> str:
+    if tokens[place].info in env["outputs"]:
+        return env["outputs"][tokens[place].info]
     if tokens[place].info == "picture":
         return _pictures(tokens[place].content.splitlines())
     return f'<pre tabindex="0"><code>{escape(tokens[place].content.rstrip())}</code></pre>\n'
@@ -234,8 +247,8 @@ def _rendered(address: str, known: Container[str]) -> str:
     """Where a link of a page leads in the site; empty if that is nowhere."""
     if address.startswith("#"):
         return address
-    if address.startswith(REPORTS):
-        further = address.removeprefix(REPORTS)
-        return f"../{further}" if further in known else ""
+    if notebook := NOTEBOOK.fullmatch(address):
+        name = f"{PREFIX}{notebook[1]}"
+        return f"{name}.html" if name in known else ""
     match = ADDRESS.fullmatch(address)
     return f"{match[1]}.html{match[2] or ''}" if match and match[1] in known else ""

@@ -1,5 +1,5 @@
-"""The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, and as
-a thumbnail.
+"""The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, one
+view a slide, and as a thumbnail.
 
 Row and column of a field are the two models; the number is the condition that decided. How a field
 shows its relation is told in `disting.report.fields`.
@@ -10,16 +10,19 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from disting.catalogs import Catalog
-from disting.report.fields import CORNERS, FILLS, LETTERS, corner, field, legend
+from disting.report.fields import CORNERS, FILLS, LETTERS, corner, field, legend, legend_entry
 from disting.report.png import png
 from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Text
 from disting.report.svg import svg
-from disting.report.words import VIEW_TITLES, headline, sign, title
+from disting.report.words import VIEW_TITLES, headline, sign, title, totals
 from disting.verdict import Relation, View
 
 TOP = 88.0  # room for the figure's and the panels' titles, at letter size 1
 MARGIN = 16.0
 WIDEST_PNG = 5200  # pixels
+SLIDE = (1920.0, 1080.0)  # of a projector; wider figures have a slide for each view too
+SLIDE_MARGIN = 24.0
+NAMES = 11.0  # largest size of the names of the models
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +34,7 @@ class Grid:
     x: float
     y: float
     cell: float
+    letters: float
 
     @property
     def pairs(self) -> Iterator[tuple[int, int]]:
@@ -64,9 +68,9 @@ def figure(catalog: Catalog) -> Scene:
     size = len(catalog.family)
     cell, k = _cell(size), 1.6 if size > 30 else 1.0
     top, left = TOP * k, MARGIN + 2.2 * cell
-    panel = max(size * cell, 150.0) + 3 * cell
+    panel = _panel_width(size)
     panels = (
-        _panel(Grid(catalog=catalog, view=view, x=left + i * panel, y=top, cell=cell), k)
+        _panel(Grid(catalog, view, left + i * panel, top, cell, min(NAMES, 0.62 * cell)), k)
         for i, view in enumerate(VIEW_TITLES)
     )
     foot = top + size * cell + 26 * k
@@ -77,6 +81,50 @@ def figure(catalog: Catalog) -> Scene:
         *legend(Relation, MARGIN, foot, k),
     )
     return Scene(width, foot + 26 * k, layers, f"{title(catalog)}: {headline(catalog)}")
+
+
+def has_slides(catalog: Catalog) -> bool:
+    """Whether the figure of all views is too wide for a slide."""
+    return len(VIEW_TITLES) * _panel_width(len(catalog.family)) > SLIDE[0]
+
+
+def slide_name(catalog: Catalog, view: View) -> str:
+    """Name of the file of a slide.
+
+    >>> from disting.catalogs import catalog
+    >>> slide_name(catalog(5), View.POSITIVE)
+    'chains-5-undamped-matrix-positive.png'
+    """
+    return f"{catalog.name}-matrix-{view}.png"
+
+
+def slide(catalog: Catalog, view: View) -> Scene:
+    """One view in the size of a projector's picture, names and signs as large as the fields allow;
+    title, numbers of pairs and legend stand in the empty corner.
+    """
+    size, (width, height) = len(catalog.family), SLIDE
+    cell = min((height - 2 * SLIDE_MARGIN) / size, 40.0)
+    letters = min(0.9 * cell, 22.0)
+    left = SLIDE_MARGIN + 0.62 * letters * len(f"A{size}") + 6
+    grid = Grid(catalog, view, left, SLIDE_MARGIN, cell, letters)
+    counted = totals(catalog, view)
+    aside, rows = left + 0.55 * size * cell, [r for r in Relation if counted.get(r)]
+    said = (
+        Text(aside, 60, title(catalog), 38, anchor=Anchor.START, bold=True),
+        Text(aside, 112, VIEW_TITLES[view], 30, anchor=Anchor.START),
+        *(
+            Text(aside + 680, 176 + 46 * k, f"{counted[r]:,} pairs", 24, anchor=Anchor.END)
+            for k, r in enumerate(rows)
+        ),
+    )
+    legends = (legend_entry(r, aside, 176 + 46 * k, 2.0) for k, r in enumerate(rows))
+    head = f"{title(catalog)}, {VIEW_TITLES[view].lower()}"
+    return Scene(width, height, (Layer("head", said), *_fields(grid), *legends), head)
+
+
+def slide_png(catalog: Catalog, view: View) -> bytes:
+    """A slide as a PNG of its size."""
+    return png(slide(catalog, view), scale=1, oversample=2, colours=64)
 
 
 def thumbnail(catalog: Catalog, side: float = 168) -> Scene:
@@ -100,6 +148,10 @@ def _cell(size: int) -> float:
     return 24.0 if size <= 11 else 17.0 if size <= 30 else 12.0
 
 
+def _panel_width(size: int) -> float:
+    return max(size * _cell(size), 150.0) + 3 * _cell(size)
+
+
 def _head(catalog: Catalog, k: float) -> Layer:
     name = Text(MARGIN, 20 * k, title(catalog), 16 * k, anchor=Anchor.START, bold=True)
     return Layer(
@@ -108,16 +160,20 @@ def _head(catalog: Catalog, k: float) -> Layer:
 
 
 def _panel(grid: Grid, k: float) -> Iterator[Layer]:
+    name = Text(
+        grid.x, grid.y - 14 * k, VIEW_TITLES[grid.view], 13 * k, anchor=Anchor.START, bold=True
+    )
+    yield Layer(f"{grid.view}-title", (name,))
+    yield from _fields(grid)
+
+
+def _fields(grid: Grid) -> Iterator[Layer]:
     view, pairs = grid.view, list(grid.pairs)
     relations = {pair: grid.catalog.relation(*pair, view) for pair in pairs}
     # equal style in a row: a smaller file
     grouped = sorted(pairs, key=lambda pair: list(Relation).index(relations[pair]))
     marked = [pair for pair in grouped if relations[pair] in CORNERS]
     numbers = sorted((_number(grid, pair) for pair in pairs), key=lambda text: text.fill)
-    yield Layer(
-        f"{view}-title",
-        (Text(grid.x, grid.y - 14 * k, VIEW_TITLES[view], 13 * k, anchor=Anchor.START, bold=True),),
-    )
     yield Layer(f"{view}-labels", tuple(_labels(grid)))
     yield Layer(
         f"{view}-fields",
@@ -132,13 +188,12 @@ def _panel(grid: Grid, k: float) -> Iterator[Layer]:
 
 def _labels(grid: Grid) -> Iterator[Text]:
     """Each model's name at the left of its row and on the diagonal, on top of its column."""
-    letters = min(11.0, 0.62 * grid.cell)
     for model in range(1, len(grid.catalog.family) + 1):
         x, y = grid.at(model, model)
         middle = y + grid.cell / 2
         if model > 1:
-            yield Text(grid.x - 5, middle, f"A{model}", letters, Ink.MUTED, Anchor.END)
-        yield Text(x + 3, middle, f"A{model}", letters, Ink.MUTED, Anchor.START)
+            yield Text(grid.x - 5, middle, f"A{model}", grid.letters, Ink.MUTED, Anchor.END)
+        yield Text(x + 3, middle, f"A{model}", grid.letters, Ink.MUTED, Anchor.START)
 
 
 def _number(grid: Grid, pair: tuple[int, int]) -> Text:
@@ -149,7 +204,7 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
         x + half,
         y + half,
         sign(verdict.decided_by),
-        0.62 * grid.cell,
+        max(grid.letters, 0.62 * grid.cell),
         LETTERS.get(verdict.relation, Ink.LINE),
     )
 

@@ -8,14 +8,11 @@ paper, is told behind it.
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
-
-from markupsafe import Markup
+from functools import cache
 
 from disting.catalogs import Catalog, ModelRow
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
 from disting.questions.identifiability import Level
 from disting.questions.inclusion import Inclusion
 from disting.report.drawing import draw
@@ -23,41 +20,10 @@ from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
 from disting.report.formulas import Correspondence, combinations, correspondence, written
 from disting.report.next_steps import advice, drawn, found_for, page_of
-from disting.report.scene import PAGE_PALETTE, Scene
-from disting.report.svg import body, number
+from disting.report.page_drawing import Drawing, shared
+from disting.report.page_drawing import definitions as held
 from disting.report.words import plural, rule_in_words, short_title
 from disting.verdict import Relation, Verdict, View
-
-DRAWN = 4  # indistinguishable models up to this number are drawn, more are sketched in letters
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A chain's drawing, held once by a page and shown wherever it is referred to."""
-
-    number: int
-    scene: Scene
-
-    @property
-    def label(self) -> str:
-        """What is seen, in words."""
-        return f"A{self.number}: {self.scene.title}"
-
-    @cached_property
-    def definition(self) -> Markup:
-        """The drawing itself; all but the force is a part of its own, rest-5 of chain-5."""
-        drawn = body(self.scene, PAGE_PALETTE, f"rest-{self.number}")
-        return Markup(f'<g id="chain-{self.number}">{drawn}</g>')
-
-    @property
-    def width(self) -> str:
-        """Natural width [px]."""
-        return number(self.scene.width)
-
-    @property
-    def box(self) -> str:
-        """viewBox."""
-        return f"0 0 {number(self.scene.width)} {number(self.scene.height)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,11 +48,6 @@ class Model:
         """Force and sensor in words."""
         c = self.row.chain
         return _port(c.act_plus, c.act_minus), _port(c.meas_plus, c.meas_minus)
-
-    @property
-    def letters(self) -> str:
-        """The chain in one line of letters."""
-        return text_drawing(self.row.chain)
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +129,8 @@ def model_page(catalog: Catalog, number: int) -> str:
         for other, v in verdicts.items()
         if seen[other] is not Relation.DISTINGUISHABLE
     ]
+    shown = [number, *(t.model.row.number for t in twins)]
+    parts, drawings = shared({n: catalog.rows[n - 1].chain for n in shown})
     told = advice(found_for(catalog), number)
     return render(
         "model.html",
@@ -181,7 +144,8 @@ def model_page(catalog: Catalog, number: int) -> str:
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
         complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),
         complex_open=_over_complex(catalog, number, Relation.UNDECIDED),
-        drawn=len(twins) <= DRAWN,
+        parts=held(parts),
+        drawings=drawings,
         transfer=written(model.row.chain),
         free=catalog.records[number]["free"],
         basis=combinations(model.row.identifiability.basis),

@@ -12,12 +12,12 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.evidence.positive import Share
 from disting.model.chain import Chain
-from disting.report.damper_drawing import definitions
 from disting.report.describe_machine import parts_of
 from disting.report.domains import one_sided
 from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw
 from disting.report.environment import render
 from disting.report.model import folder_of, motion_of, ways
+from disting.report.page_drawing import definitions
 from disting.report.payload import script_json
 from disting.report.words import plural, short_title
 from disting.verdict import Relation, View

@@ -6,8 +6,9 @@ from disting.catalogs import Catalog
 from disting.catalogs.next_files import NextCatalog
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
-from disting.report.model import Drawing, folder_of, model_of
+from disting.report.model import folder_of, model_of
 from disting.report.next_steps import Advice, advice_of, menu_of, named
+from disting.report.page_drawing import Drawing
 from disting.report.words import plural, short_title
 from disting.verdict.further_words import anywhere
 

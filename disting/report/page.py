@@ -11,7 +11,9 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
+from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.next_files import NextCatalog
+from disting.catalogs.sizes_files import name_of as sizes_name
 from disting.conditions.rule import EXACT, Role, Rule
 from disting.conditions.table import RULES
 from disting.files import __version__
@@ -20,8 +22,12 @@ from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
-from disting.report.model import Drawing, folder_of, model_of, motion_of
+from disting.report.families import Families, families
+from disting.report.matrix import has_slides, slide_name
+from disting.report.model import folder_of, model_of, motion_of
+from disting.report.motion import start_values
 from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
+from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
 from disting.verdict import Relation, View
@@ -59,10 +65,16 @@ class Count:
     numbers: tuple[int, ...]
 
 
-def page(catalog: Catalog, *, dampers: str = "") -> str:
-    """HTML of a catalogue; `dampers`: name of the page of the family with ground dampers, where
-    that is beside it.
-    """
+def page(catalog: Catalog, *, beside: Families | None = None) -> str:
+    """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`)."""
+    pages = families([catalog]) | dict(beside or {})
+    dampers, across = (
+        name if name in pages else ""
+        for name in (
+            damper_name(catalog.n_masses, catalog.damped),
+            sizes_name(catalog.damped),
+        )
+    )
     models = [model_of(catalog, row.number) for row in catalog.rows]
     domains = [over(catalog, view) for view in VIEWS]
     grouped = [
@@ -70,7 +82,7 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         for of in domains
     ]
     further = found_for(catalog)
-    data = _payload(catalog, domains, further, bool(dampers))
+    data = _payload(catalog, domains, further, pages)
     return render(
         "page.html",
         title=title(catalog),
@@ -93,26 +105,33 @@ def page(catalog: Catalog, *, dampers: str = "") -> str:
         models=models,
         sample=example(catalog),
         dampers=dampers,
+        across=across,
         additions=definitions(menu_of(further)),
         motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
+        slides=[(name, slide_name(catalog, view)) for view, name in VIEW_TITLES.items()]
+        if has_slides(catalog)
+        else [],
         payload=data,
         plural=plural,
     )
 
 
 def _payload(
-    catalog: Catalog, domains: Sequence[Over], further: NextCatalog | None, has_dampers: bool
+    catalog: Catalog, domains: Sequence[Over], further: NextCatalog | None, pages: Families
 ) -> Markup:
     """What the page's script knows of the pairs."""
     return payload(
         catalog,
         domains,
-        masses=catalog.n_masses,
+        sizes=[(catalog.n_masses, len(catalog.family))],
         damped=catalog.damped,
         version=__version__,
-        dampers=has_dampers,
+        families=pages,
         motion=motion_of(catalog),
+        order=catalog.family[1].sensor.order,
+        chains=[chain.indices[1:] for chain in catalog.family],
+        values=[start_values(chain) for chain in catalog.family],
         next=for_pairs(further),
         sketches={
             pair: [[s.box, s.parts, s.label] for s in sketches]

@@ -26,9 +26,16 @@ ANCHORS = {Anchor.START: "ls", Anchor.MIDDLE: "ms", Anchor.END: "rs"}
 
 
 def png(
-    scene: Scene, palette: Palette = FILE_PALETTE, *, scale: float = 2, oversample: int = 3
+    scene: Scene,
+    palette: Palette = FILE_PALETTE,
+    *,
+    scale: float = 2,
+    oversample: int = 3,
+    colours: int = 0,
 ) -> bytes:
-    """PNG bytes, `scale` pixels a unit, on a ground of the palette's paper colour."""
+    """PNG bytes, `scale` pixels a unit, on a ground of the palette's paper colour; `colours`: at
+    most so many, a file of a third of the size, 0 as many as there are.
+    """
     width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
     canvas = Image.new("RGB", (width * oversample, height * oversample), palette[Ink.PAPER])
     pen = ImageDraw.Draw(canvas)
@@ -36,7 +43,10 @@ def png(
         _draw(pen, shape, palette, scale * oversample)
     out = BytesIO()
     # 6: a twentieth larger than at 9, which takes half of the time of all figures
-    canvas.reduce(oversample).save(out, "PNG", compress_level=6)
+    image = canvas.reduce(oversample)
+    if colours:
+        image = image.quantize(colours, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    image.save(out, "PNG", compress_level=6)
     return out.getvalue()
 
 

@@ -19,6 +19,7 @@ class Ink(StrEnum):
     NONE = "none"
     LINE = "line"
     MUTED = "muted"
+    LABEL = "label"
     PAPER = "paper"
     BODY = "body"
     FORCE = "force"
@@ -39,6 +40,7 @@ FILE_PALETTE: Palette = {
     Ink.NONE: "none",
     Ink.LINE: "#16202b",
     Ink.MUTED: "#5a6673",
+    Ink.LABEL: "#16202b",
     Ink.PAPER: "#ffffff",
     Ink.BODY: "#e9eef3",
     Ink.FORCE: "#b0300a",

@@ -5,9 +5,10 @@ opened from a folder may load no data.
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from disting.report.environment import source
+from disting.report.families import Families
 from disting.report.guide import Part
 
 ADDRESS = "search.js"
@@ -15,11 +16,11 @@ ADDRESS = "search.js"
 
 def search_script(
     parts: Sequence[Part],
-    sizes: Mapping[str, Mapping[str, object]],
+    families: Families,
     links: Sequence[tuple[str, str, str]] = (),
 ) -> str:
-    """The script, for a site of these guide pages, of these families (by the name of their page:
-    the number of `models`, the `folder` of their pages) and of these further pages.
+    """The script, for a site of these guide pages, of these pages of pairs and of these further
+    pages.
     """
     guide = [page for part in parts for page in part.pages]
     pages = [[f"guide/{page.name}.html", page.title] for page in guide]
@@ -31,7 +32,7 @@ def search_script(
     for address, title, text in links:
         sections.append([len(pages), "", title, text])
         pages.append([address, title])
-    data = {"pages": pages, "sections": sections, "sizes": sizes}
+    data = {"pages": pages, "sections": sections, "families": families}
     written = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     code = source("search.js") + source("site-search.js")
     return f'"use strict";\n(() => {{\nconst DATA = {written};\n{code}}})();\n'

@@ -1,34 +1,53 @@
-"""Models of several sizes in one triangle of fields: what condition decides, and which smaller
+"""Models of several sizes in one matrix of fields: what condition decides, and which smaller
 models lie in which larger ones.
 
-A field of two sizes shows ⊂ where the smaller model is, over complex parameters, a limit of the
-larger one; else the condition by which the two are distinguishable. Verdicts are over positive
-parameters.
+A field shows ⊂ or ⊃ where one model is, over complex parameters, a limit of the other; ? where
+that is not known of two sizes; else the condition by which the two are distinguishable. The page
+is drawn by the script of a catalogue's page, from the same payload.
 """
 
-from collections import Counter
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, groupby
-from pathlib import Path
+from itertools import combinations
 
-from markupsafe import Markup
-
-from disting.files import write_whole
-from disting.questions.inclusion import Inclusion, Sense
+from disting.catalogs.sizes_files import SizesCatalog
+from disting.files import __version__
+from disting.questions.inclusion import Inclusion, InclusionFinding
+from disting.report.domains import VIEWS, over
 from disting.report.environment import render
-from disting.report.fields import CORNERS, LETTERS, corner, field
-from disting.report.scene import PAGE_PALETTE, Anchor, Ink, Layer, Rect, Scene, Text
-from disting.report.svg import body, number
-from disting.report.words import probability, sign
-from disting.verdict import Decisions, Verdict
+from disting.report.families import Families, families
+from disting.report.page_drawing import SharedDrawing, definitions, shared
+from disting.report.payload import packed, payload
+from disting.report.words import VIEW_TITLES, plural, probability
+from disting.verdict import Verdict, View
 
-CELL = 24.0
-LEFT, TOP = 44.0, 8.0
-LETTER = 11.0
-# the column's model in the row's, or the reverse
-INSIDE = {Inclusion.LEFT_IN_RIGHT: "⊂", Inclusion.RIGHT_IN_LEFT: "⊃"}
-Pair = tuple[int, int]
+UNTOLD, LEFT_INSIDE, RIGHT_INSIDE, NO_LIMIT, NOT_KNOWN = range(5)
+KINDS = {
+    Inclusion.LEFT_IN_RIGHT: LEFT_INSIDE,
+    Inclusion.RIGHT_IN_LEFT: RIGHT_INSIDE,
+    Inclusion.NEITHER: NO_LIMIT,
+    Inclusion.UNKNOWN: NOT_KNOWN,
+}
+SHORT = (
+    "",
+    "{L} is a limit of {R}",
+    "{R} is a limit of {L}",
+    "neither is a limit of the other",
+    "whether one is a limit of the other is not known",
+)
+SENTENCES = {  # of two sizes, the left one smaller
+    LEFT_INSIDE: (
+        "But over complex parameters {L} is a limit of {R}: {R} comes as close to its curve as one"
+        " likes. Whether positive parameters do is not asked here."
+    ),
+    NO_LIMIT: (
+        "Neither is a limit of the other, over complex parameters or positive ones: fitted to a"
+        " machine of the other kind, each leaves an error however well it is measured, special"
+        " values aside."
+    ),
+    NOT_KNOWN: "Whether {L} is a limit of {R}, approached as closely as one likes, is not known.",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,155 +65,164 @@ class Between:
 
 @dataclass(frozen=True, slots=True)
 class Outside:
-    """A smaller model that does not lie in a larger one, and why."""
-
-    left: str
-    right: str
-    why: str
-
-
-def name_of(damped: bool) -> str:
-    """Name of the page."""
-    return f"sizes-{'damped' if damped else 'undamped'}"
-
-
-def write_sizes(decided: Decisions, out: Path) -> Path:
-    """Write the page of models of several sizes, decided with inclusions, into a folder;
-    returns its path.
+    """Why smaller models do not lie in larger ones, or why that is not known, and the pairs of
+    which it is so.
     """
-    out.mkdir(parents=True, exist_ok=True)
-    return write_whole(out / f"{name_of(decided.chains[0].damped)}.html", [sizes_page(decided)])
+
+    why: str
+    pairs: tuple[tuple[str, str], ...]
 
 
-def sizes_page(decided: Decisions) -> str:
-    """HTML of models of several sizes, in the order of sizes, decided with inclusions."""
-    scene, found = figure(decided), list(between(decided))
+@dataclass(frozen=True, slots=True)
+class Size:
+    """The models of one size with their drawings; `folder` of their pages, "" where there are
+    none.
+    """
+
+    masses: int
+    folder: str
+    drawings: tuple[SharedDrawing, ...]
+
+
+def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
+    """HTML of models of several sizes; `beside`: the pages of pairs beside it (see `families`)."""
+    pages = families([], across=[found]) | dict(beside or {})
+    counts, domains = list(between(found)), [over(found, view) for view in VIEWS]
+    parts, drawings = shared(dict(enumerate(found.family, 1)))
     return render(
         "sizes.html",
-        damped=decided.chains[0].damped,
-        sizes=sorted(set(decided.sizes)),
-        models=len(decided.subjects),
-        box=f"0 0 {number(scene.width)} {number(scene.height)}",
-        width=number(scene.width),
-        title=scene.title,
-        drawing=Markup(body(scene, PAGE_PALETTE)),
-        between=found,
-        inside=sum(b.inside for b in found),
-        pairs=sum(b.inside + b.outside + b.unknown for b in found),
-        unknown=sum(b.unknown for b in found),
-        outside=list(outside(decided)),
+        damped=found.damped,
+        sizes=list(_sizes(found, pages, drawings)),
+        models=len(found.family),
+        views=[(view, VIEW_TITLES[view]) for view in VIEWS],
+        between=counts,
+        inside=sum(b.inside for b in counts),
+        pairs=sum(b.inside + b.outside + b.unknown for b in counts),
+        unknown=sum(b.unknown for b in counts),
+        limits=True,  # the panel has room for them
+        outside=list(_by_reason(found, NO_LIMIT)),
+        open=list(_by_reason(found, NOT_KNOWN)),
+        parts=definitions(parts),
+        payload=payload(
+            found,
+            domains,
+            VIEWS,
+            sizes=[[c.n_masses, len(c.family)] for c in found.catalogs],
+            damped=found.damped,
+            version=__version__,
+            families=pages,
+            limits=limits(found),
+            next={},
+            sketches={},
+        ),
+        plural=plural,
     )
 
 
-def between(decided: Decisions) -> Iterator[Between]:
-    """Counts for every two sizes."""
-    sizes = decided.sizes
-    for small, large in combinations(sorted(set(sizes)), 2):
-        pairs = (
-            (i, j)
-            for i, j in combinations(range(len(sizes)), 2)
-            if (sizes[i], sizes[j]) == (small, large)
-        )
-        count = Counter(decided.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)
-        inside, unknown = count[Inclusion.LEFT_IN_RIGHT], count[Inclusion.UNKNOWN]
-        yield Between(
-            small=small,
-            large=large,
-            inside=inside,
-            outside=count.total() - inside - unknown,
-            unknown=unknown,
-        )
-
-
-def outside(decided: Decisions) -> Iterator[Outside]:
-    """The smaller models that do not lie in a larger one."""
-    for i, j in _across(decided):
-        if decided.inclusion(i, j, Sense.CLOSURE) is Inclusion.NEITHER:
-            names = decided.subjects[i].name, decided.subjects[j].name
-            yield Outside(*names, _why(decided.verdict(i, j), *names))
-
-
-def _why(verdict: Verdict, left: str, right: str) -> str:
-    """The finding's reason; models of equal rank have none of their own, because limits with
-    fewer poles have a smaller one.
+def limits(found: SizesCatalog) -> dict[str, object]:
+    """For the page's script: of each pair, in the order of the payload, its entry; an entry is a
+    kind, a sentence and a reason.
     """
-    found = None if verdict.inclusions is None else verdict.inclusions.closure
-    if found is None or found.evidence is None:
+    entries: dict[tuple[int, str, str], int] = {}
+    places = [
+        entries.setdefault(_entry(found.verdict(low, high, View.EXACT)), len(entries))
+        for high in range(2, len(found.family) + 1)
+        for low in range(1, high)
+    ]
+    return {
+        "short": SHORT,
+        "signs": ["", "⊂", "⊃", "", "?"],
+        "entries": list(entries),
+        "of": packed(places),
+    }
+
+
+def limit(verdict: Verdict) -> int:
+    """Which model is a limit of the other one; UNTOLD of models that are the same over complex
+    parameters.
+    """
+    return KINDS.get(verdict.closure, UNTOLD)
+
+
+def _entry(verdict: Verdict) -> tuple[int, str, str]:
+    said = SENTENCES.get(limit(verdict), "")
+    if _masses(verdict.left) == _masses(verdict.right):
+        told = verdict.inclusions
+        said = "" if told is None else f"Over complex parameters: {told.sentence('{L}', '{R}')}"
+    return limit(verdict), said, _reason(verdict)
+
+
+def between(found: SizesCatalog) -> Iterator[Between]:
+    """Counts for every two sizes."""
+    number: defaultdict[tuple[int, int], Counter[int]] = defaultdict(Counter)
+    for v in _across(found):
+        number[_masses(v.left), _masses(v.right)][limit(v)] += 1
+    for (small, large), count in sorted(number.items()):
+        yield Between(small, large, count[LEFT_INSIDE], count[NO_LIMIT], count[NOT_KNOWN])
+
+
+def _by_reason(found: SizesCatalog, wanted: int) -> Iterator[Outside]:
+    """The pairs of two sizes of one kind, those with one reason together."""
+    pairs: defaultdict[str, list[tuple[str, str]]] = defaultdict(list)
+    for v in _across(found):
+        if limit(v) == wanted:
+            why = _reason(v).format(L="the smaller one", R="the larger one")
+            pairs[why[:1].upper() + why[1:]].append((v.left, v.right))
+    for why, of in pairs.items():
+        yield Outside(why, tuple(of))
+
+
+def _across(found: SizesCatalog) -> Iterator[Verdict]:
+    """Pairs of different size, the smaller model first."""
+    numbers = range(1, len(found.family) + 1)
+    return (
+        found.verdict(i, j, View.EXACT)
+        for i, j in combinations(numbers, 2)
+        if found.size(i) != found.size(j)
+    )
+
+
+def _masses(name: str) -> int:
+    return int(name.partition(":")[0])
+
+
+def _reason(verdict: Verdict) -> str:
+    """Why one is a limit of the other, why neither is, or why it is not known; {L} and {R} stand
+    for the names. "" where there is nothing to say.
+
+    Models of equal rank have no evidence of their own, because limits with fewer poles have a
+    smaller one.
+    """
+    of_two_sizes = _masses(verdict.left) != _masses(verdict.right)
+    if verdict.inclusions is None:
         return (
-            f"Both have equally many determinable parameters; limits of {right} with fewer poles"
-            " have fewer."
+            "Both have equally many determinable parameters; limits of {R} with fewer poles have"
+            " fewer."
+            if of_two_sizes
+            else ""
         )
-    bound = (
-        f" (wrong with a probability of at most {probability(f'2^-{found.safety}')})"
-        if found.safety
+    told = verdict.inclusions.closure
+    return told.evidence.sentence("{L}", "{R}") + _bound(told) if told.evidence else _open(told)
+
+
+def _bound(told: InclusionFinding) -> str:
+    return (
+        f" (wrong with a probability of at most {probability(f'2^-{told.safety}')})"
+        if told.safety
         else ""
     )
-    return found.evidence.sentence(left, right) + bound
 
 
-def figure(decided: Decisions) -> Scene:
-    """The triangle; sizes are told apart by gaps between them."""
-    subjects, n = decided.subjects, len(decided.subjects)
-    pairs = [(j, i) for i in range(n) for j in range(i)]
-    fields = tuple(s for j, i in pairs for s in field(*_at(j, i), decided.relation(j, i), CELL))
-    corners = tuple(
-        corner(*_at(j, i), r, CELL) for j, i in pairs if (r := decided.relation(j, i)) in CORNERS
-    )
-    signs = tuple(_sign(decided, j, i) for j, i in pairs)
-    labels = tuple(_labels([s.name for s in subjects]))
-    frames = tuple(_frames(decided.sizes))
-    layers = (
-        Layer("fields", fields),
-        Layer("corners", corners),
-        Layer("signs", signs),
-        Layer("labels", labels),
-    )
-    said = "Verdicts and inclusions of models of different sizes"
-    return Scene(LEFT + n * CELL + 28, TOP + n * CELL + 4, (*layers, Layer("sizes", frames)), said)
+def _open(told: InclusionFinding) -> str:
+    """The reason as a sentence; it may have braces of its own."""
+    reason = told.reason.replace("{", "(").replace("}", ")")
+    return f"{reason[:1].upper()}{reason[1:]}." if reason else ""
 
 
-def _across(decided: Decisions) -> Iterator[Pair]:
-    """Pairs of different size, the smaller model first."""
-    sizes = decided.sizes
-    return ((i, j) for i, j in combinations(range(len(sizes)), 2) if sizes[i] != sizes[j])
-
-
-def _at(column: int, row: int) -> tuple[float, float]:
-    return LEFT + column * CELL, TOP + row * CELL
-
-
-def _sign(decided: Decisions, column: int, row: int) -> Text:
-    """⊂ or the sign of the deciding rule."""
-    x, y = _at(column, row)
-    inside = INSIDE.get(decided.inclusion(column, row, Sense.CLOSURE), "")
-    half = (CELL - 1) / 2
-    ink = LETTERS.get(decided.relation(column, row), Ink.LINE)
-    return Text(
-        x + half,
-        y + half,
-        inside or sign(decided.rule(column, row)),
-        0.58 * CELL,
-        ink,
-        bold=bool(inside),
-    )
-
-
-def _labels(names: list[str]) -> Iterator[Text]:
-    for i, name in enumerate(names):
-        x, y = _at(i, i)
-        if i:
-            yield Text(LEFT - 6, y + CELL / 2, name, LETTER, Ink.MUTED, Anchor.END)
-        yield Text(x + 2, y + CELL / 2, name, LETTER, Ink.MUTED, Anchor.START)
-
-
-def _frames(sizes: list[int]) -> Iterator[Rect]:
-    """A frame around the fields of every two sizes."""
-    spans = [
-        (size, [i for i, _ in run])
-        for size, run in groupby(enumerate(sizes), key=lambda pair: pair[1])
-    ]
-    for (_, columns), (_, rows) in combinations(spans, 2):
-        x, y = _at(columns[0], rows[0])
-        yield Rect(
-            x - 1.5, y - 1.5, len(columns) * CELL + 2, len(rows) * CELL + 2, stroke=Ink.LINE, line=2
-        )
+def _sizes(
+    found: SizesCatalog, pages: Families, drawings: Sequence[SharedDrawing]
+) -> Iterator[Size]:
+    rest = iter(drawings)
+    for c in found.catalogs:
+        folder = str(pages.get(c.name, {}).get("folder", ""))
+        yield Size(c.n_masses, folder, tuple(next(rest) for _ in c.family))

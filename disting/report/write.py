@@ -3,7 +3,7 @@ data beside them.
 """
 
 import argparse
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -14,19 +14,26 @@ from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
+from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
+from disting.catalogs.sizes_files import name_of as sizes_name
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
+from disting.report.executed_notebook import PREFIX
+from disting.report.families import Families, families
 from disting.report.guide import guide, guide_files
-from disting.report.index import Link, index, sizes
-from disting.report.matrix import figure, figure_png
+from disting.report.index import Link, index
+from disting.report.markdown import GuidePage
+from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.motion import motion_page
 from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
 from disting.report.page import page
 from disting.report.search import ADDRESS, search_script
+from disting.report.sizes import sizes_page
 from disting.report.svg import svg
+from disting.report.words import VIEW_TITLES
 
 STYLE = "models/style.css"
 
@@ -72,26 +79,6 @@ PAGES: tuple[SitePage, ...] = (
         )
     ),
     *(
-        SitePage(link=(f"notebooks/{name}.ipynb", f"Notebook: {title}", text))
-        for name, title, text in (
-            (
-                "structure-and-behaviour",
-                "structure and behaviour",
-                "a lecture: twins, an explicit map, what can be determined; Jupyter opens it",
-            ),
-            (
-                "bench-commissioned",
-                "a bench commissioned",
-                "records are read, checked and fitted, and what to measure next; Jupyter opens it",
-            ),
-            (
-                "own-models",
-                "your own models",
-                "state spaces, their matrix and groups; Jupyter opens it",
-            ),
-        )
-    ),
-    *(
         SitePage(
             link=(
                 address,
@@ -109,35 +96,50 @@ def write_report(
     out: Path,
     dampers: Sequence[DamperFamily] = (),
     commands: argparse.ArgumentParser | None = None,
+    across: Sequence[SizesCatalog] = (),
 ) -> list[Path]:
     """Write page, figure (SVG, PNG) and data (CSV, JSON) of every catalogue, a page a model, the
     guide, with a reference of the `commands` where they are given, the search, and index.html.
 
-    Of families with ground dampers, `dampers`, a page each. The same catalogues give the same
-    bytes. `out` is made if it does not exist; other files in it stay as they are, and the index
-    leads to the pages of shipped catalogues and to other known pages among them too. Returns the
-    paths, in order.
+    Of families with ground dampers, `dampers`, and of catalogues of several sizes, `across`, a page
+    each. Executed notebooks in the folder `notebooks` of `out` become pages of the guide. The same
+    catalogues and notebooks give the same bytes. `out` is made if it does not exist; other files
+    in it stay as they are, and the index leads to the pages of shipped catalogues and to other
+    known pages among them too. Returns the paths, in order.
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
-    families = sorted(
+    damped = sorted(
         [*dampers, *_dampers_beside(dampers, out)],
         key=lambda f: (f.family.n_masses, f.family.damped),
     )
-    links = [p.link for p in PAGES if p.always or (out / p.link[0]).is_file()]
-    names = {c.name for c in listed}
-    with_dampers = {damper_name(f.family.n_masses, f.family.damped) for f in families}
-    files = [file for c in catalogs for file in _files(c, with_dampers)]
-    files += [_damper_file(f, names) for f in dampers]
-    parts = guide(commands, [address for address, *_ in links])
+    together = [*across, *_across_beside(across, listed, out)]
+    known = {f"{s.name}.html" for s in across}
+    links = [p.link for p in PAGES if p.always or p.link[0] in known or (out / p.link[0]).is_file()]
+    pages = families(listed, damped, together)
+    files = [file for c in catalogs for file in _files(c, pages)]
+    files += [_damper_file(f, pages) for f in dampers]
+    files += [(f"{s.name}.html", sizes_page(s, beside=pages).encode()) for s in across]
+    parts = guide(commands, _notebooks(out))
+    links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
     files += guide_files(parts)
-    files.append((ADDRESS, search_script(parts, sizes(listed, families), links).encode()))
+    files.append((ADDRESS, search_script(parts, pages, links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
-    start = index(listed, links, families)
+    start = index(listed, links, damped, together)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]
     for folder in {(out / name).parent for name, _ in files}:
         folder.mkdir(parents=True, exist_ok=True)
     return [write_whole(out / name, content) for name, content in files]
+
+
+def _link(notebook: GuidePage) -> Link:
+    """What leads from the index to the page of a notebook."""
+    return (f"guide/{notebook.name}.html", f"Notebook: {notebook.title}", "with code and outputs")
+
+
+def _notebooks(out: Path) -> dict[str, str]:
+    """Texts of the executed notebooks in the folder `notebooks` there, by name."""
+    return {p.stem: p.read_text("utf-8") for p in sorted((out / "notebooks").glob("*.ipynb"))}
 
 
 def _beside(catalogs: Sequence[Catalog], out: Path) -> Iterator[Catalog]:
@@ -157,20 +159,28 @@ def _dampers_beside(dampers: Sequence[DamperFamily], out: Path) -> Iterator[Damp
             yield damper_catalog(n, damped=damped)
 
 
-def _damper_file(found: DamperFamily, names: Container[str]) -> tuple[str, bytes]:
-    kind = found.family.n_masses, found.family.damped
-    return (
-        f"{damper_name(*kind)}.html",
-        damper_page(found, catalog=name_of(*kind) in names).encode(),
-    )
+def _across_beside(
+    across: Sequence[SizesCatalog], known: Sequence[Catalog], out: Path
+) -> Iterator[SizesCatalog]:
+    """The shipped catalogues of several sizes whose pages are in the folder already."""
+    given = {s.damped for s in across}
+    for damped in (False, True):
+        if damped not in given and (out / f"{sizes_name(damped)}.html").is_file():
+            yield sizes_catalog(damped=damped, known=known)
 
 
-def _files(c: Catalog, with_dampers: Container[str]) -> Iterator[tuple[str, bytes]]:
-    name = damper_name(c.n_masses, c.damped)
-    yield f"{c.name}.html", page(c, dampers=name if name in with_dampers else "").encode()
+def _damper_file(found: DamperFamily, pages: Families) -> tuple[str, bytes]:
+    name = damper_name(found.family.n_masses, found.family.damped)
+    return f"{name}.html", damper_page(found, beside=pages).encode()
+
+
+def _files(c: Catalog, pages: Families) -> Iterator[tuple[str, bytes]]:
+    yield f"{c.name}.html", page(c, beside=pages).encode()
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()
     yield f"{c.name}-matrix.png", figure_png(scene)
+    for view in VIEW_TITLES if has_slides(c) else ():
+        yield slide_name(c, view), slide_png(c, view)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
     found = found_for(c)

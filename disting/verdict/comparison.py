@@ -1,7 +1,7 @@
 """`compare` and `findings`: any two chains, named as the paper names them, or general models."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
@@ -56,10 +56,10 @@ def compare(
     'distinguishable'
     """
     engine = engine or Engine()
-    a, b = _read(left, right, damped, sensor)
-    if experiments:
-        return _measured(a, b, experiments, query or Query(), audit, engine)
-    return engine.verdict(*_sides(a, b, engine), query or Query(), audited=audit)
+    a, b = models_named(left, right, damped, sensor)
+    sides = sides_of(a, b, both_places(experiments), engine)
+    found = engine.verdict(sides.left, sides.right, query or Query(), audited=audit)
+    return replace(found, notes=(*found.notes, *sides.notes))
 
 
 def findings(
@@ -78,50 +78,65 @@ def findings(
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
-    a, b = _read(left, right, damped, sensor)
+    a, b = models_named(left, right, damped, sensor)
     return tuple(steps(*_sides(a, b, engine or Engine()), query or Query()))
 
 
-def _read(
+def models_named(
     left: Chain | AnyModel | str,
     right: Chain | AnyModel | str,
     damped: bool | None,
     sensor: Sensor | str | None,
 ) -> tuple[Chain | AnyModel, Chain | AnyModel]:
-    """Names as the chains that they mean."""
+    """Both models, names as the chains that they mean; raises InputError."""
     given = [m for m in (left, right) if isinstance(m, Chain | str)]
     chains = iter(chains_named(given, damped=damped, sensor=sensor))
     a, b = (next(chains) if isinstance(m, Chain | str) else m for m in (left, right))
     return a, b
 
 
-def _measured(
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """What is compared: both models by the names that they have beside each other, and what is to
+    be known of experiments that tell nothing.
+    """
+
+    left: Compared
+    right: Compared
+    notes: tuple[str, ...] = ()
+
+
+def sides_of(
     left: Chain | AnyModel,
     right: Chain | AnyModel,
-    experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
-    query: Query,
-    audit: bool,
+    experiments: Sequence[tuple[Experiment, Experiment]],
     engine: Engine,
-) -> Verdict:
-    """The verdict under experiments, with what is to be known of those that tell nothing."""
+) -> Sides:
+    """Two models as they are, or two chains under all experiments, each named for the left and for
+    the right one; raises InputError.
+    """
+    if not experiments:
+        return Sides(*_sides(left, right, engine))
     if not (isinstance(left, Chain) and isinstance(right, Chain)):
         raise InputError(NOT_CHAINS)
-    pairs = dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments)
-    chains = zip((left, right), zip(*pairs, strict=True), strict=True)
+    chains = zip((left, right), zip(*experiments, strict=True), strict=True)
     a, b = (MeasuredChain(chain, side) for chain, side in chains)
-    names = [side.name for side in _sides(left, right, engine)]
+    plain = _sides(left, right, engine)
     silent = [i for i in a.silent if i in b.silent]
-    telling = [i for i in range(len(pairs)) if i not in silent]
-    # as they are: what a verdict's evidence says is then of the chains that were given
-    as_they_are = len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b))
-    sides: tuple[Compared, Compared] = (
-        (engine.subject(names[0], left), engine.subject(names[1], right))
-        if as_they_are
-        else (engine.measured_subject(names[0], a), engine.measured_subject(names[1], b))
-    )
-    found = engine.verdict(*sides, query, audited=audit)
+    telling = [i for i in range(len(experiments)) if i not in silent]
     notes = [f"nothing is learned from experiment {i + 1}: its sensor never moves" for i in silent]
-    return replace(found, notes=(*found.notes, *notes))
+    # as they are: what a verdict's evidence says is then of the chains that were given
+    if len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b)):
+        return Sides(*plain, tuple(notes))
+    here, there = (side.name for side in plain)
+    return Sides(engine.measured_subject(here, a), engine.measured_subject(there, b), tuple(notes))
+
+
+def both_places(
+    experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
+) -> tuple[tuple[Experiment, Experiment], ...]:
+    """Each once, for the left and for the right model."""
+    return tuple(dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments))
 
 
 def _sides(

@@ -2,7 +2,7 @@
 which of the other: every way to place them is asked.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -12,10 +12,13 @@ from disting.general import MatrixModel, Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.shown import plural, summary
-from disting.verdict.comparison import NOT_CHAINS, compare
+from disting.verdict.comparison import NOT_CHAINS, both_places, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
+
+Pairs = tuple[tuple[Experiment, Experiment], ...]
+"""All experiments, on the left and on the right chain."""
 
 
 class Answer(StrEnum):
@@ -79,11 +82,24 @@ def compare_everywhere(
         raise InputError(NOT_CHAINS)
     left, right = chains_named([left, right], damped=damped, sensor=sensor)
     engine = engine or Engine()
-    asked = [named(e) if isinstance(e, str) else Named(e) for e in also]
     found = []
-    for way in ways(left, right, asked, places):
-        pairs = [(one.experiment, moved(one.experiment, way)) for one in asked]
-        experiments = [(Experiment(), Experiment()), *pairs]
-        verdict = compare(left, right, experiments=experiments, query=query, engine=engine)
+    for way, pairs in placements(left, right, named_all(also), places):
+        verdict = compare(left, right, experiments=pairs, query=query, engine=engine)
         found.append((way, verdict))
     return Everywhere(tuple(found))
+
+
+def named_all(also: Sequence[str | Experiment]) -> tuple[Named, ...]:
+    """Experiments that are given as text or as such; raises InputError."""
+    return tuple(named(e) if isinstance(e, str) else Named(e) for e in also)
+
+
+def placements(
+    left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()
+) -> Iterator[tuple[Places, Pairs]]:
+    """Yield every way to place experiments on the right chain, with all that is measured then, the
+    chains as they are first; raises InputError.
+    """
+    for way in ways(left, right, asked, known):
+        further = [(one.experiment, moved(one.experiment, way)) for one in asked]
+        yield way, both_places([Experiment(), *further])

@@ -1,82 +1,103 @@
-"""A verdict as a file of its own: the models wholly, what was asked, with which settings, and all
-evidence, so that `verification.verify` needs nothing else.
+"""A verdict as a file of its own: the models and the experiments wholly, what was asked, with which
+settings, and all evidence, so that `verification.verify` needs nothing else.
 
 A verdict over real or positive parameters may rest on equality over complex ones, or tell it: then
-that verdict stands beside it, with evidence of its own.
+that verdict stands beside it, with evidence of its own. What somebody else wrote is read without
+trust: of every field the type is looked at, and what asks for too much work is refused.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from disting.errors import InputError
+from disting.errors import DistingError, InputError, shown
+from disting.evidence.plain import is_well_typed
+from disting.experiments import Experiment
 from disting.files import __version__
+from disting.general import AnyModel, MatrixModel, Model
+from disting.general.model_files import as_entry, read_entry
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
-from disting.model.names import chains_named, name_of
+from disting.model.family import MOST_MASSES
+from disting.model.names import name_of
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion
-from disting.verdict.comparison import compare, names_of
+from disting.verdict.comparison import Sides, both_places, compare, models_named, sides_of
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 
 FORMAT = "disting verdict 1"
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known
+MOST_POINTS, MOST_SUBSETS, MOST_MARKOV, LONGEST_SEED = 100, 10**9, 1000, 1000
+MOST_EXPERIMENTS = 50
+DAMAGED = (KeyError, TypeError, ValueError, AttributeError, LookupError, ArithmeticError)
+Places = Sequence[Experiment | tuple[Experiment, Experiment]]
 
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """What a file says: two chains, what was asked with which settings, the verdict, and that over
-    complex parameters where it is told apart.
+    """What a file says: two models, the experiments on the left and on the right one (none: as they
+    are), what was asked with which settings, the verdict, and that over complex parameters where it
+    is told apart.
     """
 
-    chains: tuple[Chain, Chain]
+    models: tuple[Chain | AnyModel, Chain | AnyModel]
+    experiments: tuple[tuple[Experiment, Experiment], ...]
     query: Query
     settings: Settings
     verdict: Verdict
     over_complex: Verdict | None
 
+    def sides(self, engine: Engine) -> Sides:
+        """What was compared."""
+        return sides_of(*self.models, self.experiments, engine)
+
 
 def verdict_file(
-    left: Chain | str,
-    right: Chain | str,
+    left: Chain | AnyModel | str,
+    right: Chain | AnyModel | str,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
+    experiments: Places = (),
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> dict[str, Any]:
-    """The verdict on two chains as plain data, ready for JSON, which `verify` checks alone; the
+    """The verdict on two models as plain data, ready for JSON, which `verify` checks alone; the
     arguments are those of `compare`.
 
     >>> data = verdict_file("3:1", "A4", damped=True)
     >>> data["left"], data["models"][1]["name"], data["relation"], data["settings"]["seed"]
     ('3:1', '3:4', 'distinguishable', 'disting')
     """
-    chains = chains_named([left, right], damped=damped, sensor=sensor)
-    engine, query = engine or Engine(), query or Query()
-    verdict = compare(*chains, query=query, engine=engine)
-    beside = compare(*chains, query=exact(query), engine=engine) if has_more(verdict) else None
-    return as_file(chains, query, engine.settings, verdict, beside)
+    models = models_named(left, right, damped, sensor)
+    engine, query, both = engine or Engine(), query or Query(), both_places(experiments)
+    verdict = compare(*models, experiments=both, query=query, engine=engine)
+    beside = (
+        compare(*models, experiments=both, query=exact(query), engine=engine)
+        if has_more(verdict)
+        else None
+    )
+    return as_file(Stored(models, both, query, engine.settings, verdict, beside))
 
 
-def as_file(
-    chains: Sequence[Chain],
-    query: Query,
-    settings: Settings,
-    verdict: Verdict,
-    over_complex: Verdict | None,
-) -> dict[str, Any]:
+def as_file(stored: Stored) -> dict[str, Any]:
     """The file of a verdict that is there."""
+    query, over_complex = stored.query, stored.over_complex
     asked = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
+    pairs = [
+        {"left": plain_experiment(here), "right": plain_experiment(there)}
+        for here, there in stored.experiments
+    ]
     return {
         "format": FORMAT,
         "program": __version__,
-        "models": [{"name": name_of(chain), **asdict(chain)} for chain in chains],
+        "models": [_plain_model(model) for model in stored.models],
+        **({"experiments": pairs} if pairs else {}),  # older files of chains as they are have none
         "query": asked,
-        "settings": settings.to_dict(),
-        **verdict.to_dict(),
+        "settings": stored.settings.to_dict(),
+        **stored.verdict.to_dict(),
         "over_complex": {} if over_complex is None else over_complex.to_dict(),
     }
 
@@ -93,61 +114,143 @@ def exact(query: Query) -> Query:
 
 
 def read_file(data: object) -> Stored:
-    """Inverse of `verdict_file`. Raises InputError for what is no such file, ValueError, KeyError,
-    TypeError or AttributeError for one that is damaged.
-    """
+    """Inverse of `verdict_file`. Raises InputError for what is no such file, or is damaged."""
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         known = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
         what = "holds a verdict without its models" if known else "is no file of a verdict"
         raise InputError(f"it {what}; 'disting compare N:I M:J --json' writes one")
-    a, b = (_chain(model) for model in data["models"])
-    asked = data["query"]
-    query = Query(
-        View(asked["view"]), tuple(asked["conditions"]), asked["markov"], asked["inclusion"]
-    )
-    beside = data["over_complex"]
-    return Stored(
-        chains=(a, b),
-        query=query,
-        settings=Settings(**data["settings"]),
-        verdict=Verdict.from_dict(data),
-        over_complex=Verdict.from_dict(beside) if beside else None,
-    )
+    try:
+        return _stored(data)
+    except (*DAMAGED, DistingError, RecursionError) as reason:
+        why = f"{shown(str(reason))} is missing" if isinstance(reason, KeyError) else reason
+        raise InputError(
+            f"the file of the verdict is damaged ({why}); write it anew with 'disting compare N:I"
+            " M:J --json'"
+        ) from None
 
 
-def differing(data: dict[str, Any], stored: Stored) -> str:
+def differing(data: dict[str, Any], stored: Stored, names: tuple[str, str]) -> str:
     """What a file tells otherwise than what it tells follows from, such as its sentence; "" if
-    nothing.
+    nothing. `names` are those of the two sides.
     """
-    again = as_file(
-        stored.chains, stored.query, stored.settings, stored.verdict, stored.over_complex
-    )
-    found = [name for name in again if name != "program" and not _same(data[name], again[name])]
-    names = names_of(*stored.chains)
+    again = as_file(stored)
+    missing = object()
+    found = [
+        name
+        for name in again
+        if name != "program" and not same_plain(data.get(name, missing), again[name])
+    ]
     told = [v for v in (stored.verdict, stored.over_complex) if v is not None]
-    wrong = [name for v in told for name in (v.left, v.right) if name not in names]
-    if wrong or any((v.left, v.right) != names for v in told):
+    if any((v.left, v.right) != names for v in told):
         found.append("names")
     return ", ".join(found)
 
 
-def _chain(model: dict[str, Any]) -> Chain:
-    rest = {name: value for name, value in model.items() if name != "name"}
-    return Chain(**rest | {"ground_dampers": tuple(rest["ground_dampers"])})
+def plain_experiment(experiment: Experiment) -> dict[str, object]:
+    """An experiment as plain data, sizes as exact text."""
+    sizes = {
+        name: [[mass, str(size)] for mass, size in given]
+        for name, given in (("inertias", experiment.inertias), ("springs", experiment.springs))
+    }
+    return {
+        "force": None if experiment.force is None else list(experiment.force),
+        "sensor": None if experiment.sensor is None else list(experiment.sensor),
+        "quantity": None if experiment.quantity is None else experiment.quantity.value,
+        "locked": list(experiment.locked),
+        **sizes,
+    }
 
 
-def _same(given: object, again: object) -> bool:
+def read_experiment(data: Mapping[str, Any]) -> Experiment:
+    """Inverse of `plain_experiment`; raises InputError, TypeError or ValueError."""
+    given = {name: tuple(map(tuple, data[name])) for name in ("inertias", "springs")}
+    if any(type(size) is not str for sizes in given.values() for _, size in sizes):
+        raise InputError("a known size is a fraction as text")
+    return Experiment(**{**data, **given})
+
+
+def same_plain(given: object, again: object) -> bool:
     """Whether both are the same plain data: tuples are lists, names of enumerations texts."""
     if isinstance(again, dict):
         return (
             isinstance(given, dict)
             and given.keys() == again.keys()
-            and all(_same(given[name], value) for name, value in again.items())
+            and all(same_plain(given[name], value) for name, value in again.items())
         )
     if isinstance(again, list | tuple):
         return (
             isinstance(given, list | tuple)
             and len(given) == len(again)
-            and all(map(_same, given, again))
+            and all(map(same_plain, given, again))
         )
     return given == again and isinstance(given, bool) == isinstance(again, bool)
+
+
+def _stored(data: dict[str, Any]) -> Stored:
+    a, b = map(_model, data["models"])
+    pairs = data.get("experiments", [])
+    if len(pairs) > MOST_EXPERIMENTS:
+        raise InputError(f"{len(pairs)} experiments are more than {MOST_EXPERIMENTS}")
+    experiments = tuple(
+        (read_experiment(pair["left"]), read_experiment(pair["right"])) for pair in pairs
+    )
+    beside = data["over_complex"]
+    return Stored(
+        models=(a, b),
+        experiments=experiments,
+        query=_query(data["query"]),
+        settings=_settings(data["settings"]),
+        verdict=_verdict(data),
+        over_complex=_verdict(beside) if beside else None,
+    )
+
+
+def _query(asked: Mapping[str, Any]) -> Query:
+    query = Query(
+        View(asked["view"]), tuple(asked["conditions"]), asked["markov"], asked["inclusion"]
+    )
+    whole = type(query.markov) is int and type(query.inclusion) is bool
+    if not whole or query.markov > MOST_MARKOV:
+        raise InputError(f"a query asks for at most {MOST_MARKOV} Markov parameters")
+    return query
+
+
+def _settings(data: Mapping[str, Any]) -> Settings:
+    found = Settings(**data)
+    types = (type(found.seed), type(found.points), type(found.subset_limit))
+    if types != (str, int, int) or len(found.seed) > LONGEST_SEED:
+        raise InputError("settings are a seed and two whole numbers")
+    if not (1 <= found.points <= MOST_POINTS and 0 <= found.subset_limit <= MOST_SUBSETS):
+        raise InputError(
+            f"a verdict is checked with 1 to {MOST_POINTS} points and {MOST_SUBSETS} subsets at"
+            " most"
+        )
+    return found
+
+
+def _verdict(data: dict[str, Any]) -> Verdict:
+    """The verdict; raises InputError where a field of its evidence is of another type."""
+    found = Verdict.from_dict(data)
+    both = () if found.inclusions is None else (found.inclusions.image, found.inclusions.closure)
+    shares = [x for x in (found.left_positive, found.right_positive) if x is not None]
+    if not all(is_well_typed(x.evidence) for x in (found, *both, *shares)):
+        raise InputError("the evidence has a field of another type")
+    return found
+
+
+def _plain_model(model: Chain | AnyModel) -> dict[str, object]:
+    if isinstance(model, Model | MatrixModel):
+        return as_entry(model)
+    return {"name": name_of(model), **asdict(model)}
+
+
+def _model(data: Mapping[str, Any]) -> Chain | AnyModel:
+    if "n_masses" not in data:
+        return read_entry(data)
+    rest = {name: value for name, value in data.items() if name != "name"}
+    flags = [rest[name] for name in ("damped", "lag", "dead_time")]
+    if not all(type(flag) is bool for flag in flags):
+        raise InputError("whether a chain has dampers, lag or dead time is true or false")
+    if type(rest["n_masses"]) is int and rest["n_masses"] > MOST_MASSES:
+        raise InputError(f"a chain has {MOST_MASSES} masses at most")
+    return Chain(**rest | {"ground_dampers": tuple(rest["ground_dampers"])})

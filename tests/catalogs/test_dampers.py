@@ -13,6 +13,7 @@ import sympy as sp
 from disting import Chain, Engine, Family, InputError, Query, Relation, View, compare
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli import main
+from disting.cli.dampers import grid, legend
 from disting.model.domain import Domain
 
 SAME, APART = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
@@ -186,12 +187,37 @@ def test_the_table_speaks_of_positive_parameters_and_says_what_is_known_of_compl
     shown = capsys.readouterr().out
     assert shown.splitlines()[3:7] == ["0 \\ . . .", "1 . \\ c =", "2 . c \\ c", "3 . = c \\"]
     assert "over positive parameters: . distinguishable, = indistinguishable" in shown
-    assert "c undecided, but indistinguishable over complex ones" in shown
+    assert "c undecided but indistinguishable over complex ones" in shown
     assert (
         "over positive parameters: 3 distinguishable, 1 indistinguishable, 2 undecided (2 of them "
         in shown
     )
     assert "indistinguishable over positive parameters: 1 3\n" in shown
+
+
+@pytest.mark.parametrize(("n_masses", "blocks"), [(3, 1), (4, 1), (5, 1), (6, 2), (7, 5)])
+def test_the_table_of_all_sets_fits_a_terminal(n_masses, blocks):
+    """Every sign once, in rows and columns in one order, whatever the table is broken into."""
+    names = [spelled(s) for s in DamperSets.ALL.of(n_masses)]
+    odd = 1, len(names) - 2  # two names with signs of their own
+
+    def sign(i: int, j: int) -> str:
+        return "<" if (i, j) == odd else ">" if (j, i) == odd else "."
+
+    shown = grid(names, sign)
+    assert max(map(len, shown.splitlines())) <= 80
+    parts = [part.splitlines()[-len(names) :] for part in shown.rstrip("\n").split("\n\n")]
+    assert len(parts) == blocks
+    for i, name in enumerate(names):
+        lines = [part[i].split() for part in parts]
+        signs = [s for line in lines for s in line if s in "<>."]
+        assert signs == [sign(i, j) for j in range(len(names))]
+        assert all(name in line[:2] for line in lines)
+
+
+@pytest.mark.parametrize("domain", [Domain.POSITIVE, Domain.COMPLEX])
+def test_the_legend_fits_a_terminal(domain):
+    assert max(map(len, legend(domain).splitlines())) <= 80
 
 
 def test_a_whole_family_says_that_positive_parameters_are_not_asked(capsys):

@@ -81,8 +81,8 @@ def test_report_writes_the_families_with_dampers_too(tmp_path):
 def test_report_compares_several_sizes(tmp_path):
     assert called("report", "1", "2", "--undamped", "--out", tmp_path).returncode == 0
     text = (tmp_path / "sizes-undamped.html").read_text(encoding="utf-8")
-    # of 1 to 4 masses, whatever is asked
-    assert "Of <strong>482</strong> pairs" in text and "1 in 2" in text
+    # of 1 to 5 masses, whatever is asked
+    assert "Of <strong>3,694</strong> pairs" in text and "1 in 2" in text
     assert "2 in 1" not in text
     assert "sizes-undamped.html" in (tmp_path / "index.html").read_text(encoding="utf-8")
 

@@ -2,6 +2,7 @@
 one.
 """
 
+import re
 from math import pi
 
 import pytest
@@ -118,7 +119,8 @@ def claim(key):
 
 @pytest.mark.parametrize("key", FOUND)
 def test_what_a_check_finds(findings, key):
-    assert claim(key).check(findings) == Found(FOUND[key], claim(key).outcome is Outcome.AGREES)
+    found = claim(key).check(findings)
+    assert found == Found(FOUND[key], claim(key).outcome is Outcome.AGREES, found.seen)
 
 
 @pytest.mark.slow
@@ -143,8 +145,24 @@ def test_every_claim_is_tested_once_and_its_outcome_is_the_documented_one():
 def test_what_does_not_agree_has_a_reason():
     with pytest.raises(ValueError, match="reason"):
         Claim("k", "place", "text", "printed", lambda findings: Found("", False), Outcome.DIFFERS)
+    with pytest.raises(ValueError, match="what it is about"):
+        Claim(
+            "k",
+            "place",
+            "text",
+            "printed",
+            lambda findings: Found("", False),
+            Outcome.DIFFERS,
+            "why",
+        )
     with pytest.raises(ValueError, match="without a check"):
         Claim("k", "place", "text", "printed", None, Outcome.AGREES)
+
+
+def test_each_difference_has_a_label_of_its_own():
+    labels = [c.about for c in CLAIMS if c.outcome is Outcome.DIFFERS]
+    assert len(set(labels)) == len(labels) == len(DIFFERING)
+    assert not any(re.search(r"Section|Fig\.|Table", label) for label in labels)
 
 
 @pytest.mark.parametrize(

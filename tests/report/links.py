@@ -8,11 +8,14 @@ from urllib.parse import unquote, urlsplit
 
 from tests.report.outline import Outline
 
+REPORTS = Path(__file__).parents[2] / "reports"
+COPIED = "paper"  # takes minutes, so tests take it from the shipped site, within which it leads
 NUMBER = r"(?:A?\d+)"
 SETS = rf"{NUMBER}(?:\+b\d)*"
 # what the scripts of a page understand beside the names of its parts
 UNDERSTOOD = {
     "chains-": rf"{NUMBER}|{NUMBER}[-:]{NUMBER}",
+    "sizes-": rf"\d:{NUMBER}(?:-\d:{NUMBER})?",
     "list-": rf"{NUMBER}-{NUMBER}",
     "dampers-": rf"{SETS}|{SETS}/{SETS}|group-\d+",
     "motion-": rf"{NUMBER}-{NUMBER}(?:,present)?",
@@ -31,6 +34,8 @@ def is_there(page: Path, link: str) -> bool:
     understands.
     """
     address = urlsplit(link)
+    if page.parent.name == COPIED:
+        page = REPORTS / COPIED / page.name
     target = (page.parent / unquote(address.path)).resolve() if address.path else page.resolve()
     if address.scheme not in ("", "data") or not (address.scheme or target.is_file()):
         return False

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from disting import Engine
 from disting.catalogs import catalog
-from disting.catalogs.combined import combined
 from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser
 from disting.fit.candidates import figure_1
 from disting.fit.joint import Further
@@ -19,14 +19,16 @@ from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.onward import Site
 from disting.report.fit.style import Drawn
 from disting.report.model_list import judged, write_model_list
-from disting.report.sizes import write_sizes
 from tests.report.fit.conftest import DRIVE, response
 from tests.report.fit.test_responses import data
 from tests.report.test_model_list import MODELS, hostile, of
 
 REPORTS = Path(__file__).parents[2] / "reports"
 SHIPPED = ("paper", "notebooks")  # parts of the site that other commands write, in minutes
-LONG = ("fit", "glossary", "theorems", "notebook", "commands", "python-measurement")
+LONG = (
+    "fit", "glossary", "theorems", "notebook", "notebook-bench-commissioned", "commands",
+    "python-measurement",
+)  # fmt: skip
 SIGHTS = ((1280, 800), (1920, 1080), (390, 844), (320, 640))
 SCHEMES = ("light", "dark")
 
@@ -48,6 +50,7 @@ def kinds(masses: int) -> dict[str, str]:
         "list of models alone, hostile": "alone/list-hostile.html",
         "model": f"models/{masses}-damped/1.html",
         "sizes": "sizes-damped.html",
+        "sizes, a pair": "sizes-damped.html#2:1-3:4",
         "dampers": dampers,
         "dampers, a pair": f"{dampers}#2+b1+b2/5+b1+b2+b3",
         "dampers, a structure": f"{dampers}#A3",
@@ -69,9 +72,12 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
     """
     for part in SHIPPED:
         shutil.copytree(REPORTS / part, folder / part)
-    write_sizes(combined((2, 3), damped=True), folder)
     write_report(
-        [catalog(masses, damped=True)], folder, [damper_catalog(masses, damped=True)], parser()
+        [catalog(masses, damped=True)],
+        folder,
+        [damper_catalog(masses, damped=True)],
+        parser(),
+        across=[sizes_catalog(damped=True)],
     )
     engine = Engine()
     write_model_list(judged(of(MODELS), engine), "Two vessels", "list-vessels", folder)

@@ -25,8 +25,8 @@ SMALL, LARGE, START = "chains-3-damped.html", "chains-5-damped.html", "index.htm
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
-    write_report([catalog(3), catalog(3, damped=True)], folder)
     (folder / LARGE).write_text(page(catalog(5, damped=True)), encoding="utf-8")
+    write_report([catalog(3), catalog(3, damped=True)], folder)
     return folder
 
 
@@ -86,6 +86,34 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
     assert eval(python, {"disting": disting}).relation is verdict.relation
     cited = tab.inner_text('#detail [data-slot="cited"]')
     assert str(verdict.relation) in cited and cited.endswith(tab.url)
+
+
+def test_two_curves_fall_as_the_sentence_says(visit) -> None:  # type: ignore[no-untyped-def]
+    """Where the curves fall unequally above all resonances, both are drawn with example values;
+    what they do is computed from the curves, the sentence from degrees.
+    """
+    tab = visit(SMALL)
+    drawn = {}
+    for low, high, found in catalog(3, damped=True).pairs(View.POSITIVE):
+        tab.evaluate("(pair) => { location.hash = pair; }", f"#{low}-{high}")
+        tab.wait_for_function(
+            "(t) => document.querySelector('[data-slot=title]').textContent === t",
+            arg=f"A{low} and A{high}",
+        )
+        if tab.is_visible('[data-slot="curves"]'):
+            assert found.decided_by == "1"
+            drawn[low, high] = tab.inner_text("#curves-said")
+        else:
+            assert "a decade more" not in tab.inner_text('[data-slot="shown"]'), (low, high)
+    ends = r"stays level|falls by (\d+) dB a decade"
+    falls = {pair: [int(fall or 0) for fall in re.findall(ends, drawn[pair])] for pair in drawn}
+    ranks = {row.number: row for row in catalog(3, damped=True).rows}
+    assert len(drawn) == 26 and all(
+        fall == 20 * (ranks[number].denominator_degree - ranks[number].numerator_degree)
+        for pair, both in falls.items()
+        for number, fall in zip(pair, both, strict=True)
+    )
+    assert tab.locator("#curves path.curve").count() == 2
 
 
 def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ignore[no-untyped-def]
@@ -194,15 +222,36 @@ def test_the_wheel_zooms_where_the_pointer_is_and_dragging_moves(visit) -> None:
 
 
 def test_a_deep_link_selects(visit) -> None:  # type: ignore[no-untyped-def]
-    for fragment in ("#9-10", "#10-9", "#9:10", "#9%3A10"):
+    for fragment in ("#9-10", "#10-9", "#A9-A10", "#3:9-3:10", "#3%3A10-A9"):
         tab = visit(START) and visit(SMALL + fragment)
         assert tab.inner_text("#detail h3") == "A9 and A10"
         assert tab.inner_text("#detail .badge") == "indistinguishable"
 
 
-def test_other_fragments_select_nothing(visit) -> None:  # type: ignore[no-untyped-def]
-    for fragment in ("#0-3", "#4-4", "#1-99", "#models", "#%", "#1-2-3", "#A0", "#A12"):
-        assert not visit(SMALL + fragment).is_visible("#detail"), fragment
+def test_other_fragments_select_nothing_and_say_why_where_they_name_models(visit) -> None:  # type: ignore[no-untyped-def]
+    for fragment, said in (
+        ("#0-3", "There is no model 3:0: the models of 3 masses are 3:1 to 3:11."),
+        ("#1-99", "There is no model 3:99"),
+        ("#models", ""),
+        ("#%", ""),
+        ("#1-2-3", "Type a model such as 3:2"),
+        ("#A0", "There is no model 3:0"),
+        ("#A12", "There is no model 3:12"),
+        ("#9:10", "There is no catalogue of 9 masses"),
+        ("#3:1-4:5", "a command answers: disting compare 3:1 4:5 --damped"),
+    ):
+        tab = visit(SMALL + fragment)
+        assert not tab.is_visible("#detail"), fragment
+        told = tab.inner_text("#trouble")
+        assert said in told if said else not told, fragment
+
+
+def test_what_was_selected_is_closed_by_an_address_that_names_nothing(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = visit(SMALL + "#1-4")
+    visit(SMALL + "#1-99")
+    assert not tab.is_visible("#detail") and tab.inner_text("#trouble")
+    visit(SMALL + "#1-4")
+    assert tab.is_visible("#detail") and not tab.inner_text("#trouble")
 
 
 def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ignore[no-untyped-def]
@@ -307,6 +356,28 @@ def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore
     )
 
 
+@pytest.mark.parametrize("width", [320, 390])
+def test_the_names_of_the_last_fields_are_whole(visit, width: int) -> None:  # type: ignore[no-untyped-def]
+    tab = visit(LARGE, width)
+    tab.evaluate(
+        """() => {
+          window.written = [];
+          const of = CanvasRenderingContext2D.prototype, fill = of.fillText;
+          of.fillText = function (text, ...rest) {
+            const { e, f } = this.getTransform();
+            window.written.push([text, this.canvas.width - e, this.canvas.height - f]);
+            fill.call(this, text, ...rest);
+          };
+          location.hash = "#72-73";
+        }"""
+    )
+    _settle(tab)
+    written = [one for one in tab.evaluate("window.written") if one[0].startswith("A")]
+    assert {"A72", "A73"} <= {text for text, _, _ in written}
+    half = 5.5 * tab.evaluate("devicePixelRatio")  # of a name's height
+    assert all(right >= half and below >= half for _, right, below in written)
+
+
 @pytest.mark.parametrize("width", [390, 1280])
 def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#9-10", width)
@@ -350,6 +421,7 @@ def test_no_field_of_millions_is_lost(visit, site: Path) -> None:  # type: ignor
     runs = [apart, -(before - 1), same, apart, -(after - before - 2)]
     data |= {
         "models": models,
+        "sizes": [[3, models]],
         "groups": {domain: [[low, high]] for domain in data["groups"]},
         "views": dict.fromkeys(data["views"], runs),
     }

@@ -9,16 +9,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from disting.catalogs import catalog
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.dampers import DamperSets
 from disting.errors import InputError
 from disting.report import damper_page
-from disting.report.damper_drawing import ground_dampers, shared
 from disting.report.damper_page import counts
 from disting.report.damper_payload import bits, mirror, numbered, payload
 from disting.report.damper_thumbnail import runs
 from disting.report.drawing import draw
+from disting.report.families import families
+from disting.report.page_drawing import ground_dampers, shared
 from disting.report.scene import Ink
 from disting.verdict import Relation
 
@@ -30,7 +32,7 @@ def found() -> DamperFamily:
 
 @pytest.fixture(scope="module")
 def text(found: DamperFamily) -> str:
-    return damper_page(found)
+    return damper_page(found, beside=families([catalog(3, damped=True)]))
 
 
 def _opened(found: DamperFamily) -> DamperFamily:
@@ -84,7 +86,7 @@ def test_the_mirror_is_the_one_of_the_free_part(found: DamperFamily) -> None:
 
 
 def test_shared_drawings_are_the_single_ones(found: DamperFamily) -> None:
-    parts, drawings = shared(tuple(found.family))
+    parts, drawings = shared(dict(enumerate(found.family, 1)))
     layers = [part.layer for part in parts]
     assert len(set(layers)) == len(layers)
     for chain, drawing in zip(found.family, drawings, strict=True):
@@ -140,7 +142,7 @@ def test_every_structure_has_a_row_and_ids_are_unique(text: str) -> None:
 
 def test_links_to_other_pages_only_where_they_are(found: DamperFamily, text: str) -> None:
     assert 'href="models/3-damped/11.html"' in text and 'href="chains-3-damped.html"' in text
-    alone = damper_page(found, catalog=False)
+    alone = damper_page(found)
     assert "models/3-damped/" not in re.sub(r"<script>.*?</script>", "", alone, flags=re.DOTALL)
     assert 'href="chains-3-damped.html"' not in alone
 
@@ -160,12 +162,8 @@ def test_nothing_is_fetched_and_data_are_safe(text: str) -> None:
 
 
 def test_the_same_bytes_again(found: DamperFamily, text: str) -> None:
-    assert (
-        damper_page(
-            replace(found, found=replace(found.found, columns=np.array(found.found.columns)))
-        )
-        == text
-    )
+    again = replace(found, found=replace(found.found, columns=np.array(found.found.columns)))
+    assert damper_page(again, beside=families([catalog(3, damped=True)])) == text
 
 
 def test_one_mass_has_a_page_too() -> None:

@@ -1,6 +1,7 @@
 """Drawings of chains: nothing missing, nothing twice, nothing outside, no two alike."""
 
 import io
+from dataclasses import replace
 from itertools import product
 from xml.etree import ElementTree
 
@@ -12,8 +13,10 @@ from PIL import Image
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.report import chain_png, chain_svg, describe
-from disting.report.drawing import Layout, draw
-from disting.report.scene import Circle, Ink, Path, Text, extent
+from disting.report.drawing import NOTE, Layout, draw
+from disting.report.page_drawing import ground_dampers
+from disting.report.scene import Circle, Ink, Path, Rect, Text, extent
+from tests.report.shapes import meet
 
 few = settings(max_examples=40, deadline=None)  # of 50 and more layers each
 FAMILIES = [Family(n, damped) for n, damped in product(range(1, 6), (False, True))]
@@ -71,6 +74,37 @@ def test_letters_do_not_overlap(chain: Chain) -> None:
     for i, (left, top, right, bottom) in enumerate(boxes):
         for a, b, c, d in boxes[i + 1 :]:
             assert right <= a or c <= left or bottom <= b or d <= top
+
+
+@few
+@given(chains())
+def test_every_part_carries_its_name_once(chain: Chain) -> None:
+    named = {
+        layer.name: [s.text for s in layer.shapes if isinstance(s, Text)]
+        for layer in draw(chain).layers
+        if layer.name in {e.parameter for e in chain.structure.elements}
+    }
+    assert named == {e.parameter: [e.parameter] for e in chain.structure.elements}
+
+
+@few
+@given(chains())
+def test_no_line_passes_a_name(chain: Chain) -> None:
+    shapes = list(draw(chain).shapes)
+    for text in (s for s in shapes if isinstance(s, Text) and s.fill in {Ink.LABEL, Ink.MUTED}):
+        assert not [s for s in shapes if s is not text and meet(text, s)], text
+
+
+@few
+@given(chains())
+def test_upright_lines_keep_clear_of_the_signs(chain: Chain) -> None:
+    """The posts, the dampers to the ground and what they are broken by on a page of a family."""
+    signs = [s for s in draw(chain).shapes if isinstance(s, Rect | Circle) and s.fill is Ink.PAPER]
+    dampers = [s for part in ground_dampers(chain.n_masses) for s in part.layer.shapes]
+    moved = NOTE * (chain.lag or chain.dead_time)
+    for sign in signs:
+        below = replace(sign, y=sign.y - moved)
+        assert not any(meet(below, shape) for shape in dampers)
 
 
 def test_a_force_between_masses_has_two_arrows_and_one_against_ground_has_one() -> None:

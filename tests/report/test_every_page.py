@@ -148,10 +148,10 @@ def test_no_link_of_any_page_is_dead_and_no_name_is_given_twice(site: Path) -> N
 
 
 def test_notebooks_are_listed_where_they_are(site: Path) -> None:
-    names = sorted(path.name for path in (site / "notebooks").glob("*.ipynb"))
-    for address, root in (("index.html", ""), ("guide/notebook.html", "../")):
+    names = sorted(path.stem for path in (site / "notebooks").glob("*.ipynb"))
+    for address, root in (("index.html", "guide/"), ("guide/notebook.html", "")):
         links = {str(a["href"]) for _, a in outline(site / address).elements if "href" in a}
-        assert [name for name in names if f"{root}notebooks/{name}" not in links] == []
+        assert [name for name in names if f"{root}notebook-{name}.html" not in links] == []
     assert len(names) == 3
 
 

@@ -10,10 +10,11 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report import model_page
 from disting.report.drawing import draw
-from disting.report.experiment_drawing import added, definitions, free_corner, sketch, with_items
+from disting.report.experiment_drawing import added, definitions, sketch, with_items
 from disting.report.next_page import next_page
 from disting.report.next_steps import advice, found_for, sketches_for_pairs
 from disting.report.scene import Text, extent
+from tests.report.shapes import meet
 
 CHAINS = [
     *(c for n, damped in product(range(1, 5), (False, True)) for c in Family(n, damped)),
@@ -61,15 +62,15 @@ def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
                 assert parts.setdefault(layer.name, layer) == layer
 
 
-def test_an_inertia_stands_where_nothing_is_covered():
-    relative = Chain(3, 1, 1, 3, 1, 2, damped=True)  # the sign of the force is above mass 2
-    assert free_corner(relative, 2) != free_corner(relative, 1)
-    block = extent(added(relative, Item(Kind.INERTIA, 2)).shapes[0])
-    for layer in draw(relative).layers:
-        if layer.name in ("force", "sensor"):
-            for a, b, c, d in map(extent, layer.shapes):
-                left, top, right, bottom = block
-                assert right <= a or c <= left or bottom <= b or d <= top
+def test_what_an_experiment_adds_covers_no_name_and_no_sign():
+    for chain in CHAINS:
+        for item in items(chain):
+            if item.kind is Kind.FORCE:
+                continue  # stands in the place of the first one
+            shapes = draw(chain, item.kind is Kind.SENSOR).shapes
+            signs = [s for s in shapes if isinstance(s, Text) and s.text[0] != "m"]
+            for shape in added(chain, item).shapes:
+                assert not any(meet(sign, shape) for sign in signs), (chain, item, shape)
 
 
 def test_two_things_at_once_are_one_drawing():

@@ -16,10 +16,12 @@ from markdown_it import MarkdownIt
 
 from disting.catalogs import catalog
 from disting.cli.parser import parser
+from disting.errors import InputError
 from disting.model.drawing import text_drawing
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.report import write_report
+from disting.report.executed_notebook import notebook_page
 from disting.report.guide import Part, guide, guide_files, guide_parts, guide_texts
 from disting.report.markdown import GuidePage, guide_page
 from tests.cli.process import called
@@ -281,3 +283,37 @@ def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
     assert len(data["sections"]) > 500
     for place, anchor, title, _ in data["sections"]:
         assert title and anchor in ids[data["pages"][place][0]], (place, anchor)
+
+
+def test_executed_notebooks_are_pages_with_their_outputs(tmp_path: Path) -> None:
+    shipped = ROOT / "reports" / "notebooks"
+    notebooks = {path.stem: path.read_text("utf-8") for path in sorted(shipped.glob("*.ipynb"))}
+    found = {part.title: part for part in guide(notebooks=notebooks)}["Notebooks"]
+    assert [page.name for page in found.pages] == [f"notebook-{name}" for name in notebooks]
+    for page, text in zip(found.pages, notebooks.values(), strict=True):
+        outputs = sum(bool(cell.get("outputs")) for cell in json.loads(text)["cells"])
+        assert page.body.count('<div class="output"') == outputs > 5
+        assert page.body.count("<pre") >= outputs and "<svg" in page.body
+        assert not re.search(r"(?:src|href)=\"https?:|<script", page.body)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "[]", "{}", '{"cells": 3}', '{"cells": [{"cell_type": "code"}]}']
+)
+def test_what_is_no_notebook_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match="notebook"):
+        notebook_page("a", text, ())
+
+
+def test_the_text_of_an_output_is_text() -> None:
+    cells = [
+        {"cell_type": "markdown", "source": "# T"},
+        {
+            "cell_type": "code",
+            "source": ["a = 1\n", "```"],
+            "outputs": [{"output_type": "stream", "name": "stdout", "text": ["<b>&\n"]}],
+        },
+    ]
+    assert notebook_page("a", json.dumps({"cells": cells[1:]}), ()).title == "a"
+    page = notebook_page("a", json.dumps({"cells": cells}), ())
+    assert "<pre>&lt;b&gt;&amp;</pre>" in page.body and "a = 1\n```</code>" in page.body

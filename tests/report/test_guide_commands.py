@@ -24,6 +24,7 @@ CHEAP = tuple(
         "dampers 3:",
         "verdicts",
         "models 3",
+        "models vessels",
         "next",
         "simulate",
     )
@@ -125,6 +126,9 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
     columns = np.column_stack([hertz, motor.real, motor.imag, load.real, load.imag])
     header = "frequency [Hz],ReG_motor,ImG_motor,ReG_load,ImG_load"
     np.savetxt(folder / "bench.csv", columns, delimiter=",", header=header, comments="")
+    left = ("--masses", "2", "--json", folder / "fit.json")
+    done = called("fit", folder / "motor.csv", *left)
+    assert done.returncode == 0, done.stderr
     return folder
 
 

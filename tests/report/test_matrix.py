@@ -9,10 +9,11 @@ from PIL import Image
 
 from disting.catalogs import Catalog, catalog
 from disting.report import matrix_png, matrix_svg
-from disting.report.matrix import WIDEST_PNG, figure, thumbnail
+from disting.report.matrix import WIDEST_PNG, figure, has_slides, slide, slide_png, thumbnail
 from disting.report.scene import Ink, Rect, Text, extent
 from disting.report.words import VIEW_TITLES, sign, totals
-from disting.verdict import Relation
+from disting.verdict import Relation, View
+from tests.report.shapes import meet
 
 
 @pytest.fixture(params=[(1, False), (2, True), (3, False)], ids=str)
@@ -48,6 +49,29 @@ def test_files_are_readable_and_reproducible(shipped: Catalog) -> None:
     scale = min(2.0, WIDEST_PNG / scene.width)
     assert image.size == (round(scale * scene.width), round(scale * scene.height))
     assert matrix_svg(shipped) == text
+
+
+def test_a_wide_figure_has_a_slide_for_each_view() -> None:
+    assert [has_slides(catalog(n)) for n in (1, 2, 3, 4, 5)] == [False] * 3 + [True] * 2
+    for shipped, view in ((catalog(5, damped=True), View.POSITIVE), (catalog(4), View.TF)):
+        scene = slide(shipped, view)
+        letters = [shape for shape in scene.shapes if isinstance(shape, Text)]
+        assert min(shape.size for shape in letters) >= 12  # pixels of a projector
+        counted = Counter(
+            shape.text
+            for layer in scene.layers
+            for shape in layer.shapes
+            if isinstance(shape, Text) and layer.name == f"{view}-numbers"
+        )
+        assert counted == {sign(name): n for name, n in shipped.counts(view).items() if name and n}
+        for shape in scene.shapes:
+            left, top, right, bottom = extent(shape)
+            assert 0 <= left <= right <= 1920 and 0 <= top <= bottom <= 1080, shape
+        fields = [s for s in scene.shapes if isinstance(s, Rect)]
+        heads = next(layer.shapes for layer in scene.layers if layer.name == "head")
+        assert not any(meet(head, field) for head in heads for field in fields)
+    image = Image.open(io.BytesIO(slide_png(catalog(4), View.POSITIVE)))
+    assert image.size == (1920, 1080)
 
 
 def test_the_thumbnail_covers_what_is_not_distinguishable() -> None:

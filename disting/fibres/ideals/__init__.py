@@ -15,6 +15,8 @@ from disting.fibres.ideals.by_two_rows import included_by_rows as included_by_ro
 from disting.fibres.ideals.by_two_rows import refuted_by_rows as refuted_by_rows
 from disting.fibres.ideals.confirm import confirms as confirms
 from disting.fibres.ideals.confirm import confirms_matched as confirms_matched
+from disting.fibres.ideals.confirm import safety_of as safety_of
+from disting.fibres.ideals.confirm import seen_again as seen_again
 from disting.fibres.ideals.fibre_ideal import generic_rank as generic_rank
 from disting.fibres.ideals.full_rows import same_by_full_rows as same_by_full_rows
 from disting.fibres.ideals.membership import Limits as Limits
@@ -29,4 +31,5 @@ from disting.fibres.ideals.system import CoefficientMap as CoefficientMap
 from disting.fibres.ideals.system import PolynomialMap as PolynomialMap
 from disting.fibres.ideals.system import Terms as Terms
 from disting.fibres.ideals.system import coefficient_map as coefficient_map
+from disting.fibres.ideals.system import matched as matched
 from disting.fibres.ideals.system import normalised as normalised

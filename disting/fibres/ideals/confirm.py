@@ -1,16 +1,57 @@
 """What one or more fibres show, checked without the search that found it.
 
-The labels of the evidence stand for random primes and points (`fibre_ideal.drawn`).
+The labels of the evidence stand for random primes and points (`fibre_ideal.drawn`). The error bound
+is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
 """
 
 from collections.abc import Sequence
+from math import comb
 
 from flint import fmpz_mpoly, nmod_poly
 
 from disting.algebra.groebner.macaulay import reaches_one
+from disting.errors import NotSeenError
 from disting.evidence.ideals import Refuted, Solved
+from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
+from disting.fibres.ideals.membership import SPARE, Limits, decide_matched, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
+from disting.model.question import Membership
+
+PLAIN_MONOMIALS = 3000  # that plain elimination can bear
+AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
+
+
+def seen_again(
+    evidence: Solved | Refuted,
+    left: PolynomialMap,
+    right: PolynomialMap,
+    limits: Limits = AGAIN,
+) -> bool:
+    """Whether solutions fit, and contradictions are found again: by plain elimination, or, where
+    that is too large, at a fresh point by the fast one.
+
+    A contradiction of some degree is one of any larger degree too. Raises NotSeenError where none
+    is found within the limits.
+    """
+    if isinstance(evidence, Refuted) and evidence.degree < 0:
+        return False
+    by_maps = isinstance(left, CoefficientMap) and isinstance(right, CoefficientMap)
+    check = confirms if by_maps else confirms_matched
+    unknowns = max(len(left.parameters), len(right.parameters))
+    if isinstance(evidence, Solved) or _is_small(evidence.degree, unknowns):
+        return check(evidence, left, right)  # type: ignore[arg-type]
+    if by_maps:
+        left, right = matched(left, right)  # type: ignore[arg-type]
+    given, other = (left, right) if evidence.left_given else (right, left)
+    again = decide_matched(given, other, equal_rank=evidence.tangent, seed="verify", limits=limits)
+    if again.membership is Membership.UNKNOWN:
+        raise NotSeenError(f"the contradiction was not found again ({again.reason})")
+    return again.membership is Membership.EXCLUDED
+
+
+def _is_small(degree: int, unknowns: int) -> bool:
+    return degree <= PLAIN_MONOMIALS and comb(unknowns + degree, degree) <= PLAIN_MONOMIALS
 
 
 def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: CoefficientMap) -> bool:
@@ -42,6 +83,26 @@ def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: Pol
     return bool(evidence.labels) and all(
         reaches_one(i.generators, len(i.unknowns), i.modulus, evidence.degree) for i in ideals
     )
+
+
+def safety_of(
+    evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap, seed: str
+) -> int:
+    """Bits b of the bound 2**-b on the error of evidence on two models of equal rank, as
+    `membership.decide_matched` counts them; 0 where the seed does not draw its labels.
+
+    Refutations have the first labels that are drawn, solutions those at which there is one.
+    """
+    count = len(evidence.labels)
+    given, other = (left, right) if evidence.left_given else (right, left)
+    most = SPARE * count if isinstance(evidence, Solved) else count
+    drawn_ones = labels_of(seed, left, right, most)
+    named = [label for label in drawn_ones if label in set(evidence.labels)]
+    if not count or tuple(named) != evidence.labels:
+        return 0
+    if isinstance(evidence, Solved):
+        return safety_of_member(given, other) * count - 1
+    return safety_of_empty(given, other, True) * count - 1 if evidence.tangent else 0
 
 
 def _agree(

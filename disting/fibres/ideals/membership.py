@@ -132,7 +132,7 @@ def decide_matched(
     transfer functions of one model, for instance. The bounds rest on nothing else.
     """
     _refuse(left, right, equal_rank, seed)
-    seed = about(f"ideals:{seed}", left.content, right.content)
+    seed = _of_maps(seed, left, right)
     if safety_of_empty(left, right, equal_rank) < LEAST:
         return Decision(
             Membership.UNKNOWN,
@@ -161,6 +161,16 @@ def _refuse(left: PolynomialMap, right: PolynomialMap, equal_rank: bool, seed: s
     ranks = [generic_rank(model, f"rank:{seed}") for model in (left, right)]
     if ranks[0] > ranks[1] or equal_rank != (ranks[0] == ranks[1]):
         raise InputError(f"the ranks are {ranks[0]} and {ranks[1]}")
+
+
+def labels_of(seed: str, left: PolynomialMap, right: PolynomialMap, count: int) -> tuple[str, ...]:
+    """The first labels that a seed draws for two maps, in order."""
+    whole = _of_maps(seed, left, right)
+    return tuple(_label(whole, number) for number in range(count))
+
+
+def _of_maps(seed: str, left: PolynomialMap, right: PolynomialMap) -> str:
+    return about(f"ideals:{seed}", left.content, right.content)
 
 
 def _label(seed: str, number: int) -> str:

@@ -26,8 +26,9 @@ from disting.questions.inclusion.across_sizes_confirmation import confirms_acros
 from disting.questions.inclusion.closures import confirms_rows
 from disting.questions.inclusion.profiles import degrees_refute, ordered
 from disting.questions.inclusion.side import ChainSide
-from disting.questions.same.evidence_check import POINTS, Witness
+from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part
+from disting.questions.same.summary_check import POINTS
 
 PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 

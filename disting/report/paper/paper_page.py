@@ -4,15 +4,18 @@ and the tables.
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
 from disting.catalogs import ModelRow
+from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.files import name_of
 from disting.files import __version__
 from disting.model.family import Family
 from disting.paper import Claim, Findings, Found, Outcome
+from disting.paper.claim import Seen
 from disting.paper.claims import SECTIONS
 from disting.report.drawing import draw
 from disting.report.environment import render
@@ -27,10 +30,12 @@ SIGNS = {Outcome.AGREES: "=", Outcome.DIFFERS: "≠", Outcome.UNCHECKED: "?"}
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A claim and what its check found."""
+    """A claim, what its check found, and (words, address) of the pages that show its verdicts."""
 
     claim: Claim
     found: Found | None
+    links: tuple[tuple[str, str], ...] = ()
+    commands: tuple[str, ...] = ()
 
     @property
     def outcome(self) -> Outcome:
@@ -57,21 +62,82 @@ class Part:
     lines: tuple[Line, ...]
 
 
-def parts(findings: Findings) -> tuple[Part, ...]:
+def parts(findings: Findings, beside: Container[str] = ()) -> tuple[Part, ...]:
     """All claims, each checked now."""
     return tuple(
-        Part(
-            f"part-{number}",
-            title,
-            tuple(Line(c, c.check(findings) if c.check else None) for c in claims),
-        )
+        Part(f"part-{number}", title, tuple(_line(c, findings, beside) for c in claims))
         for number, (title, claims) in enumerate(SECTIONS, 1)
     )
 
 
-def paper_page(findings: Findings, pictures: Sequence[Picture]) -> str:
-    """HTML of the page; the pictures' files lie beside it."""
-    listed = parts(findings)
+def _line(claim: Claim, findings: Findings, beside: Container[str]) -> Line:
+    found = claim.check(findings) if claim.check else None
+    seen = found.seen if found else ()
+    return Line(
+        claim,
+        found,
+        tuple((in_words(s), address(s)) for s in seen if page_of(s) in beside),
+        tuple(command(s) for s in seen if not page_of(s)),
+    )
+
+
+def page_of(seen: Seen) -> str:
+    """Name of the page of a family; none has models with a lag or a dead time.
+
+    >>> page_of(Seen(3, True)), page_of(Seen(3, True, ("1", "1+lag")))
+    ('chains-3-damped', '')
+    """
+    if any(name.endswith(("lag", "delay")) for name in seen.models):
+        return ""
+    return (damper_name if seen.dampers else name_of)(seen.n_masses, seen.damped)
+
+
+def address(seen: Seen) -> str:
+    """Where it can be seen, from the paper's folder.
+
+    >>> address(Seen(3, True, ("1", "4"))), address(Seen(3, False, ("4",)))
+    ('../chains-3-damped.html#1-4', '../models/3-undamped/4.html')
+    >>> address(Seen(3, True, ("3", "3+b1"), dampers=True))
+    '../dampers-3-damped.html#3/3+b1'
+    """
+    if len(seen.models) == 1 and not seen.dampers:
+        kind = "damped" if seen.damped else "undamped"
+        return f"../models/{seen.n_masses}-{kind}/{seen.models[0]}.html"
+    hash_ = f"#A{seen.models[0]}" if len(seen.models) == 1 else ""
+    if len(seen.models) == 2:
+        hash_ = "#" + ("/" if seen.dampers else "-").join(seen.models)
+    return f"../{page_of(seen)}.html{hash_}"
+
+
+def in_words(seen: Seen) -> str:
+    """What a link leads to.
+
+    >>> in_words(Seen(3, True, ("1", "4"))), in_words(Seen(4))
+    ('3:1 and 3:4, damped', 'all pairs of 4 masses, undamped')
+    """
+    kind = "damped" if seen.damped else "undamped"
+    size = plural(seen.n_masses, "mass", "masses")
+    names = [f"{seen.n_masses}:{name}" for name in seen.models]
+    if seen.dampers and len(names) < 2:
+        return f"dampers to the ground of {names[0] if names else size}, {kind}"
+    return f"{' and '.join(names) or f'all pairs of {size}'}, {kind}"
+
+
+def command(seen: Seen) -> str:
+    """The command that decides a pair.
+
+    >>> command(Seen(3, True, ("1", "1+lag")))
+    'disting compare 3:1 3:1+lag'
+    """
+    names = " ".join(f"{seen.n_masses}:{name}" for name in seen.models)
+    return f"disting compare {names}{'' if seen.damped else ' --undamped'}"
+
+
+def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Container[str] = ()) -> str:
+    """HTML of the page; the pictures' files lie beside it, the pages of the families that are
+    named in `beside` one folder up.
+    """
+    listed = parts(findings, beside)
     lines = [line for part in listed for line in part.lines]
     counts = Counter(line.outcome for line in lines)
     return render(
@@ -83,16 +149,24 @@ def paper_page(findings: Findings, pictures: Sequence[Picture]) -> str:
         total=len(lines),
         differing=[line for line in lines if line.outcome is Outcome.DIFFERS],
         pictures=pictures,
+        figure=lambda place: figure_of(place, pictures),
         sizes=[
             (n, PRINTED[n - 1] if n <= len(PRINTED) else "", len(Family(n)))
             for n in range(1, LARGEST + 1)
         ],
         models=model_rows(findings),
+        pages="../models/3-undamped" if name_of(3, False) in beside else "",
         drawing=lambda chain: drawing(draw(chain)),
         raised=raised,
         plural=plural,
         version=__version__,
     )
+
+
+def figure_of(place: str, pictures: Sequence[Picture]) -> str:
+    """Name of the picture of which a claim's place speaks, "" where there is none."""
+    found = (p.name for p in pictures if re.search(rf"{re.escape(p.printed)}(?!\d)", place))
+    return next(found, "")
 
 
 def model_rows(findings: Findings) -> list[tuple[ModelRow, int]]:

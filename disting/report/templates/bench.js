@@ -1,6 +1,8 @@
 // What stands around a matrix: the panel of what is selected, its address, the buttons of size, the fields of the panel.
 const byId = (id) => document.getElementById(id);
-const createBench = (matrix, { fill, follow }) => {
+// `seek` tells what a text names, `follow` what an address does (null: nothing here): how to { show } it, its { address } on another
+// page, or the { trouble } in words.
+const createBench = (matrix, { fill, seek, follow }) => {
   const section = byId("verdicts"), panel = byId("detail");
   let selected = null; // { models, address } and what fill needs
   // the field stays in sight: above the sheet on a phone, below the upper edge elsewhere
@@ -11,7 +13,14 @@ const createBench = (matrix, { fill, follow }) => {
     const by = field.bottom > bottom ? Math.min(field.bottom - bottom + (sheet ? 60 : 0), field.top - top) : field.top < top ? field.top - top : 0;
     scrollBy({ top: by, behavior: "instant" });
   };
+  const say = (trouble) => (byId("trouble").textContent = trouble || "");
+  const clear = () => {
+    selected = null;
+    matrix.pick(null);
+    panel.hidden = true;
+  };
   const select = (selection) => {
+    say("");
     selected = selection;
     matrix.pick(selection.models);
     fill(selection);
@@ -23,23 +32,31 @@ const createBench = (matrix, { fill, follow }) => {
   const close = () => {
     if (!selected) return;
     const { models } = selected;
-    selected = null;
-    matrix.pick(null);
-    panel.hidden = true;
+    clear();
     history.replaceState(null, "", location.pathname + location.search);
     if (models.length) matrix.go(models[models.length - 1], models[0], { focus: true });
   };
   const arrive = () => {
-    const show = follow(location.hash);
-    if (!show) return;
+    const found = follow(location.hash);
+    say(found?.trouble);
+    if (!found) return;
+    if (found.address) return location.replace(found.address);
+    if (found.trouble) clear();
     section.scrollIntoView({ behavior: "instant" });
-    show();
+    found.show?.();
   };
   const ZOOM = { out: () => matrix.zoom(1 / 1.5), in: () => matrix.zoom(1.5), fit: matrix.fit };
   section.querySelectorAll("[data-zoom]").forEach((b) => b.addEventListener("click", () => ZOOM[b.dataset.zoom]()));
   panel.querySelector(".close").addEventListener("click", close);
   byId("filter").addEventListener("submit", (event) => event.preventDefault());
   document.addEventListener("keydown", (event) => event.key === "Escape" && close());
+  byId("search").addEventListener("submit", (event) => {
+    event.preventDefault();
+    const found = seek(byId("find").value);
+    say(found.trouble);
+    if (found.address) location.href = found.address;
+    found.show?.();
+  });
   return {
     select,
     follow: () => {
@@ -48,11 +65,6 @@ const createBench = (matrix, { fill, follow }) => {
       arrive();
     },
     again: (changes) => selected && fill(Object.assign(selected, changes)),
-    search: (find) =>
-      byId("search").addEventListener("submit", (event) => {
-        event.preventDefault();
-        byId("trouble").textContent = find(byId("find").value) || "";
-      }),
   };
 };
 // Groups first, the largest before the others, so that indistinguishable blocks stand on the diagonal: order and blocks.

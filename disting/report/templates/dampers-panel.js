@@ -36,7 +36,8 @@ const createDamperPanel = (data, classes, models) => {
   };
   const fact = (i) => {
     const [, , own] = data.structures[structure(i) - 1];
-    const row = document.createElement("tr"), head = Object.assign(document.createElement("th"), { scope: "row", textContent: name(i) });
+    const row = document.createElement("tr"), head = Object.assign(document.createElement("th"), { scope: "row" });
+    head.append(...name(i).split(/(?=\+)/).flatMap((part) => [document.createElement("wbr"), part])); // breaks before a damper only
     const g = classes.group(i), group = document.createElement("td");
     group.append(g < data.several ? groupLink(g) : "alone");
     row.append(head, group, ...[own + setOf(i).length, classes.rank(i)].map((n) => Object.assign(document.createElement("td"), { className: "n", textContent: n })));

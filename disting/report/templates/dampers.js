@@ -69,30 +69,23 @@
   });
 
   // ---- what is typed, and deep links #17+b1+b3/20+b2 to a pair, #17+b1 to a model, #A17 to a structure, #group-3
-  const there = (named) => named.every((m) => models.place(m) >= 0);
   const go = (named) => {
     if (named.length === 1 && !named[0].dampers) return goStructure(named[0].number);
     const [i, j] = [named[0], named[named.length - 1]].map(models.place).sort((a, b) => a - b);
     goPair(i, j);
   };
-  const find = (text) => {
+  const seek = (text) => {
     const named = parseModels(text);
-    if (!named) return `Type a structure such as ${data.masses}:2, a model such as 2+b1, or two models for a pair.`;
-    const sizes = named.map((m) => m.masses || named[0].masses || data.masses);
-    const elsewhere = answeredBy(named, sizes[0], kind);
-    if (elsewhere) return elsewhere;
-    if (sizes[0] !== data.masses) location.href = `dampers-${sizes[0]}-${kind}.html${damperHash(named)}`;
-    else if (there(named)) go(named);
-    else return `There are the structures 1 to ${data.structures.length}, with dampers b1 to b${data.masses}.`;
-    return "";
+    if (!named) return { trouble: `Type a structure such as ${data.masses}:2, a model such as 2+b1, or two models for a pair.` };
+    const masses = named[0].masses || data.masses;
+    const here = named.every((m) => (m.masses || masses) === data.masses && !m.late.length && models.place(m) >= 0);
+    return here ? { show: () => go(named) } : addressOf(named, masses, kind, data.families, true);
   };
   const follow = (hash) => {
     const group = /^#group-(\d+)$/.exec(hash);
-    if (group) return +group[1] >= 1 && +group[1] <= data.several ? () => goGroup(group[1] - 1) : null;
-    const named = /^#[aA\d]/.test(hash) ? parseModels(hash.slice(1).replace(/%2b/gi, "+").replace(/%2f/gi, "/")) : null;
-    return named && named.every((m) => !m.masses) && there(named) ? () => go(named) : null;
+    if (!group) return namedBy(hash) ? seek(namedBy(hash)) : null;
+    return +group[1] >= 1 && +group[1] <= data.several ? { show: () => goGroup(group[1] - 1) } : { trouble: `There is no group ${group[1]}: the groups are 1 to ${data.several}.` };
   };
-  const bench = createBench(matrix, { fill, follow });
-  bench.search(find);
+  const bench = createBench(matrix, { fill, seek, follow });
   bench.follow();
 })();

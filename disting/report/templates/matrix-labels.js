@@ -1,7 +1,7 @@
 // The names at the edges: every model where there is room, else every so many or the named blocks; those of the fields in
 // question always, in bold.
 const createLabels = (pen, v, state, source, css) => {
-  const LABEL = 14, ROUND = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
+  const LABEL = 14, HALF = 7, ROUND = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   const models = (from, to, near) => {
     const every = ROUND.find((step) => step >= LABEL / v.cell) || ROUND[ROUND.length - 1], found = [];
     for (let place = from; place < to; place++)
@@ -19,14 +19,18 @@ const createLabels = (pen, v, state, source, css) => {
     }
     return found;
   };
-  const apart = (places) => { // neighbours move away from each other, so that both are read
+  const room = (across) => (across ? v.width : v.height) - HALF; // up to here a name is not cut off
+  const apart = (places, most) => { // neighbours move away from each other, so that both are read
+    const by = (LABEL - 1) / v.cell;
     const found = [...places].sort((a, b) => a - b).map((place) => [place + 0.5, place]);
-    for (let k = 1; k < found.length; k++) found[k][0] = Math.max(found[k][0], found[k - 1][0] + (LABEL - 1) / v.cell);
+    for (let k = 1; k < found.length; k++) found[k][0] = Math.max(found[k][0], found[k - 1][0] + by);
+    for (let k = found.length - 1; k >= 0; k--) found[k][0] = Math.min(found[k][0], most - (found.length - 1 - k) * by);
     return found;
   };
   const write = ([place, text], across, bold) => {
-    const middle = v.gutter + (across ? v.left : v.top) + place * v.cell, upright = v.cell < 26 || v.gutter > 60;
-    if (middle < v.gutter - 1 || middle > (across ? v.width : v.height)) return;
+    const exact = v.gutter + (across ? v.left : v.top) + place * v.cell, upright = v.cell < 26 || v.gutter > 60;
+    if (exact < v.gutter - 1 || exact > (across ? v.width : v.height)) return;
+    const middle = Math.min(exact, room(across));
     pen.save();
     if (across) pen.translate(middle, v.gutter - 5), upright && pen.rotate(-Math.PI / 2);
     else pen.translate(v.gutter - 5, middle);
@@ -55,7 +59,8 @@ const createLabels = (pen, v, state, source, css) => {
       const usual = v.cell < LABEL && state.blocks.some((block) => block[2]) ? blocks : models;
       for (const [from, to, across] of [[r0, r1, false], [c0, c1, true]]) {
         for (const label of usual(from, to, near)) write(label, across, false);
-        for (const [at, place] of apart(near.filter((place) => place >= from && place < to))) write([at, source.name(state.order[place])], across, true);
+        const most = (room(across) - v.gutter - (across ? v.left : v.top)) / v.cell;
+        for (const [at, place] of apart(near.filter((place) => place >= from && place < to), most)) write([at, source.name(state.order[place])], across, true);
       }
     },
   };

@@ -83,6 +83,9 @@ const createPainter = (canvas, v, state, fields, source) => {
     pen.strokeRect(col * v.cell - line / 2, row * v.cell - line / 2, cols * v.cell + line, rows * v.cell + line);
   };
   const outlines = () => {
+    const across = state.order.length * v.cell;
+    pen.fillStyle = css("ink");
+    for (const cut of state.cuts) pen.fillRect(0, cut * v.cell - 1, across, 2), pen.fillRect(cut * v.cell - 1, 0, 2, across);
     for (const [from, count] of state.blocks) if (count * v.cell > 5) frame(from, from, count, count, css("ink"), v.cell < 4 ? 1 : 2);
     const places = (state.picked || []).map((model) => state.place[model]);
     if (places.includes(undefined)) return;

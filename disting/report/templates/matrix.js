@@ -11,7 +11,7 @@
 // One element, the cursor, is the field for assistive technology: a cell of a grid, made anew wherever the focus moves.
 const createMatrix = (host, source) => {
   const grid = host.querySelector('[role="grid"]');
-  const state = { order: [], place: [], blocks: [], views: source.views, lit: () => true, picked: null };
+  const state = { order: [], place: [], blocks: [], cuts: [], views: source.views, lit: () => true, picked: null };
   const v = createViewport(() => state.order.length);
   const fields = createFields(state, source);
   const painter = createPainter(host.querySelector("canvas"), v, state, fields, source);
@@ -79,10 +79,11 @@ const createMatrix = (host, source) => {
     painter.forget();
     redraw();
   });
-  // the models in order, all or some of them, at least two; blocks are runs of them in frames: [from, count, name or nothing]
-  const arrange = (order, blocks) => {
+  // the models in order, all or some of them, at least two; blocks are runs of them in frames: [from, count, name or nothing];
+  // before the cuts a line crosses the whole square
+  const arrange = (order, blocks, cuts = []) => {
     const [r, c] = of(row, col), other = state.order.length !== order.length;
-    Object.assign(state, { order, blocks, place: [] });
+    Object.assign(state, { order, blocks, cuts, place: [] });
     order.forEach((model, at) => (state.place[model] = at));
     [row, col] = r in state.place && c in state.place ? [state.place[r], state.place[c]] : [1, 0];
     for (const attribute of ["aria-rowcount", "aria-colcount"]) grid.setAttribute(attribute, order.length);

@@ -28,7 +28,7 @@ const drawMoving = (svg, chain, { size, wall, pitch, joint: length, mass }) => {
     if (which < chain.names.length) {
       const place = chain.places[which], kind = chain.kinds[which];
       if (kind === "m") return () => (u) => u[place + 1];
-      if (kind === "k") return joint(place);
+      if (kind === "k" || path < 0) return joint(place); // the name of a damper as a spring
       const start = wall + pitch * place; // the cup stays whole on its rod, and so does the piston
       if (path < 2) return (x) => (u) => u[place] + (x > start + 1 ? ROOM / 2 : 0);
       return (x) => (u) => u[place + 1] - (x < start + length - 1 ? ROOM / 2 : 0);

@@ -55,7 +55,6 @@ const solved = (matrix, right) => { // symmetric and positive
   }
   return x;
 };
-const clamped = (x, low, high) => Math.min(Math.max(x, low), high);
 const descended = (task, start, { rounds = 150, least = 1e-9, way = POSITIVE } = {}) => { // until three steps gain less than this share of the cost
   const size = start.length;
   let unknowns = start, here = residuals(task, start, way), { normal, slope } = normalOf(here, size), damping = 1e-2, small = 0;

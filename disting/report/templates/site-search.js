@@ -5,19 +5,18 @@
   }));
   let chosen = -1, shown = [];
 
+  // of each family that may be meant: a model without masses is one of every size
   const models = (query) => {
-    const found = parseModels(query);
-    if (!found) return [];
-    const masses = found.map((m) => m.masses).filter(Boolean);
-    if (masses.some((m) => m !== masses[0])) return [];
-    const numbers = found.map((m) => m.number), name = found.map((m) => `A${m.number}${damperSet(m.dampers)}`).join(" and ");
-    return Object.entries(DATA.sizes).flatMap(([family, { models: count, folder }]) => {
-      const [, kind, size, damping] = /^(\w+)-(\d+)-(\w+)$/.exec(family);
-      const withDampers = found.some((m) => m.dampers);
-      if ((kind === "dampers") !== withDampers || (masses.length && +size !== masses[0]) || numbers.some((n) => n < 1 || n > count) || found.some((m) => (m.dampers || []).some((at) => at > +size))) return [];
-      const pair = numbers.length === 2 && (withDampers || numbers[0] !== numbers[1]);
-      const address = !folder ? `${family}.html${damperHash(found)}` : pair ? `${family}.html${pairHash(numbers)}` : `${folder}/${numbers[0]}.html`;
-      return [{ title: `${name} of ${size} mass${size === "1" ? "" : "es"}, ${damping}`, where: pair ? "Verdict" : "Model", words: "", address }];
+    const asked = parseModels(query);
+    if (!asked) return [];
+    const masses = asked.map((m) => m.masses).filter(Boolean), two = masses.some((m) => m !== masses[0]);
+    return Object.keys(DATA.families).flatMap((family) => {
+      const [, what, size, kind] = /^(\w+?)-(?:(\d+)-)?(\w+)$/.exec(family);
+      if (what !== (two ? "sizes" : asked.some((m) => m.dampers) ? "dampers" : "chains") || (!two && masses.length && +size !== masses[0])) return [];
+      const { page, address, trouble } = addressOf(asked, masses[0] || +size, kind, DATA.families);
+      if (trouble) return [];
+      const name = asked.map((m) => `${two ? `${m.masses || masses[0]}:` : "A"}${m.number}${damperSet(m.dampers)}`).join(" and ");
+      return [{ title: `${name}${two ? "" : ` of ${size} mass${size === "1" ? "" : "es"}`}, ${kind}`, where: asked.length > 1 && !page ? "Verdict" : "Model", words: "", address: page || address }];
     });
   };
   // how well an entry answers: its title before its words, a beginning before a middle, a short title before a long one

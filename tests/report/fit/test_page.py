@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from disting.errors import InputError
+from disting.files import __version__
 from disting.fit.candidates import chosen_ports
 from disting.fit.modes import physical
 from disting.fit.practical import Thresholds
@@ -186,7 +187,7 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(
     assert nothing.selected is None
     said = " ".join(empty.text.split())
     assert said.startswith(
-        "Fit: no admissible model disting 0.1.0 Help: disting fit --help Guide and glossary: disting"
+        f"Fit: no admissible model disting {__version__} Help: disting fit --help Guide and glossary: disting"
         " report 3 writes them No model is admissible Each of the 3 fitted candidates"
     )
     first = nearest(nothing)[0]

@@ -1,34 +1,65 @@
-"""Drawings of a whole family that share their parts: a mass, a spring, a place of the force is
-held once by a page.
+"""Drawings as a page holds them: each once, shown wherever the page refers to it.
 
+Several drawings share their parts: a mass, a spring, a place of the force is held once by a page.
 Dampers to the ground are parts of their own, one a mass, laid over the drawing of any chain of
 that size; where one crosses the bar of a sensor the bar is broken, as in the drawing of a single
 chain.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
 
 from markupsafe import Markup
 
 from disting.model.chain import Chain
 from disting.report.drawing import RISE, STEM, Layout, draw
-from disting.report.model import Drawing
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Scene
-from disting.report.svg import body
+from disting.report.svg import body, number
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
+class Drawing:
+    """A chain's drawing, held once by a page and shown wherever it is referred to."""
+
+    number: int
+    scene: Scene
+
+    @property
+    def label(self) -> str:
+        """What is seen, in words."""
+        return f"A{self.number}: {self.scene.title}"
+
+    @cached_property
+    def definition(self) -> Markup:
+        """The drawing itself; all but the force is a part of its own, rest-5 of chain-5."""
+        drawn = body(self.scene, PAGE_PALETTE, f"rest-{self.number}")
+        return Markup(f'<g id="chain-{self.number}">{drawn}</g>')
+
+    @property
+    def width(self) -> str:
+        """Natural width [px]."""
+        return number(self.scene.width)
+
+    @property
+    def box(self) -> str:
+        """viewBox."""
+        return f"0 0 {number(self.scene.width)} {number(self.scene.height)}"
+
+
+@dataclass(frozen=True)
 class SharedDrawing(Drawing):
     """A drawing made of parts that the page holds."""
 
     parts: tuple[int, ...]
 
-    @property
+    @cached_property
     def definition(self) -> Markup:
-        """References to the parts, from back to front."""
-        shown = "".join(f'<use href="#part-{i}"/>' for i in self.parts)
-        return Markup(f'<g id="chain-{self.number}">{shown}</g>')
+        """References to the parts, from back to front; the last is the force."""
+        *rest, force = (f'<use href="#part-{i}"/>' for i in self.parts)
+        return Markup(
+            f'<g id="chain-{self.number}"><g id="rest-{self.number}">{"".join(rest)}</g>{force}</g>'
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,13 +72,19 @@ class Part:
     @property
     def definition(self) -> Markup:
         """The part itself."""
-        return Markup(f'<g id="{self.name}">{body(Scene(0, 0, (self.layer,)), PAGE_PALETTE)}</g>')
+        return Markup(f'<g id="{self.name}">{_drawn(self.layer)}</g>')
 
 
-def shared(chains: Sequence[Chain]) -> tuple[tuple[Part, ...], tuple[SharedDrawing, ...]]:
-    """The parts of some chains' drawings, each once, and the drawings, numbered from 1.
+@cache
+def _drawn(layer: Layer) -> str:
+    """Drawn once: the pages of all models of a size show it."""
+    return body(Scene(0, 0, (layer,)), PAGE_PALETTE)
 
-    >>> parts, drawings = shared([Chain(2), Chain(2, 0, 0, 1, 0, 2)])
+
+def shared(chains: Mapping[int, Chain]) -> tuple[tuple[Part, ...], tuple[SharedDrawing, ...]]:
+    """The parts of some models' drawings, each once, and the drawings, by the models' numbers.
+
+    >>> parts, drawings = shared({1: Chain(2), 2: Chain(2, 0, 0, 1, 0, 2)})
     >>> len(parts), [len(d.parts) for d in drawings]
     (8, [7, 7])
     """
@@ -56,7 +93,7 @@ def shared(chains: Sequence[Chain]) -> tuple[tuple[Part, ...], tuple[SharedDrawi
         SharedDrawing(
             i, scene, tuple(numbers.setdefault(layer, len(numbers)) for layer in scene.layers)
         )
-        for i, scene in enumerate(map(draw, chains), start=1)
+        for i, scene in ((i, draw(chain)) for i, chain in chains.items())
     ]
     return tuple(Part(f"part-{i}", layer) for layer, i in numbers.items()), tuple(drawings)
 

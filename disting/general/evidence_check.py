@@ -1,0 +1,100 @@
+"""Whether what a verdict on two general models rests on is true, seen anew, and how surely it shows
+what it shows.
+"""
+
+from functools import partial
+
+from disting.behaviour.sample import Representation, Sample
+from disting.conditions.finding import Finding
+from disting.evidence.conditions import Counts, Forms, FreeChoice, Ranks, Renaming
+from disting.evidence.decision import Theorem
+from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
+from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.kinds import Evidence
+from disting.fibres.ideals import Limits, PolynomialMap, matched, seen_again
+from disting.general.admissible import are_one_ports
+from disting.general.admissible import confirms as confirms_points
+from disting.general.any_model import constants_of, is_renamed
+from disting.general.exact import coefficient_map
+from disting.general.formulas import is_explicit, is_without
+from disting.general.matrix_model import AnyModel, MatrixModel
+from disting.general.matrix_profiles import matrix_maps, matrix_samples
+from disting.general.model import Model
+from disting.general.samples import samples
+from disting.model.settings import Settings
+from disting.questions.same.decided_again import by_labels
+from disting.questions.same.evidence_check import is_complete
+from disting.questions.same.summary_check import POINTS, Summary, confirms_summary
+
+AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again
+
+
+def confirms_models(
+    evidence: Evidence, left: AnyModel, right: AnyModel, representation: str = "tf"
+) -> bool:
+    """Whether the evidence holds: summaries are looked at at fresh points; renamings, solutions and
+    formulas are put into the transfer functions; contradictions and the cases that the formulas
+    cover, or that are closed, are found again.
+
+    Raises NotSeenError where a contradiction takes too long.
+    """
+    match evidence:
+        case Counts() | Forms() | Ranks() | FreeChoice():
+            return confirms_summary(evidence, representation, *map(_summary, (left, right)))
+        case Renaming():
+            whole = is_complete(evidence, left.parameters, right.parameters)
+            return whole and is_renamed(left, right, dict(evidence.pairs))
+        case Constants():
+            return _differ(evidence, left, right)
+        case Solved() | Refuted():
+            # normalised coordinates are those of a chain
+            return not evidence.is_normalised and seen_again(evidence, *_maps(left, right), AGAIN)
+        case Theorem():
+            return evidence.name == "Foster and Cauer" and are_one_ports(left, right)
+        case Explicit():
+            return is_explicit(evidence, left, right)
+        case NoEquivalent():
+            return is_without(evidence, left, right)
+        case Witnesses():
+            return confirms_points(evidence, left, right)
+    return False  # it speaks of other models
+
+
+def exact_again(
+    evidence: Evidence, left: AnyModel, right: AnyModel, settings: Settings
+) -> Finding | None:
+    """What the ideals of such evidence say of two models of equal ranks and degrees: their labels
+    are drawn again; None if it is of another kind.
+    """
+    if not isinstance(evidence, Solved | Refuted):
+        return None
+    return by_labels(evidence, *_maps(left, right), settings.seed)
+
+
+def _maps(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialMap]:
+    if isinstance(left, MatrixModel) and isinstance(right, MatrixModel):
+        here, there = matrix_maps(left, right)
+        return here, there
+    assert isinstance(left, Model) and isinstance(right, Model)
+    return matched(coefficient_map(left), coefficient_map(right))
+
+
+def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
+    """Whether these are constants of both models that differ, by their exact values."""
+    sides = [constants_of(model) for model in (left, right)]
+    told = (evidence.left, evidence.right)
+    found = [tuple(str(side.get(label)) for label in evidence.labels) for side in sides]
+    differ = all(a != b for a, b in zip(*found, strict=True))
+    known = all(label in side for side in sides for label in evidence.labels)
+    return bool(evidence.labels) and known and tuple(found) == told and differ
+
+
+def _summary(model: AnyModel) -> Summary:
+    pairs = model.degrees if isinstance(model, MatrixModel) else (model.degrees,)
+    return Summary(partial(_samples, model), tuple(d for pair in pairs for d in pair))
+
+
+def _samples(model: AnyModel, representation: Representation, count: int) -> tuple[Sample, ...]:
+    if isinstance(model, MatrixModel):
+        return tuple(matrix_samples(model, representation, count, POINTS, "verify"))
+    return tuple(samples(model, representation, count, POINTS, "verify"))

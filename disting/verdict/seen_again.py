@@ -1,0 +1,182 @@
+"""A pair of models seen again: whether evidence is true of them, and how sure it is.
+
+Evidence that is true can have been chosen, and then bounds nothing. So certainty, bounds and points
+are compared with those that the settings give, found again with evidence of this kind. Chains,
+chains under several experiments and general models have evidence of their own.
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+from disting.algebra.certainty import Certainty, Grade
+from disting.behaviour.sample import Representation
+from disting.conditions.finding import Finding
+from disting.conditions.rule import EXACT
+from disting.errors import InputError
+from disting.evidence.conditions import FreeChoice
+from disting.evidence.general import Constants
+from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.kinds import Evidence, InclusionEvidence
+from disting.evidence.positive import PositiveFinding
+from disting.evidence.real import BothWays
+from disting.experiments import ComparedMachine
+from disting.experiments import evidence_check as measured_check
+from disting.experiments.machine_side import comparable as machines_comparable
+from disting.general import ComparedModel
+from disting.general import evidence_check as models_check
+from disting.general.compared import comparable as models_comparable
+from disting.model.domain import Domain
+from disting.questions.inclusion import confirms as confirms_inclusion
+from disting.questions.positive import proves
+from disting.questions.same import decided_again
+from disting.questions.same.evidence_check import Witness
+from disting.questions.same.exact import mirrored, resting_on_ranks
+from disting.verdict.chains import ComparedChain
+from disting.verdict.compared import Compared
+from disting.verdict.result import Verdict
+
+
+class Pair(Protocol):
+    """Two models of a verdict."""
+
+    def confirms(self, evidence: Evidence, representation: str) -> bool:
+        """Whether the evidence is true of them; raises NotSeenError where that takes too long."""
+
+    def includes(self, evidence: InclusionEvidence) -> bool:
+        """Whether the evidence of an inclusion is true of them."""
+
+    def exact(self, evidence: Evidence) -> Finding | None:
+        """What the settings find by the exact decision with evidence of this kind."""
+
+    def admissible(
+        self, evidence: Evidence, domain: Domain, equal: Verdict | None
+    ) -> Finding | None:
+        """What they find so over real or positive parameters, `equal` over complex ones."""
+
+    def proves(self, found: PositiveFinding, left_given: bool) -> bool:
+        """Whether evidence on positive equivalents is true of them."""
+
+
+def pair_of(left: Compared, right: Compared) -> Pair:
+    """The pair of two sides of one kind."""
+    if isinstance(left, ComparedChain) and isinstance(right, ComparedChain):
+        return _Chains(left, right)
+    if isinstance(left, ComparedMachine) and isinstance(right, ComparedMachine):
+        return _Machines(left, right)
+    if isinstance(left, ComparedModel) and isinstance(right, ComparedModel):
+        return _Models(left, right)
+    raise InputError("a verdict is on two models of one kind")
+
+
+@dataclass(frozen=True)
+class _Chains:
+    left: ComparedChain
+    right: ComparedChain
+    witness: Witness = field(default_factory=Witness)
+
+    def confirms(self, evidence: Evidence, representation: str) -> bool:
+        return self.witness.confirms(evidence, representation, self.left.chain, self.right.chain)
+
+    def includes(self, evidence: InclusionEvidence) -> bool:
+        return confirms_inclusion(evidence, self.left, self.right)
+
+    def exact(self, evidence: Evidence) -> Finding | None:
+        if self.left.rank != self.right.rank:
+            return None
+        first, second = self.left.in_order(self.right)
+        turned = first != self.left.canonical.chain
+        if turned and isinstance(evidence, Solved | Refuted):
+            evidence = replace(evidence, left_given=not evidence.left_given)
+        found = decided_again.exact_again(evidence, first, second, self.left.settings)
+        if found is None:
+            return None
+        profiles = self.left.transfer_profile, self.right.transfer_profile
+        return resting_on_ranks(mirrored(found) if turned else found, *profiles)
+
+    def admissible(
+        self, evidence: Evidence, domain: Domain, equal: Verdict | None
+    ) -> Finding | None:
+        chains = self.left.canonical.chain, self.right.canonical.chain
+        grade = (Certainty.NUMERICAL, 0) if equal is None else _grade(equal)
+        return decided_again.admissible_again(evidence, *chains, self.left.settings, grade)
+
+    def proves(self, found: PositiveFinding, left_given: bool) -> bool:
+        chains = self.left.canonical.chain, self.right.canonical.chain
+        return proves(found, *(chains if left_given else chains[::-1]))
+
+
+@dataclass(frozen=True)
+class _Machines:
+    left: ComparedMachine
+    right: ComparedMachine
+
+    def confirms(self, evidence: Evidence, representation: str) -> bool:
+        sides = self.left.measured, self.right.measured
+        return measured_check.confirms(evidence, *sides, representation)
+
+    def includes(self, evidence: InclusionEvidence) -> bool:
+        return measured_check.confirms(evidence, self.left.measured, self.right.measured)
+
+    def exact(self, evidence: Evidence) -> Finding | None:
+        if not machines_comparable(self.left, self.right):
+            return None
+        sides = self.left.measured, self.right.measured
+        found = measured_check.exact_again(evidence, *sides, self.left.settings)
+        sketches = (side.sketch(Representation.TF, 0) for side in (self.left, self.right))
+        return None if found is None else resting_on_ranks(found, *sketches)
+
+    def admissible(
+        self, evidence: Evidence, domain: Domain, equal: Verdict | None
+    ) -> Finding | None:
+        if not isinstance(evidence, BothWays) or equal is None:
+            return None
+        grade = None if isinstance(equal.evidence, FreeChoice) else self._grade(equal)
+        sides = self.left.measured, self.right.measured
+        return measured_check.positive_again(*sides, self.left.settings, grade)
+
+    def _grade(self, equal: Verdict) -> Grade:
+        """How sure the exact decision is, which need not be what decided."""
+        if equal.decided_by == EXACT.name:
+            return _grade(equal)
+        found = self.left.exact(self.right)
+        return found.certainty, found.safety
+
+    def proves(self, found: PositiveFinding, left_given: bool) -> bool:
+        return False  # it is not told
+
+
+@dataclass(frozen=True)
+class _Models:
+    left: ComparedModel
+    right: ComparedModel
+
+    def confirms(self, evidence: Evidence, representation: str) -> bool:
+        models = self.left.model, self.right.model
+        return models_check.confirms_models(evidence, *models, representation)
+
+    def includes(self, evidence: InclusionEvidence) -> bool:
+        return False  # it is not asked
+
+    def exact(self, evidence: Evidence) -> Finding | None:
+        if isinstance(evidence, Constants):
+            return self.left.exact(self.right) if self.left.rank == 0 else None
+        if not models_comparable(self.left, self.right):
+            return None
+        models = self.left.profiled, self.right.profiled
+        found = models_check.exact_again(evidence, *models, self.left.settings)
+        profiles = (side.profile(Representation.TF, 0) for side in (self.left, self.right))
+        return None if found is None else resting_on_ranks(found, *profiles)
+
+    def admissible(
+        self, evidence: Evidence, domain: Domain, equal: Verdict | None
+    ) -> Finding | None:
+        why = None if equal is None else equal.evidence
+        return self.left.admissible(self.right, domain, why)
+
+    def proves(self, found: PositiveFinding, left_given: bool) -> bool:
+        return False  # it is not told
+
+
+def _grade(verdict: Verdict) -> Grade:
+    """How sure a verdict is; one that is undecided shows nothing."""
+    return verdict.certainty or Certainty.NUMERICAL, verdict.safety
