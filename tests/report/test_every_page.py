@@ -5,6 +5,8 @@ By default on the smallest phone and on a desk; all sizes and schemes, with the 
 by hand.
 """
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -26,6 +28,15 @@ WITHOUT_SITE = ("alone",)  # folders of pages that lie anywhere
 SETTLED = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
+@dataclass(frozen=True, slots=True)
+class View:
+    """A window's width and height, its colours, and whether axe judges what it shows."""
+
+    sight: tuple[int, int]
+    scheme: str
+    axe: bool = True
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("pages")
@@ -40,25 +51,24 @@ def largest(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def look(
-    window,
-    address: str,
-    sight: tuple[int, int],
-    scheme: str,
-    axe: bool = True,
-) -> list[object]:  # type: ignore[no-untyped-def]
-    """What is wrong with a page as it is shown in a window of this size."""
+def look(window, address: str, views: Sequence[View]) -> list[object]:  # type: ignore[no-untyped-def]
+    """What is wrong with a page as it is shown in one window after the other."""
     tab, wrong = window.new_page(), list[object]()
     tab.on("console", lambda message: wrong.append(message.text))
     tab.on("pageerror", lambda error: wrong.append(str(error)))
     tab.on("request", lambda r: wrong.append(r.url) if not r.url.startswith("file:") else None)
-    tab.set_viewport_size(dict(zip(("width", "height"), sight, strict=True)))
-    tab.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-    tab.goto(address)
-    if "motion-" in address:  # until machine 2 is found
-        tab.wait_for_function("() => document.getElementById('how').textContent", timeout=120_000)
-    tab.evaluate(SETTLED)
-    wrong += [*out_of_sight(tab), *(barriers(tab) if axe else [])]
+    for view in views:
+        tab.set_viewport_size(dict(zip(("width", "height"), view.sight, strict=True)))
+        tab.emulate_media(color_scheme=view.scheme, reduced_motion="reduce")
+        if view is views[0]:
+            tab.goto(address)
+        if "motion-" in address:  # until machine 2 is found
+            tab.wait_for_function(
+                "() => document.getElementById('how').textContent", timeout=120_000
+            )
+        tab.evaluate(SETTLED)
+        wrong += [(view, one) for one in out_of_sight(tab)]
+        wrong += [(view, one) for one in barriers(tab)] if view.axe else []
     here = Path(tab.evaluate("decodeURIComponent(location.pathname)"))
     links = tab.eval_on_selector_all("a[href]", "all => all.map((a) => a.getAttribute('href'))")
     wrong += [link for link in set(links) if not is_there(here, link)]
@@ -68,10 +78,9 @@ def look(
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_all_can_be_seen_and_reached(window, site: Path, kind: str) -> None:  # type: ignore[no-untyped-def]
-    address, turn = f"{site.as_uri()}/{KINDS[kind]}", list(KINDS).index(kind) % 2
-    for place, (sight, scheme) in enumerate(((SIGHTS[0], "light"), (SIGHTS[-1], "dark"))):
-        axe = kind in JUDGED and place == turn
-        assert look(window, address, sight, scheme, axe) == [], (sight, scheme)
+    turn = list(KINDS).index(kind) % 2 if kind in JUDGED else None
+    views = [View(SIGHTS[0], "light", turn == 0), View(SIGHTS[-1], "dark", turn == 1)]
+    assert look(window, f"{site.as_uri()}/{KINDS[kind]}", views) == []
 
 
 @pytest.mark.slow
@@ -81,7 +90,7 @@ def test_all_can_be_seen_and_reached(window, site: Path, kind: str) -> None:  # 
 def test_all_can_be_seen_and_reached_everywhere(
     window, largest: Path, kind: str, sight, scheme: str
 ) -> None:  # type: ignore[no-untyped-def]
-    assert look(window, f"{largest.as_uri()}/{LARGEST[kind]}", sight, scheme) == []
+    assert look(window, f"{largest.as_uri()}/{LARGEST[kind]}", [View(sight, scheme)]) == []
 
 
 def test_no_page_scrolls_sideways_on_a_phone(window, site: Path) -> None:  # type: ignore[no-untyped-def]
@@ -123,7 +132,7 @@ def test_what_is_wrong_would_be_found(window, tmp_path: Path) -> None:  # type: 
         f'<!doctype html><html lang="en"><title>t</title><main><h1>t</h1>{bodies}</main></html>',
         encoding="utf-8",
     )
-    found = list(map(str, look(window, page.as_uri(), (320, 640), "light")))
+    found = list(map(str, look(window, page.as_uri(), [View((320, 640), "light")])))
     assert [
         name for name, (_, said) in wrong.items() if not any(said in one for one in found)
     ] == []
