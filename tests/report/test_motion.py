@@ -386,10 +386,11 @@ def test_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
     assert tab.inner_text("h1").startswith("Model A1")
 
 
-def test_wrong_addresses_show_the_first_pair(visit) -> None:  # type: ignore[no-untyped-def]
+def test_wrong_addresses_show_the_first_pair_and_say_so(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A1-A99")
-    for wrong in ("", "#A3-A3", "#x", "#A1"):
+    for wrong in ("", "#A3-A3", "#x", "#A1", "#4:1-4:2"):
         assert tab.text_content("#pair").startswith("A1 and A11"), wrong
+        assert "names no pair here: there are the models 3:1 to 3:11" in tab.inner_text("#trouble")
         tab.evaluate(
             """(hash) => new Promise((done) => {
               addEventListener("hashchange", () => setTimeout(done), { once: true });
@@ -398,6 +399,11 @@ def test_wrong_addresses_show_the_first_pair(visit) -> None:  # type: ignore[no-
             wrong,
         )
     assert tab.text_content("#pair").startswith("A1 and A11")
+    tab.click("#after")
+    assert tab.inner_text("#trouble") == ""
+    visit(SMALL + "#3:1-3:A4")
+    assert tab.text_content("#pair").startswith("A1 and A4")
+    assert tab.inner_text("#trouble") == ""
 
 
 def test_keys_of_the_presentation(visit) -> None:  # type: ignore[no-untyped-def]

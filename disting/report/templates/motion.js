@@ -172,6 +172,7 @@
   const hash = () => `#${names().join("-")}${presenting ? ",present" : ""}`;
   const select = (next, first = data.values[next[0] - 1], second = data.values[next[1] - 1]) => {
     pair = next;
+    byId("trouble").textContent = "";
     [values, base, usual] = [[...first], [...first], second];
     offer();
     [["one", given()], ["two", other()]].forEach(([id, chain], which) => {
@@ -252,14 +253,17 @@
     act();
   });
   const asked = () => { // by the address
-    const match = /^#A?(\d+)[-:]A?(\d+)(,present)?$/i.exec(location.hash), two = match && [+match[1], +match[2]];
-    const there = two && two.every((i) => numbers.includes(i)) && two[0] !== two[1];
-    return { two: there ? two : data.first, present: Boolean(there && match[3]) };
+    const match = /^#(?:(\d+)(?::|%3A))?A?(\d+)-(?:(\d+)(?::|%3A))?A?(\d+)(,present)?$/i.exec(location.hash);
+    const two = match && [+match[2], +match[4]], sizes = match ? [match[1], match[3]].filter(Boolean) : [];
+    const there = two && two.every((i) => numbers.includes(i)) && two[0] !== two[1] && sizes.every((n) => +n === data.masses);
+    const trouble = there || !location.hash ? "" : `${decodeURI(location.hash.slice(1))} names no pair here: there are the models ${data.masses}:1 to ${data.masses}:${numbers.length}.`;
+    return { two: there ? two : data.first, present: Boolean(there && match[5]), trouble };
   };
   const arrive = () => {
-    const { two, present: on } = asked();
+    const { two, present: on, trouble } = asked();
     presenting = on;
     select(two);
+    byId("trouble").textContent = trouble;
     if (presenting !== root.classList.contains("present")) present(presenting);
   };
   addEventListener("hashchange", arrive);

@@ -10,7 +10,8 @@
     const asked = parseModels(query);
     if (!asked) return [];
     const masses = asked.map((m) => m.masses).filter(Boolean), two = masses.some((m) => m !== masses[0]);
-    return Object.keys(DATA.families).flatMap((family) => {
+    const undamped = (family) => +family.endsWith("-undamped"); // a name means a damped chain where nothing else is said
+    return Object.keys(DATA.families).sort((a, b) => undamped(a) - undamped(b)).flatMap((family) => {
       const [, what, size, kind] = /^(\w+?)-(?:(\d+)-)?(\w+)$/.exec(family);
       if (what !== (two ? "sizes" : asked.some((m) => m.dampers) ? "dampers" : "chains") || (!two && masses.length && +size !== masses[0])) return [];
       const { page, address, trouble } = addressOf(asked, masses[0] || +size, kind, DATA.families);
