@@ -91,22 +91,29 @@ class Further(Shown):
 
     def anywhere(self, kind: Kind) -> bool:
         """Whether this kind tells all structures apart, wherever it is done."""
-        found = [
-            self.answer(k, item, other)
+        spots = [
+            (k, item)
             for k in range(len(self.chains))
             for item in self.items(k)
             if item.kind is kind
-            for other in self.others(k)
         ]
-        return bool(found) and set(found) == {Answer.SURELY}
+        return (
+            len(self.chains) > 1
+            and bool(spots)
+            and all(
+                self.answer(k, item, other) is Answer.SURELY
+                for k, item in spots
+                for other in self.others(k)
+            )
+        )
 
     def least(self, structure: int) -> tuple[Option, ...]:
         """The cheapest sets that surely tell this structure from all others: single items, or two
         of them where no single one does; none where two are not known to.
         """
-        single = [self.option(structure, (item,)) for item in self.items(structure)]
-        double = [self.option(structure, pair) for pair in combinations(self.items(structure), 2)]
-        for options in (single, double):
+        items = tuple(self.items(structure))
+        for count in (1, 2):
+            options = (self.option(structure, some) for some in combinations(items, count))
             enough = [o for o in options if not o.left]
             if enough:
                 return tuple(o for o in enough if o.cost == min(e.cost for e in enough))
