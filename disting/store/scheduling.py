@@ -3,14 +3,17 @@ by concurrent.futures.
 """
 
 import os
+import signal
 import threading
-from collections.abc import Iterator
-from concurrent.futures import Executor, InvalidStateError, ProcessPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, InvalidStateError, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, parent_process
-from signal import SIG_DFL, SIGINT, signal
+from typing import Any
 
 from disting.errors import InputError
+
+HAS_MASKS = hasattr(signal, "pthread_sigmask")  # not on Windows
 
 
 @contextmanager
@@ -37,7 +40,7 @@ def _processes(jobs: int) -> Iterator[Executor]:
     """
     with (
         _quiet_about_cancelled_work(),
-        ProcessPoolExecutor(jobs, get_context("spawn"), _prepare_worker) as pool,
+        _Pool(jobs, get_context("spawn"), _prepare_worker) as pool,
     ):
         try:
             yield pool
@@ -47,8 +50,28 @@ def _processes(jobs: int) -> Iterator[Executor]:
             raise
 
 
+class _Pool(ProcessPoolExecutor):
+    """Starts workers that do not hear Ctrl-C before they are prepared for it: one that is still
+    importing would tell of it with a traceback.
+    """
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """As usual; a worker that this starts inherits what is held back. Nothing is lost: this
+        process hears of it right after.
+        """
+        if not HAS_MASKS:
+            return super().submit(fn, *args, **kwargs)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            return super().submit(fn, *args, **kwargs)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _prepare_worker() -> None:
-    signal(SIGINT, SIG_DFL)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if HAS_MASKS:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.attack
 SCRIPT = Path(__file__).with_name("lowest_versions.py")
 PART = (
     "tests/algebra",
-    "tests/invariants",
+    "tests/behaviour",
     "tests/measurement",
     "tests/fit/test_export.py",
     "tests/store/test_store.py",

@@ -7,6 +7,7 @@ the user's matplotlib, dates and version names do not enter the files, and no gl
 """
 
 import re
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -127,7 +128,8 @@ def drawn(
     """
     import matplotlib
 
-    with matplotlib.rc_context():
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # names from a file may have any sign
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(SETTINGS)
         wide, narrow = _laid_out(WIDE, heights[0], draw), _laid_out(NARROW, heights[1], draw)

@@ -199,3 +199,8 @@ def test_one_parameter_has_no_collinearity(selection: Selection) -> None:
     smallest = min(selection.candidates, key=lambda c: c.n_parameters)
     assert smallest.n_parameters == 1
     assert collinearity_dots(smallest, selection.task, selection.thresholds) is None
+
+
+def test_signs_that_the_font_lacks_are_drawn_without_a_word(recwarn) -> None:
+    found = drawn("a", "t", (1.0, 1.0), lambda figure: heading(figure, "\x9b31m 漢"))
+    assert found.png.startswith(b"\x89PNG") and not recwarn
