@@ -59,6 +59,7 @@ def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
     for page in (*(path.name for path in REPORTS.glob("*.html")), *others(REPORTS)):
         (tmp_path / page).parent.mkdir(exist_ok=True)
         (tmp_path / page).touch()
+    shutil.copytree(REPORTS / "notebooks", tmp_path / "notebooks")
     dampers = [damper_catalog(3, damped=True)]
     paths = write_report([catalog(3, damped=True)], tmp_path, dampers, parser())
     fresh = {p.relative_to(tmp_path).as_posix(): p for p in paths}

@@ -90,7 +90,7 @@ def test_every_model_has_a_row_and_every_drawing_a_text(shipped: Catalog, outlin
         for t, a in outline.elements
         if t == "svg" and a.get("role") == "img" and "data-slot" not in a
     ]
-    assert all(a.get("aria-label") for a in named)
+    assert all(a.get("aria-label") or a.get("aria-labelledby") == "curves-said" for a in named)
 
 
 def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> None:
@@ -149,10 +149,11 @@ def test_script_json_cannot_end_its_element() -> None:
 @pytest.mark.parametrize("render", [page, lambda c: index([c])], ids=["page", "index"])
 def test_nothing_is_fetched(render: object) -> None:
     text = render(catalog(3, damped=True))  # type: ignore[operator]
+    text = text.replace('"http://www.w3.org/2000/svg"', "")  # a name, which nobody fetches
     assert "http:" not in text and "https:" not in text and "//" not in text.replace("// ", "")
     text = re.sub(r"<noscript>.*?</noscript>", "", text)  # a picture for those without a script
     assert not re.search(
-        r"url\(|@import|\bsrc=|<link(?! rel=.icon. href=.data:)|<iframe|fetch\(|XMLHttp|import\(",
+        r"url\((?!#)|@import|\bsrc=|<link(?! rel=.icon. href=.data:)|<iframe|fetch\(|XMLHttp|import\(",
         text,
     )
 

@@ -83,7 +83,7 @@ def meet(path: str, number: str) -> None:
     """Wait for the start signal, use the store, and print the warnings."""
     say("ready")
     sys.stdin.readline()
-    store = Store.open(path)
+    store = Store.open(path, wait_seconds=60)  # a busy machine takes its time
     store.put_many({key(int(number)): value(int(number))})
     say(f"kept {store.get_many([key(int(number))]) == {key(int(number)): value(int(number))}}")
 
