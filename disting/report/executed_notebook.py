@@ -5,6 +5,7 @@ text beside it, because nothing that typesets is loaded.
 """
 
 import json
+import re
 from collections.abc import Container, Iterator, Mapping
 
 from markupsafe import Markup, escape
@@ -15,6 +16,7 @@ from disting.report.markdown import GuidePage, guide_page
 
 OPENED = Markup('<p>Jupyter opens it: <a href="../notebooks/{0}.ipynb">{0}.ipynb</a>.</p>\n')
 MADE = Markup('<div class="output" tabindex="0" role="group" aria-label="Output">{}</div>\n')
+NAMELESS = re.compile(r"<th>\s*</th>")  # the corner of a table heads nothing
 PICTURE = Markup('<img alt="Figure that the code above draws" src="data:image/png;base64,{}">')
 
 
@@ -73,7 +75,7 @@ def _made(cell: Mapping[str, object]) -> Iterator[Markup]:
         if "image/svg+xml" in data:
             yield Markup(data["image/svg+xml"])
         elif "text/html" in data:
-            yield Markup(data["text/html"])
+            yield Markup(NAMELESS.sub("<td></td>", data["text/html"]))
         elif "image/png" in data:
             yield PICTURE.format("".join(data["image/png"].split()))
         elif said := data.get("text/plain", _whole(output.get("text", ""))):

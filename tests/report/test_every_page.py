@@ -22,7 +22,8 @@ KINDS, LARGEST = kinds(3), kinds(5)
 # axe takes seconds: by default it looks at one page of each template
 JUDGED = (
     "start, a machine described", "catalogue, a pair", "list of models", "model", "sizes",
-    "dampers, a pair", "next", "motion", "motion, presented", "guide, glossary", "guide, commands", "fit",
+    "dampers, a pair", "next", "motion", "motion, presented", "guide, glossary", "guide, commands",
+    "guide, notebook-bench-commissioned", "fit",
 )  # fmt: skip
 WITHOUT_SITE = ("alone",)  # folders of pages that lie anywhere
 SETTLED = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
