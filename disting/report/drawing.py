@@ -11,6 +11,7 @@ above and below the middle of a joint; upright lines are at masses only.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 from disting.model.chain import Chain
 from disting.model.structure import Element
@@ -96,6 +97,7 @@ def chain_png(chain: Chain, *, scale: float = 3) -> bytes:
     return png(draw(chain), scale=scale)
 
 
+@lru_cache(maxsize=1_000)  # asked for again and again: every experiment is drawn on it
 def draw(chain: Chain, more: int = 0) -> Scene:
     """The drawing of a chain, with room for bars of `more` further sensors; each of its elements
     is one layer, named like its parameter; the force is the last.
