@@ -101,7 +101,7 @@ class Further(Shown):
             len(self.chains) > 1
             and bool(spots)
             and all(
-                self.answer(k, item, other) is Answer.SURELY
+                not self.tables[kind].alike((k, item.at), other)
                 for k, item in spots
                 for other in self.others(k)
             )
