@@ -4,6 +4,7 @@ the same positive models.
 
 import argparse
 import json
+import shlex
 from collections.abc import Callable
 
 from disting.cli.common import emitted
@@ -67,6 +68,9 @@ def run(options: argparse.Namespace) -> int:
         _write(found, train, test, options)
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
+            if len(found.members) > 1 or any(m.twins for m in found.members):
+                file = shlex.quote(str(options.out / "fit.json"))
+                print(f"what to measure next: disting next {file}")
     return 0
 
 
