@@ -24,6 +24,8 @@ RESOLUTION = 200  # pixels an inch of a PNG
 WIDE, NARROW = 9.4, 4.2  # inches
 POINTS = 72  # an inch
 TITLE_SIZE = 10.5  # points
+# signs that no XML 1.0 may hold (its production 2); a name from a measured file may
+NOT_XML = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
 LETTER = 0.65  # width of a bold letter, in its size
 
 
@@ -175,6 +177,7 @@ def _file(figure: "Figure", kind: str) -> bytes:
         FigureCanvasPdf(figure).print_pdf(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
     else:
         FigureCanvasSVG(figure).print_svg(buffer, metadata=METADATA[kind])  # type: ignore[no-untyped-call]
+        return NOT_XML.sub("", buffer.getvalue().decode()).encode()
     return buffer.getvalue()
 
 

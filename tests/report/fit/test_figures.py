@@ -4,6 +4,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from io import BytesIO
+from xml.etree import ElementTree as ET
 
 import matplotlib
 import numpy as np
@@ -204,3 +205,8 @@ def test_one_parameter_has_no_collinearity(selection: Selection) -> None:
 def test_signs_that_the_font_lacks_are_drawn_without_a_word(recwarn) -> None:
     found = drawn("a", "t", (1.0, 1.0), lambda figure: heading(figure, "\x9b31m 漢"))
     assert found.png.startswith(b"\x89PNG") and not recwarn
+
+
+def test_signs_that_no_xml_may_hold_are_left_out() -> None:
+    found = drawn("a", "t", (1.0, 1.0), lambda figure: heading(figure, "a\x1bb\ufffec"))
+    assert ET.fromstring(found.svg).tag.endswith("svg")
