@@ -1,6 +1,8 @@
 """disting catalog: compute, settle and verify catalogues."""
 
 import argparse
+from concurrent.futures import Executor
+from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
@@ -8,7 +10,7 @@ from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import shipped_folder
 from disting.cli.arguments import add_masses, add_out, add_work
 from disting.cli.workers import engine_for
-from disting.verdict import Engine
+from disting.verdict import Engine, Progress
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
@@ -114,52 +116,55 @@ def settle(options: argparse.Namespace) -> int:
 
 def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
-    from disting.catalogs.damper_files import SHIPPED_SIZES, read
-    from disting.catalogs.damper_verify import verify_dampers
     from disting.catalogs.files import SHIPPED_SIZES as CATALOGUED
-    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-    from disting.catalogs.next_files import WITH_DAMPERS, verify_next
     from disting.catalogs.sizes_build import verify_sizes
-    from disting.catalogs.verify import verify
 
     wrong: list[str] = []
     with engine_for(options) as (_, pool, progress):
-        for n in options.masses:
-            for damped in (False, True):
-                fresh = Engine()  # nothing is taken from the cache: a verification computes
-                checks = [verify, *([verify_dampers] if n in SHIPPED_SIZES else [])]
-                found: list[str] = []
-                for check in checks:
-                    found += check(
-                        n,
-                        damped=damped,
-                        folder=options.catalog,
-                        engine=fresh,
-                        executor=pool,
-                        progress=progress,
-                    )
-                stored: list[Catalog | DamperFamily] = []
-                if n in NEXT_SIZES:
-                    stored.append(catalog(n, damped=damped, folder=options.catalog))
-                if n in WITH_DAMPERS:
-                    stored.append(read(options.catalog, n, damped))
-                for one in stored:
-                    found += verify_next(
-                        one, options.catalog, fresh, executor=pool, progress=progress
-                    )
-                what = f"{n} masses, {'damped' if damped else 'undamped'}"
-                wrong += _told(what, found)
-        if set(CATALOGUED) <= set(options.masses):
-            for damped in (False, True):
-                found = verify_sizes(
-                    damped=damped,
-                    folder=options.catalog,
-                    engine=Engine(),
-                    executor=pool,
-                    progress=progress,
-                )
-                wrong += _told(f"different sizes, {'damped' if damped else 'undamped'}", found)
+        for n, damped in product(options.masses, (False, True)):
+            found = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
+            wrong += _told(f"{n} masses, {_kind(damped)}", found)
+        for damped in (False, True) if set(CATALOGUED) <= set(options.masses) else ():
+            found = verify_sizes(
+                damped=damped,
+                folder=options.catalog,
+                engine=Engine(),
+                executor=pool,
+                progress=progress,
+            )
+            wrong += _told(f"different sizes, {_kind(damped)}", found)
     return 1 if wrong else 0
+
+
+def _wrong_of_one_size(
+    n: int, damped: bool, folder: Path, pool: Executor | None, progress: Progress
+) -> list[str]:
+    """What is wrong in the files of chains of one size; nothing is taken from the cache: a
+    verification computes.
+    """
+    from disting.catalogs.damper_files import SHIPPED_SIZES, read
+    from disting.catalogs.damper_verify import verify_dampers
+    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
+    from disting.catalogs.next_files import WITH_DAMPERS, verify_next
+    from disting.catalogs.verify import verify as verify_chains
+
+    fresh, found = Engine(), list[str]()
+    for check in (verify_chains, verify_dampers) if n in SHIPPED_SIZES else (verify_chains,):
+        found += check(
+            n, damped=damped, folder=folder, engine=fresh, executor=pool, progress=progress
+        )
+    stored: list[Catalog | DamperFamily] = []
+    if n in NEXT_SIZES:
+        stored.append(catalog(n, damped=damped, folder=folder))
+    if n in WITH_DAMPERS:
+        stored.append(read(folder, n, damped))
+    for one in stored:
+        found += verify_next(one, folder, fresh, executor=pool, progress=progress)
+    return found
+
+
+def _kind(damped: bool) -> str:
+    return "damped" if damped else "undamped"
 
 
 def _told(what: str, found: list[str]) -> list[str]:

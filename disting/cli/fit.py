@@ -5,7 +5,8 @@ the same positive models.
 import argparse
 import json
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 from disting.cli.common import emitted
 from disting.cli.fit_data import Data, data, sensors
@@ -57,21 +58,23 @@ def run(options: argparse.Namespace) -> int:
             progress=progress,
         )
     if options.json:
-        text = (
-            json.dumps(selection_to_dict(found), indent=1, ensure_ascii=False, allow_nan=False)
-            + "\n"
-        )
-        emitted(options.json, text)
+        plain = selection_to_dict(found)
+        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
+        emitted(options.json, f"{text}\n")
     if options.json != "-":
         print(printable("\n".join(told(found, train))))
     if options.out:
         _write(found, train, test, options)
         if options.json != "-":
-            print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
-            if len(found.members) > 1 or any(m.twins for m in found.members):
-                file = shlex.quote(str(options.out / "fit.json"))
-                print(f"what to measure next: disting next {file}")
+            print("\n".join(_onward(found, options.out)))
     return 0
+
+
+def _onward(found: Selection, out: Path) -> Iterator[str]:
+    """Where the page is and, where several structures are left, how to go on."""
+    yield f"\nwritten to {out}; open {out / 'fit.html'}"
+    if len(found.members) > 1 or any(m.twins for m in found.members):
+        yield f"what to measure next: disting next {shlex.quote(str(out / 'fit.json'))}"
 
 
 def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:

@@ -5,11 +5,11 @@ open, `compared` makes a measured chain a side of a comparison, `places` tells w
 model is which of the other.
 """
 
-from disting.experiments.evidence_check import confirms as confirms
 from disting.experiments.experiment import GENERIC as GENERIC
 from disting.experiments.experiment import Experiment as Experiment
 from disting.experiments.experiment import MeasuredChain as MeasuredChain
 from disting.experiments.machine_side import ComparedMachine as ComparedMachine
+from disting.experiments.measured_evidence import confirms as confirms
 from disting.experiments.places import Named as Named
 from disting.experiments.places import Places as Places
 from disting.experiments.places import moved as moved

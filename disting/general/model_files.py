@@ -16,13 +16,13 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NoReturn
 
 from disting.errors import InputError, listed, printable, shown
 from disting.files import write_whole
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.spelled import polynomial_text
+from disting.general.strict_json import Plain, object_of, plain_of, text_of
 from disting.model.chain import Sensor
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of
@@ -43,13 +43,6 @@ FORMS = (
     'a state space "A", "B", "C", "D", a transfer function "num" and "den" or "G", or a "chain"'
     ' such as "3:1+b2"'
 )
-Plain = Mapping[str, Any]
-
-
-class _Number(str):
-    """A number as it stands in the file."""
-
-    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,15 +102,18 @@ def read_models(path: Path | str) -> ModelList:
             content = file.read(LARGEST + 1)
     except (OSError, ValueError) as reason:
         why = getattr(reason, "strerror", None) or reason
-        raise InputError(f"{_file(path)} cannot be read ({why}); name a file of models") from None
+        raise InputError(
+            f"{printable(str(path))} cannot be read ({why}); name a file of models"
+        ) from None
     if len(content) > LARGEST:
         raise InputError(
-            f"{_file(path)} is larger than {LARGEST // 10**6} MB; split it into several lists"
+            f"{printable(str(path))} is larger than {LARGEST // 10**6} MB; split it into several"
+            " lists"
         )
     try:
-        return models_of(_plain(content))
+        return models_of(plain_of(content))
     except InputError as reason:
-        raise InputError(f"{_file(path)}: {reason}") from None
+        raise InputError(f"{printable(str(path))}: {reason}") from None
 
 
 def write_models(path: Path | str, found: ModelList) -> Path:
@@ -162,7 +158,7 @@ def read_entry(entry: Mapping[str, object]) -> AnyModel:
 
 def models_of(data: object) -> ModelList:
     """The models of what a file holds; raises InputError."""
-    whole = _object(data, ("title", "s", "models"), "the file")
+    whole = object_of(data, ("title", "s", "models"), "the file")
     entries = whole.get("models")
     if not isinstance(entries, list) or not entries:
         raise InputError('"models" is a list of models, each in braces, at least one')
@@ -170,13 +166,13 @@ def models_of(data: object) -> ModelList:
         raise InputError(
             f"{len(entries)} models are more than {MOST_MODELS}; split them into several lists"
         )
-    variable = _text(whole, "s", "s")
+    variable = text_of(whole, "s", "s")
     if not variable.isidentifier() or not variable.isascii():
         raise InputError(
             f'"s" is the name of the frequency variable, such as "s", not {shown(variable)}'
         )
     models = tuple(_model(entry, place, variable) for place, entry in enumerate(entries, 1))
-    return ModelList(models, _text(whole, "title", ""))
+    return ModelList(models, text_of(whole, "title", ""))
 
 
 def _model(entry: object, place: int, variable: str) -> AnyModel:
@@ -199,7 +195,7 @@ def _of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
     if len(kinds) != 1:
         raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")
     known = KINDS[kinds[0]]
-    given = _object(entry, ("name", *known), f'a model with "{kinds[0]}"')
+    given = object_of(entry, ("name", *known), f'a model with "{kinds[0]}"')
     match kinds[0]:
         case "A":
             _refuse_missing(given, ("B", "C"))
@@ -226,10 +222,10 @@ def _of_chain(given: Plain, name: str) -> Model:
     damped = given.get("damped", DAMPED)
     if not isinstance(damped, bool):
         raise InputError('"damped" is true or false')
-    quantity = _text(given, "sensor", Sensor.ACCELERATION.value)
+    quantity = text_of(given, "sensor", Sensor.ACCELERATION.value)
     if quantity not in tuple(Sensor):
         raise InputError(f'"sensor" is {", ".join(Sensor)}, not {shown(quantity)}')
-    reference = _text(given, "chain", "")
+    reference = text_of(given, "chain", "")
     masses = reference.partition(":")[0].strip()
     if masses.isdecimal() and int(masses[:9]) > LARGEST_CHAIN:
         raise InputError(
@@ -270,54 +266,6 @@ def _of_entry(model: Model) -> dict[str, list[str]]:
     return {"num": num, "den": den}
 
 
-def _plain(content: bytes) -> object:
-    """What the bytes hold, numbers as their texts."""
-    try:
-        return json.loads(
-            content.decode("utf-8-sig"),
-            object_pairs_hook=_once,
-            parse_float=_Number,
-            parse_int=_Number,
-            parse_constant=_refuse_constant,
-        )
-    except UnicodeDecodeError:
-        raise InputError("this is no text in UTF-8; save it so") from None
-    except json.JSONDecodeError as reason:
-        raise InputError(
-            f"this is no JSON: {reason.msg}, line {reason.lineno}, column {reason.colno}; the guide"
-            " shows a whole file"
-        ) from None
-    except RecursionError:
-        raise InputError("brackets are nested too deeply; the guide shows a whole file") from None
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """A JSON object in which no key is doubled: of two values one would be lost."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        name = next((value for key, value in pairs if key == "name"), None)
-        where = f"model {shown(name)}: " if name is not None else ""
-        doubled = next(key for key in keys if keys.count(key) > 1)
-        raise InputError(f"{where}{shown(doubled)} is given twice; leave one of them away")
-    return found
-
-
-def _refuse_constant(text: str) -> NoReturn:
-    raise InputError(f"{text} is no number of a model; write a number or an expression")
-
-
-def _object(data: object, known: Iterable[str], what: str) -> Plain:
-    """A JSON object with these keys only."""
-    keys = listed(f'"{key}"' for key in known)
-    if not isinstance(data, dict):
-        raise InputError(f"{what} is one object in braces with the keys {keys}")
-    unknown = [key for key in data if key not in known]
-    if unknown:
-        raise InputError(f"{shown(unknown[0])} is no key of {what}; known are {keys}")
-    return data
-
-
 def _refuse_s(model: AnyModel) -> None:
     """What is told of a model is written in s, whatever the file calls it."""
     if "s" in model.parameters:
@@ -337,14 +285,3 @@ def _refuse_name(name: str, what: str, most: int) -> None:
             f"{what} has 1 to {most} printable characters, with no spaces around them, not"
             f" {shown(name)}"
         )
-
-
-def _text(given: Plain, key: str, default: str) -> str:
-    value = given.get(key, default)
-    if type(value) is not str:
-        raise InputError(f'"{key}" is a text in quotation marks, not {shown(value)}')
-    return value
-
-
-def _file(path: Path | str) -> str:
-    return printable(str(path))

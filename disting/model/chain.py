@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
+from typing import Any
 
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.constraints import Indices, violated
@@ -81,6 +82,15 @@ class Chain(Drawn):
         given += [f"ground_dampers={self.ground_dampers}"] * bool(self.ground_dampers)
         given += ["lag=True"] * self.lag + ["dead_time=True"] * self.dead_time
         return f"Chain({', '.join(given)})"
+
+    def transfer_function(self) -> Any:
+        """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
+        parameters [kg, N/m, N s/m, s]; equation (24), with lag and dead time.
+
+        >>> Chain(1, ground_dampers=(1,)).transfer_function()
+        s/(b1 + m1*s)
+        """
+        return self._presenter.transfer_function(self)
 
     @property
     def indices(self) -> Indices:

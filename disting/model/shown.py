@@ -24,6 +24,9 @@ class Presenter(Protocol):
     def svg(self, shown: Any, /) -> str:
         """The object as a stand-alone SVG."""
 
+    def transfer_function(self, shown: Any, /) -> Any:
+        """G(s) of a chain as a SymPy expression."""
+
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib, made where none are given; returns them."""
 

@@ -10,9 +10,9 @@ from disting.conditions.rule import Stage
 from disting.conditions.structural import condition_9
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome, Seen, families, pairs
+from disting.paper.damped_claims import MISREAD
 from disting.paper.findings import Findings
 from disting.paper.told import Pair, counted, named, told, undecided
-from disting.paper.verdict_claims import MISREAD
 from disting.verdict import Relation, View
 
 CASES = families(3) + families(3, damped=True) + families(4)

@@ -68,13 +68,8 @@ class Count:
 def page(catalog: Catalog, *, beside: Families | None = None) -> str:
     """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`)."""
     pages = families([catalog]) | dict(beside or {})
-    dampers, across = (
-        name if name in pages else ""
-        for name in (
-            damper_name(catalog.n_masses, catalog.damped),
-            sizes_name(catalog.damped),
-        )
-    )
+    names = damper_name(catalog.n_masses, catalog.damped), sizes_name(catalog.damped)
+    dampers, across = (name if name in pages else "" for name in names)
     models = [model_of(catalog, row.number) for row in catalog.rows]
     domains = [over(catalog, view) for view in VIEWS]
     grouped = [
@@ -82,7 +77,6 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         for of in domains
     ]
     further = found_for(catalog)
-    data = _payload(catalog, domains, further, pages)
     return render(
         "page.html",
         title=title(catalog),
@@ -92,10 +86,7 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         folder=folder_of(catalog),
         domains=grouped,
         compared=sum(domains[0].totals.values()),
-        views=[
-            Shown(view, name, summary(catalog, view), totals(catalog, view))
-            for view, name in VIEW_TITLES.items()
-        ],
+        views=_views(catalog),
         below=BELOW,
         above=ABOVE,
         counts=counts(catalog),
@@ -109,12 +100,22 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         additions=definitions(menu_of(further)),
         motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
-        slides=[(name, slide_name(catalog, view)) for view, name in VIEW_TITLES.items()]
-        if has_slides(catalog)
-        else [],
-        payload=data,
+        slides=_slides(catalog) if has_slides(catalog) else [],
+        payload=_payload(catalog, domains, further, pages),
         plural=plural,
     )
+
+
+def _views(catalog: Catalog) -> list[Shown]:
+    return [
+        Shown(view, name, summary(catalog, view), totals(catalog, view))
+        for view, name in VIEW_TITLES.items()
+    ]
+
+
+def _slides(catalog: Catalog) -> list[tuple[str, str]]:
+    """Titles of the views, and the files with a slide of each."""
+    return [(name, slide_name(catalog, view)) for view, name in VIEW_TITLES.items()]
 
 
 def _payload(

@@ -19,11 +19,9 @@ from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
-from disting.experiments import ComparedMachine
-from disting.experiments import evidence_check as measured_check
+from disting.experiments import ComparedMachine, measured_evidence
 from disting.experiments.machine_side import comparable as machines_comparable
-from disting.general import ComparedModel
-from disting.general import evidence_check as models_check
+from disting.general import ComparedModel, model_evidence
 from disting.general.compared import comparable as models_comparable
 from disting.model.domain import Domain
 from disting.questions.inclusion import confirms as confirms_inclusion
@@ -81,6 +79,7 @@ class _Chains:
         return confirms_inclusion(evidence, self.left, self.right)
 
     def exact(self, evidence: Evidence) -> Finding | None:
+        """See `Pair`; None where ranks or degrees differ, as the decision asks for equal ones."""
         if self.left.rank != self.right.rank:
             return None
         first, second = self.left.in_order(self.right)
@@ -112,27 +111,29 @@ class _Machines:
 
     def confirms(self, evidence: Evidence, representation: str) -> bool:
         sides = self.left.measured, self.right.measured
-        return measured_check.confirms(evidence, *sides, representation)
+        return measured_evidence.confirms(evidence, *sides, representation)
 
     def includes(self, evidence: InclusionEvidence) -> bool:
-        return measured_check.confirms(evidence, self.left.measured, self.right.measured)
+        return measured_evidence.confirms(evidence, self.left.measured, self.right.measured)
 
     def exact(self, evidence: Evidence) -> Finding | None:
+        """See `Pair`; None where ranks or degrees differ, as the decision asks for equal ones."""
         if not machines_comparable(self.left, self.right):
             return None
         sides = self.left.measured, self.right.measured
-        found = measured_check.exact_again(evidence, *sides, self.left.settings)
+        found = measured_evidence.exact_again(evidence, *sides, self.left.settings)
         sketches = (side.sketch(Representation.TF, 0) for side in (self.left, self.right))
         return None if found is None else resting_on_ranks(found, *sketches)
 
     def admissible(
         self, evidence: Evidence, domain: Domain, equal: Verdict | None
     ) -> Finding | None:
+        """See `Pair`; of positive equivalents both ways, the only kind under experiments."""
         if not isinstance(evidence, BothWays) or equal is None:
             return None
         grade = None if isinstance(equal.evidence, FreeChoice) else self._grade(equal)
         sides = self.left.measured, self.right.measured
-        return measured_check.positive_again(*sides, self.left.settings, grade)
+        return measured_evidence.positive_again(*sides, self.left.settings, grade)
 
     def _grade(self, equal: Verdict) -> Grade:
         """How sure the exact decision is, which need not be what decided."""
@@ -152,18 +153,19 @@ class _Models:
 
     def confirms(self, evidence: Evidence, representation: str) -> bool:
         models = self.left.model, self.right.model
-        return models_check.confirms_models(evidence, *models, representation)
+        return model_evidence.confirms_models(evidence, *models, representation)
 
     def includes(self, evidence: InclusionEvidence) -> bool:
         return False  # it is not asked
 
     def exact(self, evidence: Evidence) -> Finding | None:
+        """See `Pair`; None where ranks or degrees differ, as the decision asks for equal ones."""
         if isinstance(evidence, Constants):
             return self.left.exact(self.right) if self.left.rank == 0 else None
         if not models_comparable(self.left, self.right):
             return None
         models = self.left.profiled, self.right.profiled
-        found = models_check.exact_again(evidence, *models, self.left.settings)
+        found = model_evidence.exact_again(evidence, *models, self.left.settings)
         profiles = (side.profile(Representation.TF, 0) for side in (self.left, self.right))
         return None if found is None else resting_on_ranks(found, *profiles)
 

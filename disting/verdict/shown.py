@@ -73,8 +73,8 @@ def _steeper(found: Counts, left: str, right: str) -> str:
         steep, flat = (left, right) if m1 - n1 > m2 - n2 else (right, left)
         fall = DECADE * abs((m1 - n1) - (m2 - n2))
         return (
-            f"Above all resonances the curve of {steep} falls by {fall} dB a decade more than that"
-            f" of {flat}{_zeros(n2 - n1 if flat == right else n1 - n2, flat)}."
+            f"Towards high frequencies the curve of {steep} falls by {fall} dB a decade more than"
+            f" that of {flat}{_zeros(n2 - n1 if flat == right else n1 - n2, flat)}."
         )
     more, poles = (left, m1 - m2) if m1 > m2 else (right, m2 - m1)
     return f"The curve of {more} has {poles} {'pole' if poles == 1 else 'poles'} more."

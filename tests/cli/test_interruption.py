@@ -210,3 +210,40 @@ def test_a_full_disk_is_named():
         check=False,
     )
     assert (done.returncode, done.stderr) == (2, "disting: No space left on device\n")
+
+
+BEGINNING = """
+import multiprocessing, time
+from concurrent.futures.process import BrokenProcessPool
+from disting.store.scheduling import executor
+
+def main():
+    try:
+        with executor(2) as pool:
+            waiting = [pool.submit(time.sleep, 9) for _ in range(2)]
+            print(*(worker.pid for worker in multiprocessing.active_children()), flush=True)
+            waiting[0].result()
+    except BrokenProcessPool:
+        print("gone", flush=True)
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal of this system sends otherwise")
+@pytest.mark.parametrize("pause", [0.1, 0.2, 0.3])
+def test_workers_that_are_still_importing_end_by_ctrl_c_in_silence(tmp_path, pause):
+    """The signal goes to them alone, so that nobody ends them before they could speak."""
+    script = tmp_path / "begin.py"
+    script.write_text(BEGINNING, encoding="utf-8")
+    process = subprocess.Popen(
+        [sys.executable, script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None
+    workers = list(map(int, process.stdout.readline().split()))
+    time.sleep(pause)
+    for worker in workers:
+        os.kill(worker, signal.SIGINT)
+    said, error = process.communicate(timeout=60)
+    assert len(workers) == 2 and (said, error) == ("gone\n", "")

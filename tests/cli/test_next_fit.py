@@ -34,9 +34,9 @@ def said(path):
 def test_each_pair_has_a_sentence(said, path):
     first, empty, head, selected, *_ = said.splitlines()
     assert first == (
-        "measure next: a sensor at mass 2 (cost 1); if it is 3:1, that can exclude 3:11 (power 95 %"
-        " or more at the fitted values, before a rival refits); 3:1+b2 contains it, which no data"
-        " exclude"
+        "measure next: a sensor at mass 2 (cost 1); if it is 3:1, that shows a difference from 3:11"
+        " as fitted now (power 95 % or more; less after a new fit, none where that can come as close"
+        " to 3:1 as it likes); 3:1+b2 contains it, which no data exclude"
     )
     assert (empty, head) == ("", "3 structures that the fit left:")
     assert selected == "  3:1     [1FS]=[2]=[3]  fitted"

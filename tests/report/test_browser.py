@@ -89,7 +89,7 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
 
 
 def test_two_curves_fall_as_the_sentence_says(visit) -> None:  # type: ignore[no-untyped-def]
-    """Where the curves fall unequally above all resonances, both are drawn with example values;
+    """Where the curves fall unequally towards high frequencies, both are drawn with example values;
     what they do is computed from the curves, the sentence from degrees.
     """
     tab = visit(SMALL)

@@ -34,7 +34,7 @@ def test_the_steeper_curve_is_steeper(n, damped):
     for left, right, verdict in catalog(n, damped=damped).pairs(View.POSITIVE):
         if isinstance(verdict.evidence, Counts):
             said = re.match(
-                r"Above .* of (A\d+) falls by (\d+) dB a decade more than that of (A\d+): \3 has"
+                r"Towards .* of (A\d+) falls by (\d+) dB a decade more than that of (A\d+): \3 has"
                 r" (one|\d+) zeros? more",
                 shown(verdict),
             )

@@ -27,7 +27,8 @@ def first_sentence(found: Onward) -> str:
     cheapest, and what it leaves; "" where the lines of the data are not known.
 
     Structures that contain the selected one are named apart: if it is that one, no data exclude
-    them. The powers are those at the fitted values, before a rival refits: upper bounds.
+    them. The powers are those at the fitted values, before a rival refits: upper bounds; a rival
+    of which the selected structure is a limit, such as one with more masses, can follow it.
     """
     if found.seen is None:
         return ""
@@ -44,7 +45,7 @@ def first_sentence(found: Onward) -> str:
     if best is not None:
         said = (
             f"measure next: {best.item.text} (cost {found.costs.cost(best.item.kind):g}); if it is"
-            f" {selected.name}, that can exclude {_of(found, best, others)}"
+            f" {selected.name}, that shows a difference from {_of(found, best, others)}"
         )
         left = [f"{found.left[k].name} (power {chance(power)})" for k, power in best.left]
         said += f"; not {listed(left)}" * bool(left)
@@ -78,4 +79,7 @@ def _of(found: Onward, best: Reach, others: list[int]) -> str:
         which = listed([found.left[k].name for k in best.parted])
     else:
         which = f"{len(best.parted)} of the {len(others)} others"
-    return f"{which} (power {percent(POWER)} or more at the fitted values, before a rival refits)"
+    return (
+        f"{which} as fitted now (power {percent(POWER)} or more; less after a new fit, none where"
+        f" that can come as close to {found.left[0].name} as it likes)"
+    )

@@ -82,10 +82,8 @@ def set_in_words(found: Onward) -> Iterator[str]:
     left = {one.chain for one in found.left}
     open_ones = [reference(chain) for chain in found.named.rivals if chain not in left]
     if open_ones:
-        yield (
-            f"not asked here, as it is not known whether they behave the same:"
-            f" {', '.join(open_ones)}"
-        )
+        why = "it is not known whether they behave the same"
+        yield f"not asked here, as {why}: {', '.join(open_ones)}"
 
 
 def measured_in_words(found: Onward) -> Iterator[str]:
@@ -274,16 +272,13 @@ def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:
         reached = seen.power(a, b, nearest[0])
         said = f"{item.text} (cost {found.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
         if reached >= POWER:
-            return f"{said}{_of_family(found.left[b])}"
+            one_of = ", for the one of its family of values that is known"
+            return f"{said}{one_of * bool(found.left[b].free)}"
         if best is None or reached > best[0]:
             best = reached, said
     if best is None:
         return "nothing on the menu surely tells them apart" if unsure else ""
     return f"nothing on the menu has power {percent(POWER)}: at most {best[1]}"
-
-
-def _of_family(other: Left) -> str:
-    return ", for the one of its family of values that is known" if other.free else ""
 
 
 def _size(step: Step, reached: float) -> str:

@@ -6,6 +6,8 @@ The rooms below ask for it as `disting.model.shown.Presenter`, which `Notebook` 
 from collections.abc import Mapping
 from typing import Any
 
+from disting.algebra.notation import Expr
+from disting.behaviour.expanded import transfer_function
 from disting.model.chain import Chain
 from disting.report.drawing import chain_svg
 from disting.report.notebook.plots import drawn_on
@@ -22,6 +24,10 @@ class Notebook:
     def svg(self, shown: Chain, /) -> str:
         """The drawing of a chain on white paper, which is right in light and dark notebooks."""
         return chain_svg(shown)
+
+    def transfer_function(self, shown: Chain, /) -> Expr:
+        """G(s) from force to sensor."""
+        return transfer_function(shown)
 
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib; raises TypeError for what has no plot."""

@@ -1,4 +1,4 @@
-// The curves of two models with the same example values, where they differ in how they fall above all resonances.
+// The curves of two models with the same example values, where they differ in how they fall towards high frequencies.
 const LINES = Array.from({ length: 300 }, (_, i) => 2 * Math.PI * 10 ** (-1 + (4 * i) / 299)); // 0.1 to 1000 Hz: far above the resonances a damper carries more than its spring
 const twoCurves = (svg, models, names) => { // `models`: [chain, values]; what it shows in words, "" where both fall alike
   const gains = models.map(([chain, values]) => bodeOf(chain, partsOf(chain, values), LINES)[0]), last = LINES.length - 1;
@@ -13,5 +13,5 @@ const twoCurves = (svg, models, names) => { // `models`: [chain, values]; what i
   const panel = panelIn(svg, box, { x, y, log: true, xTicks: [0.1, 1, 10, 100, 1000], yTicks: steps(...y, 4), xTitle: "frequency in Hz", yTitle: "amplitude of y/F in dB" }, letter);
   gains.forEach((gain, which) => panel.line(gain.map((v, i) => [LINES[i] / (2 * Math.PI), v]), `curve ${["one", "two"][which]}`));
   const said = falls.map((fall, which) => `${names[which]} (${["solid", "dashed"][which]}) ${fall ? `${fall < 0 ? "falls" : "rises"} by ${Math.abs(fall)} dB a decade` : "stays level"}`);
-  return `With example values: above all resonances ${said.join(", ")}.`;
+  return `With example values: towards high frequencies ${said.join(", ")}.`;
 };
