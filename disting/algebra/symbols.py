@@ -4,7 +4,7 @@ that are to be read.
 
 from collections.abc import Mapping, Sequence
 
-from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+from flint import Ordering, fmpq_mpoly_ctx, fmpz_mpoly, fmpz_mpoly_ctx
 
 Polynomial = fmpz_mpoly
 Term = tuple[int, Mapping[str, int]]
@@ -87,7 +87,34 @@ def factors(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
     """The integer content with sign, and the irreducible factors with exponents, single symbols
     first.
     """
-    content, found = polynomial.factor()
-    return int(content), sorted(
-        ((p, int(e)) for p, e in found), key=lambda pe: (len(pe[0]), str(pe[0]))
-    )
+    content, found = factored(polynomial)
+    return content, sorted(found, key=lambda pe: (len(pe[0]), str(pe[0])))
+
+
+def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
+    """The integer content with sign, and the irreducible factors with exponents, in FLINT's order;
+    of coefficients of any size.
+
+    `fmpz_mpoly.factor()` of python-flint 0.9 sorts what it found by differences of coefficients
+    that it takes for C integers: from 2^31 on it raises OverflowError. `fmpq_mpoly.factor()` finds
+    the same factors, primitive and in the same order, and compares numbers of any size.
+
+    >>> x, y = symbols(["x", "y"]).values()
+    >>> factored(6 * (x + 2**200) * (x + 1) ** 2 * (x - y))[1][0]
+    (x - y, 1)
+    """
+    try:
+        number, found = polynomial.factor()
+    except OverflowError:
+        number, found = _over_rationals(polynomial)
+    return int(number), [(factor, int(power)) for factor, power in found]
+
+
+def _over_rationals(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
+    ring = polynomial.context()
+    field = fmpq_mpoly_ctx.get(ring.names(), ring.ordering())
+    number, found = field.from_dict(polynomial.to_dict()).factor()
+    return int(number), [
+        (ring.from_dict({e: int(c) for e, c in factor.to_dict().items()}), power)
+        for factor, power in found
+    ]

@@ -51,6 +51,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
+from disting.algebra.symbols import factored
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.model.domain import Domain
@@ -261,7 +262,7 @@ def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | s
 def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
     """The distinct irreducible factors that contain unknowns."""
     every = [
-        f for polynomial in polynomials for f, _ in polynomial.factor()[1] if ring.occurring([f])
+        f for polynomial in polynomials for f, _ in factored(polynomial)[1] if ring.occurring([f])
     ]
     return tuple(f for i, f in enumerate(every) if f not in every[:i])
 

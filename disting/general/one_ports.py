@@ -34,6 +34,7 @@ from dataclasses import replace
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import factored
 from disting.general.cases import Case, cases_of
 from disting.general.model import Model, Terms
 from disting.general.orthant import Orthant, TooMuch
@@ -103,7 +104,7 @@ def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFun
     )
     if max(len(top), len(bottom)) > ring.terms:
         return None
-    for factor, power in bottom.factor()[1]:
+    for factor, power in factored(bottom)[1]:
         if not factor.degrees()[ring.path]:
             continue
         if factor.degrees()[ring.path] > 1 or power > 1:

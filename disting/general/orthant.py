@@ -19,6 +19,7 @@ from typing import Any
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import factored
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.domain import Domain
@@ -154,7 +155,7 @@ class Orthant:
             raise TooMuch(
                 f"a polynomial of {len(polynomial)} terms and degree {polynomial.total_degree()}"
             )
-        number, factors = polynomial.factor()
+        number, factors = factored(polynomial)
         sign, kept = 1 if number > 0 else -1, []
         for factor, power in factors:
             seen = self.sign(factor)
