@@ -36,13 +36,16 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
 def carried(
     chain: Chain, fit: Values, size: Scale, factors: Iterable[float] = ADDED
 ) -> Iterator[Values]:
-    """Starts from a neighbour's fit: what it has too much hands its value over, or is left out;
-    what it lacks is added.
+    """Starts from the fit of another candidate: what it has too much hands its value over to an
+    element of its kind that is missing, or is left out; what is missing then is added.
     """
     missing = [name for name in chain.parameters if name not in fit]
     surplus = [name for name in fit if name not in chain.parameters]
-    if surplus:
-        moved = {new: fit[old] for new, old in zip(missing, surplus, strict=False)}
-        yield {name: fit[name] if name in fit else moved[name] for name in chain.parameters}
+    values = {name: fit[name] for name in chain.parameters if name in fit}
+    for kind in {name[0] for name in missing}:  # a lag takes the value of a dead time
+        wanted, spare = ([n for n in names if n[0] == kind] for names in (missing, surplus))
+        values |= {new: fit[old] for new, old in zip(wanted, spare, strict=False)}
+    if len(values) == len(chain.parameters):
+        yield {name: values[name] for name in chain.parameters}
     else:
-        yield from extended(chain, fit, size, factors)
+        yield from extended(chain, values, size, factors)

@@ -4,6 +4,7 @@ work resumes.
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from itertools import permutations
 
 import numpy as np
 import pytest
@@ -172,6 +173,28 @@ def test_neighbours_are_mutual_and_their_fits_become_starts():
     assert moved["b3"] == values["b2"]
     (swapped,) = carried(replace(chain, lag=True, dead_time=False), values, size)
     assert swapped["T1"] == values["Td"]
+
+
+def test_a_start_is_made_from_any_candidate_of_the_same_masses():
+    chains = [c for c in figure_1((2,)) if c.damped]
+    values = {c: truth(c, 3) for c in chains}
+    made = 0
+    for chain, other in permutations(chains, 2):
+        size = scale(response(chain, values[chain]))
+        for start in carried(other, values[chain], size):
+            shared = set(other.parameters) & set(chain.parameters)
+            assert list(start) == list(other.parameters) and all(v > 0 for v in start.values())
+            assert all(start[p] == values[chain][p] for p in shared)
+            made += 1
+    assert made >= len(chains) * (len(chains) - 1)
+
+
+def test_what_is_surplus_becomes_only_what_is_of_its_kind():
+    chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
+    other = Chain(2, damped=True, ground_dampers=(1, 2), lag=True)
+    values = truth(chain, 2)
+    for start in carried(other, values, scale(response(chain, values))):
+        assert start["T1"] == values["Td"] and start["b2"] not in values.values()
 
 
 def test_one_more_pair_of_pole_and_zero_keeps_the_others_and_finds_a_mode_that_hardly_shows():
