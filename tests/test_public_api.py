@@ -1,7 +1,12 @@
 """The public names, literally: adding or removing one is a decision that shows here."""
 
+import ast
 import subprocess
 import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
 
 import disting
 
@@ -81,43 +86,59 @@ HEAVY = {
 }
 
 
+ROOMS = ["fit", "measurement", "report", "simulation"]
+
+
 def test_public_names():
-    modules = {
-        "algebra",
-        "behaviour",
-        "catalogs",
-        "conditions",
-        "equivalence",
-        "errors",
-        "evidence",
-        "experiments",
-        "fibres",
-        "files",
-        "general",
-        "model",
-        "questions",
-        "store",
-        "verdict",
+    assert sorted(disting.__all__) == sorted(NAMES)
+    assert sorted(dir(disting)) == sorted([*NAMES, *ROOMS, "__version__"])
+
+
+def test_what_type_checkers_are_told_is_what_a_name_gives():
+    """The names stand twice: as imports that are never made, and with their modules."""
+    tree = ast.parse(Path(disting.__file__).read_text(encoding="utf-8"))
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    told = {
+        alias.asname: getattr(import_module(node.module), alias.name)
+        for node in imports
+        if node.module.startswith("disting")
+        for alias in node.names
     }
-    seen = {name for name in vars(disting) if not name.startswith("_")} - modules
-    optional = {
-        "cli",
-        "fit",
-        "measurement",
-        "paper",
-        "report",
-        "simulation",
-    }  # imported by other tests of this process
-    assert sorted(seen - optional) == sorted(NAMES)
+    assert told == {name: getattr(disting, name) for name in [*NAMES, *ROOMS, "__version__"]}
 
 
-def test_importing_the_package_leaves_heavy_libraries_alone():
-    code = "import sys, disting; print(*sys.modules)"
-    loaded = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    ).stdout.split()
-    assert "disting" in loaded
+def fresh(code):
+    """Words that a new process prints."""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return done.stdout.split()
+
+
+def test_importing_the_package_imports_none_of_its_modules():
+    loaded = fresh("import sys, disting; print(*sys.modules)")
+    assert [name for name in loaded if name.startswith("disting")] == ["disting"]
+    assert "flint" not in loaded and "numpy" not in loaded
+
+
+def test_the_names_leave_heavy_libraries_alone():
+    loaded = fresh("import sys; from disting import *; print(*sys.modules)")
+    assert "disting.verdict" in loaded
     assert not HEAVY & set(loaded)
+
+
+def test_modules_are_found_below_the_package_and_other_names_are_not():
+    assert fresh("import disting; print(disting.fit.__name__, disting.errors.__name__)") == [
+        "disting.fit",
+        "disting.errors",
+    ]
+    for name in ("nonsense", "_nonsense"):
+        with pytest.raises(AttributeError, match=r"dir\(disting\) lists what it has"):
+            getattr(disting, name)
+
+
+def test_the_list_of_commands_is_told_without_the_libraries_of_any():
+    """As are the version and a mistyped command."""
+    code = "import sys; from disting.cli import main\ntry: main(['--version'])\nfinally: print(*sys.modules)"
+    assert not {"numpy", "flint", "disting.verdict"} & set(fresh(code.replace("\n", "\n")))
 
 
 def test_commands_load_sympy_only_where_they_write_an_expression():

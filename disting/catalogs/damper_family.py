@@ -86,7 +86,7 @@ class DamperFamily:
 def damper_family(
     n_masses: int,
     *,
-    damped: bool = True,
+    damped: bool = False,
     which: DamperSets = DamperSets.ALL,
     patient: bool = False,
     engine: Engine | None = None,

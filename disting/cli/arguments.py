@@ -9,14 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.paths import written_file, written_folder
-from disting.conditions.table import CONDITIONS
 from disting.errors import shown
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 from disting.model.names import DAMPED
-
-NAMES = [c.rule.name for c in CONDITIONS]
 
 
 def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
@@ -84,17 +81,20 @@ def frequency_range(text: str) -> tuple[float, float]:
 
 def conditions(text: str) -> tuple[str, ...]:
     """Names and ranges such as 1-5,8, in the order of the table."""
+    from disting.conditions.table import CONDITIONS  # where it is asked for: it imports much
+
+    names = [c.rule.name for c in CONDITIONS]
     chosen = set[str]()
     for part in text.split(","):
         low, dash, high = part.strip().partition("-")
         high = high if dash else low
-        if not {low, high} <= set(NAMES) or NAMES.index(high) < NAMES.index(low):
-            known = f"the conditions {NAMES[0]} to {NAMES[-1]}"
+        if not {low, high} <= set(names) or names.index(high) < names.index(low):
+            known = f"the conditions {names[0]} to {names[-1]}"
             raise argparse.ArgumentTypeError(
                 f"conditions are written like 1-5,8, of {known}, not {shown(text)}"
             )
-        chosen |= set(NAMES[NAMES.index(low) : NAMES.index(high) + 1])
-    return tuple(name for name in NAMES if name in chosen)
+        chosen |= set(names[names.index(low) : names.index(high) + 1])
+    return tuple(name for name in names if name in chosen)
 
 
 def add_damped(parser: argparse.ArgumentParser) -> None:

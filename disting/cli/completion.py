@@ -1,21 +1,14 @@
 """Completion of commands, options, choices and models by TAB, with argcomplete; a shell asks for it
-by the environment variable _ARGCOMPLETE.
+by an environment variable, see `disting.cli.run`.
 """
 
 import argparse
-import os
 import re
 from collections.abc import Iterator
 
 from disting.model.family import NUMBERED_UP_TO, Family
 
-VARIABLE = "_ARGCOMPLETE"
 MODELS = re.compile(r"\b[NM]:[IJ]\b")  # in what an argument is called
-
-
-def is_asked() -> bool:
-    """Whether a shell asks what a line may go on with."""
-    return VARIABLE in os.environ
 
 
 def complete(top: argparse.ArgumentParser) -> int:

@@ -1,31 +1,17 @@
 """The command line's grammar: which commands there are, what each is for, which module runs it.
 
-The arguments of a command are declared in its own module, those of `fit` and `plan` apart from
-what runs them, which loads libraries that no other command needs.
+The arguments of a command are declared in its own module, which is imported when the command is
+named: it takes longer than most commands run. Those of `fit` and `plan` stand apart from what runs
+them, which loads libraries that help needs not.
 """
 
 import argparse
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
-from disting.cli import (
-    catalogs,
-    compare,
-    dampers,
-    equivalents,
-    fit_arguments,
-    models,
-    next,
-    plan_arguments,
-    report,
-    simulate,
-    upkeep,
-    verdicts,
-    verify,
-)
 from disting.cli.plain import complain
-from disting.conditions.table import CONDITIONS
 from disting.errors import LONGEST_ECHO, shown
 from disting.files import __version__
 
@@ -33,43 +19,39 @@ DESCRIPTION = (
     "Which servo-drive chain models can one force and one sensor not tell apart? Exact verdicts,"
     " with evidence."
 )
-EPILOG = (
-    "conditions:\n"
-    + "\n".join(f"  {c.rule.name}  {c.rule.title}: {c.rule.text}" for c in CONDITIONS)
-    + "\n\nexit status: 0 fine, 1 a failed verification, 2 bad usage or bad input,"
+STATUS = (
+    "exit status: 0 fine, 1 a failed verification, 2 bad usage or bad input,"
     " 3 a verdict that cannot be checked alone"
 )
 Subparsers = Any  # the object that argparse gives for sub-commands has no public type
 
 
-def _fit(options: argparse.Namespace) -> int:
-    """Fit measured data; only here are the libraries loaded that no other command needs."""
-    from disting.cli import fit
-
-    return fit.run(options)
-
-
-def _plan(options: argparse.Namespace) -> int:
-    """Plan a measurement; likewise."""
-    from disting.cli import plan
-
-    return plan.run(options)
-
-
-def _add_nothing(parser: argparse.ArgumentParser) -> None:
-    """A command without arguments."""
-
-
 @dataclass(frozen=True, slots=True)
 class Command:
-    """`text` says in a list of commands what `run` does with the options; `add` declares its
-    arguments.
+    """`text` says in a list of commands what `run` of its module does with the options; `add`
+    declares its arguments, in the same module if no other one is named.
     """
 
     name: str
     text: str
-    run: Callable[[argparse.Namespace], int]
-    add: Callable[[argparse.ArgumentParser], None] = _add_nothing
+    module: str
+    run: str = "run"
+    add: str = "add_arguments"
+    arguments: str = ""
+
+    def work(self) -> Callable[[argparse.Namespace], int]:
+        """What runs it, imported."""
+        return self._of(self.module, self.run)
+
+    def declare(self, parser: argparse.ArgumentParser) -> None:
+        """Add its arguments to its parser."""
+        if self.add:
+            self._of(self.arguments or self.module, self.add)(parser)
+
+    @staticmethod
+    def _of(module: str, name: str) -> Callable[..., Any]:
+        function: Callable[..., Any] = getattr(import_module(f"disting.cli.{module}"), name)
+        return function
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,44 +72,51 @@ CATALOG = Group(
         Command(
             "build",
             "compute catalogues, undamped and damped",
-            catalogs.build,
-            catalogs.add_build_arguments,
+            "catalogs",
+            "build",
+            "add_build_arguments",
         ),
         Command(
             "candidates",
             "compute the verdicts on all pairs of a fit's 120 candidates",
-            catalogs.candidates,
-            catalogs.add_candidates_arguments,
+            "catalogs",
+            "candidates",
+            "add_candidates_arguments",
         ),
         Command(
             "dampers",
             "compute whole families with all sets of dampers to the ground, by classes",
-            dampers.build,
-            dampers.add_build_arguments,
+            "dampers",
+            "build",
+            "add_build_arguments",
         ),
         Command(
             "next",
             "compute what to measure next for all groups that one measurement cannot tell apart",
-            next.build,
-            next.add_build_arguments,
+            "next",
+            "build",
+            "add_build_arguments",
         ),
         Command(
             "sizes",
             "compute the verdicts on pairs of models of different sizes, 1 to 5 masses",
-            catalogs.sizes,
-            catalogs.add_sizes_arguments,
+            "catalogs",
+            "sizes",
+            "add_sizes_arguments",
         ),
         Command(
             "settle",
             "decide the rows of masses that leave pairs open, to be shipped",
-            catalogs.settle,
-            catalogs.add_settle_arguments,
+            "catalogs",
+            "settle",
+            "add_settle_arguments",
         ),
         Command(
             "verify",
             "rebuild catalogues, compare bytes, and check every evidence anew",
-            catalogs.verify,
-            catalogs.add_verify_arguments,
+            "catalogs",
+            "verify",
+            "add_verify_arguments",
         ),
     ),
 )
@@ -136,116 +125,129 @@ CACHE = Group(
     "look at or empty the cache",
     "The cache of profiles and verdicts.",
     (
-        Command("info", "where the cache is and what it holds", upkeep.cache_info),
-        Command("clear", "remove all entries", upkeep.cache_clear),
+        Command("info", "where the cache is and what it holds", "upkeep", "cache_info", ""),
+        Command("clear", "remove all entries", "upkeep", "cache_clear", ""),
     ),
 )
 COMMANDS = (
     Command(
         "models",
         "the numbered list of all models of one size, or your own models in a file",
-        models.run,
-        models.add_arguments,
+        "models",
     ),
-    Command("compare", "one verdict, explained", compare.run, compare.add_arguments),
+    Command("compare", "one verdict, explained", "compare"),
     Command(
         "verify",
         "whether one verdict holds, checked anew from its evidence alone",
-        verify.run,
-        verify.add_arguments,
+        "verify",
     ),
     Command(
         "verdicts",
         "all pairs of one size, of several sizes together, or of your own models in a file",
-        verdicts.run,
-        verdicts.add_arguments,
+        "verdicts",
     ),
     Command(
         "equivalents",
         "all parameters of other models with the same transfer function",
-        equivalents.run,
-        equivalents.add_arguments,
+        "equivalents",
     ),
     Command(
         "next",
         "what to measure next to tell structures apart that look the same",
-        next.run,
-        next.add_arguments,
+        "next",
     ),
     Command(
         "fit",
         "the structures that explain a measured frequency response",
-        _fit,
-        fit_arguments.add_arguments,
+        "fit",
+        arguments="fit_arguments",
     ),
     Command(
         "plan",
         "how much measuring tells two structures apart",
-        _plan,
-        plan_arguments.add_arguments,
+        "plan",
+        arguments="plan_arguments",
     ),
     Command(
         "report",
         "HTML pages, figures and tables of whole catalogues, or of your own models in a file",
-        report.run,
-        report.add_arguments,
+        "report",
     ),
     CATALOG,
     Command(
         "simulate",
         "what a bench would measure on a chain with known parameters",
-        simulate.run,
-        simulate.add_arguments,
+        "simulate",
     ),
     Command(
         "dampers",
         "which sets of dampers to the ground of one model can be told apart",
-        dampers.run,
-        dampers.add_arguments,
+        "dampers",
     ),
     CACHE,
-    Command("doctor", "what is installed, and what else would help", upkeep.doctor),
+    Command("doctor", "what is installed, and what else would help", "upkeep", "doctor", ""),
 )
 
 
-def parser() -> argparse.ArgumentParser:
-    """The parser of all commands; `run` of the parsed options is the command's function."""
-    top = _Parser(
+def parser(*, whole: bool = True) -> argparse.ArgumentParser:
+    """The parser of all commands; `command` of the parsed options is the one that they name.
+
+    `whole`: with the arguments of all commands, else each declares its own when it is named.
+    """
+    top = _Top(
         prog="disting",
         description=DESCRIPTION,
-        epilog=EPILOG,
+        epilog=epilog() if whole else "",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action="version", version=f"disting {__version__}")
-    top.set_defaults(grammar=top)  # a report has a reference of it
     commands = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     for one in COMMANDS:
         if isinstance(one, Command):
-            _add_command(commands, one)
+            _add_command(commands, one, whole)
         else:
-            _add_group(commands, one)
+            _add_group(commands, one, whole)
     return top
 
 
-def _add_command(to: Subparsers, command: Command) -> None:
+def epilog() -> str:
+    """The table of conditions, which takes a while to import, and what exit statuses mean."""
+    from disting.conditions.table import CONDITIONS
+
+    rows = (f"  {c.rule.name}  {c.rule.title}: {c.rule.text}" for c in CONDITIONS)
+    return "\n".join(["conditions:", *rows, "", STATUS])
+
+
+def _add_command(to: Subparsers, command: Command, whole: bool) -> None:
     text = command.text
     p = to.add_parser(command.name, help=text, description=text[0].upper() + text[1:] + ".")
-    p.set_defaults(run=command.run)
-    command.add(p)
+    p.set_defaults(command=command)
+    p.undeclared = command
+    if whole:
+        p.declare()
 
 
-def _add_group(to: Subparsers, group: Group) -> None:
+def _add_group(to: Subparsers, group: Group, whole: bool) -> None:
     p = to.add_parser(group.name, help=group.text, description=group.description)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     for command in group.commands:
-        _add_command(actions, command)
+        _add_command(actions, command, whole)
 
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one sentence, which says what may have been meant."""
 
+    undeclared: Command | None = None
+
+    def declare(self) -> None:
+        """Add the arguments of its command, once."""
+        command, self.undeclared = self.undeclared, None
+        if command is not None:
+            command.declare(self)
+
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         """A command refuses itself what it does not know, so that its own help is named."""
+        self.declare()
         found, rest = super().parse_known_args(args, namespace)
         if rest:
             options = [name for action in self._actions for name in _offered(action)]
@@ -263,6 +265,15 @@ class _Parser(argparse.ArgumentParser):
         """Say what is wrong and where help is; exit status 2."""
         complain(f"{_short(message).rstrip('.')} (see '{self.prog} --help')")
         self.exit(2)
+
+
+class _Top(_Parser):
+    """The parser of the program, whose help has the table of conditions."""
+
+    def format_help(self) -> str:
+        """As usual."""
+        self.epilog = self.epilog or epilog()
+        return super().format_help()
 
 
 def _offered(action: argparse.Action) -> list[str]:

@@ -12,6 +12,7 @@ from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import add_out, add_work, size_or_file
 from disting.cli.common import relations_in_words
+from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError
@@ -93,7 +94,7 @@ def _catalogues(options: argparse.Namespace) -> None:
     # of all shipped sizes, whichever are asked for
     together = len(asked.intersection(SHIPPED_SIZES)) > 1
     across = [sizes_catalog(damped=d, known=catalogs) for d in choices if together]
-    paths = write_report(catalogs, options.out, with_dampers, options.grammar, across)
+    paths = write_report(catalogs, options.out, with_dampers, parser(), across)
     for c in catalogs:
         relations = relations_in_words(v.relation for *_, v in c.pairs())
         print(

@@ -1,17 +1,18 @@
 """Runs one command and turns every expected failure into one sentence and an exit status."""
 
 import os
+import signal
 import sys
 import warnings
-from collections.abc import Sequence
-from contextlib import redirect_stderr, redirect_stdout
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 
-from disting.cli.completion import complete, is_asked
 from disting.cli.parser import parser
 from disting.cli.plain import complain, say_what_can_be_said
 from disting.errors import DistingError, shown
 
 LONGEST_PATH = 200  # characters of a file name in a message
+COMPLETION = "_ARGCOMPLETE"  # of the environment: a shell asks what a line may go on with
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -38,12 +39,13 @@ def _fill_closed_streams() -> None:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        commands = parser()
-        if is_asked():
-            return complete(commands)
-        options = commands.parse_args(arguments)
-        status: int = options.run(options)
-        sys.stdout.flush()
+        if COMPLETION in os.environ:
+            return _complete()
+        options = parser(whole=False).parse_args(arguments)
+        work = options.command.work()
+        with _heard():
+            status: int = work(options)
+            sys.stdout.flush()
         return status
     except BrokenPipeError:  # the reader of a pipe has seen enough
         return 0
@@ -63,6 +65,39 @@ def _run(arguments: Sequence[str] | None) -> int:
         return 130
     finally:
         _drop_what_cannot_be_written()
+
+
+def _complete() -> int:
+    from disting.cli.completion import complete
+
+    return complete(parser())
+
+
+@contextmanager
+def _heard() -> Iterator[None]:
+    """Ctrl-C as an exception while a command works, where it ends the process at once before and
+    after; where it is heard otherwise, or not, it stays so.
+    """
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_DFL:
+        yield
+        return
+    sys.unraisablehook = _not_lost
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        sys.unraisablehook = sys.__unraisablehook__
+
+
+def _not_lost(lost: "sys.UnraisableHookArgs") -> None:
+    """Where Python would tell of an interrupt and go on, since it fell into a callback (there is
+    one at the end of every import), the process ends at once.
+    """
+    if isinstance(lost.exc_value, KeyboardInterrupt):
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.raise_signal(signal.SIGINT)
+    sys.__unraisablehook__(lost)
 
 
 def _name(of_file: object) -> str:

@@ -6,7 +6,7 @@ from functools import cached_property
 from itertools import product
 
 from disting.errors import InputError, shown
-from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 from disting.model.shown import Shown
 
@@ -22,14 +22,13 @@ class Family(Shown):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
 
     The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation).
-    As where a model is named, springs have dampers beside them unless `damped` is False.
 
-    >>> len(Family(3)), Family(3)[4].parameters
-    (11, ('m1', 'm2', 'm3', 'k12', 'k23', 'd12', 'd23'))
+    >>> len(Family(3)), Family(3, damped=True)[4].indices[1:]
+    (11, (0, 0, 2, 0, 2))
     """
 
     n_masses: int
-    damped: bool = True
+    damped: bool = False
     sensor: Sensor = Sensor.ACCELERATION
 
     def __post_init__(self) -> None:
@@ -39,12 +38,11 @@ class Family(Shown):
             or self.n_masses < 1
         ):
             raise InputError(f"a family has at least one mass, not {shown(self.n_masses)}")
-        if not isinstance(self.damped, bool):
-            raise InputError(f"damped is True or False, not {shown(self.damped)}")
-        object.__setattr__(self, "sensor", as_sensor(self.sensor))
 
     def __repr__(self) -> str:
-        return f"Family({self.n_masses}, damped={self.damped}, sensor={self.sensor.value!r})"
+        damped = ", damped=True" * self.damped
+        sensor = "" if self.sensor is Sensor.ACCELERATION else f", sensor={str(self.sensor)!r}"
+        return f"Family({self.n_masses}{damped}{sensor})"
 
     @cached_property
     def models(self) -> tuple[Chain, ...]:

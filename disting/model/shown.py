@@ -2,15 +2,17 @@
 
 A line is made where the object is. A picture, a table of a notebook or a plot needs what stands
 above (`disting.report`), which the rooms below must not import, whether at the top of a module or
-inside a method. So they know only that there is a `Presenter`; `disting/__init__`, which knows all
-rooms and runs before any of them, says who it is. Nothing is drawn, and nothing that draws is
-imported, before somebody looks.
+inside a method. So they know only that there is a `Presenter`, and by which name it is called.
+Nothing is drawn, and nothing that draws is imported, before somebody looks.
 """
 
-from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, Protocol
+from collections.abc import Mapping
+from pkgutil import resolve_name
+from typing import Any, Protocol
 
 from disting.errors import printable
+
+PRESENTER = "disting.report.notebook:Notebook"
 
 LONGEST = 110  # characters of a line on a prompt
 
@@ -35,11 +37,11 @@ class Presented:
     """What a room above knows how to draw."""
 
     __slots__ = ()
-    _asked: ClassVar[Callable[[], Presenter]]
 
     @property
     def _presenter(self) -> Presenter:
-        return type(self)._asked()
+        presenter: Presenter = resolve_name(PRESENTER)()
+        return presenter
 
 
 class Shown(Presented):
@@ -58,11 +60,6 @@ class Drawn(Presented):
 
     def _repr_svg_(self) -> str:
         return self._presenter.svg(self)
-
-
-def presented_by(presenter: Callable[[], Presenter]) -> None:
-    """Name who draws; it is called when something is looked at, not before."""
-    Presented._asked = staticmethod(presenter)
 
 
 def summary(of: object, text: str) -> str:

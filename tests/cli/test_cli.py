@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from disting.cli.parser import COMMANDS, Group
 from tests.cli.process import called, disting, rows
 
 
@@ -134,6 +135,12 @@ def test_verdicts_json_has_evidence(tmp_path):
         " undecided\n"
     )
     assert all(v["evidence"]["kind"] for v in json.loads(path.read_text())["verdicts"])
+
+
+def test_every_command_of_the_grammar_has_what_runs_it():
+    for row in COMMANDS:
+        for command in row.commands if isinstance(row, Group) else [row]:
+            assert callable(command.work()), command.name
 
 
 def test_help_on_everything():

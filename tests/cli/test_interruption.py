@@ -138,6 +138,103 @@ def test_interrupt_leaves_no_traceback(tmp_path):
     assert interrupted(tmp_path / "c.sqlite3", 1, "verdicts", "7", "--damped") == (130, INTERRUPTED)
 
 
+PRESSED = """
+import os, runpy, signal, sys
+
+AT = sys.argv[1]
+
+class Finder:
+    def find_spec(name, path=None, target=None):
+        if name == AT:
+            press()
+
+class Callback:
+    def __del__(self):
+        press()
+
+def press():
+    os.kill(os.getpid(), signal.SIGINT)
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Finder)
+"""
+BEGUN = (
+    PRESSED
+    + "sys.argv = ['disting', *sys.argv[2:]]; runpy.run_module('disting', run_name='__main__', alter_sys=True)"
+)
+FORMULAS = ("equivalents", "3:4", "--to", "3:1", "--undamped", "--formulas")
+
+
+def pressed(program, *arguments):
+    """What a process that presses Ctrl-C itself ends with, and what it says."""
+    done = subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False
+    )
+    return done.returncode, done.stderr.strip()
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="a signal has another number there")
+@pytest.mark.parametrize(
+    "module",
+    [
+        "disting.cli",
+        "argparse",
+        "disting.cli.parser",
+        "disting.cli.compare",
+        "numpy.linalg",
+        "flint",
+    ],
+)
+def test_an_interrupt_while_modules_are_imported_ends_the_process_in_silence(module):
+    """As a signal ends any program: a shell says status 130."""
+    assert pressed(BEGUN, module, "compare", "3:1", "3:4") == (-signal.SIGINT, "")
+
+
+def test_an_interrupt_while_work_imports_is_told_as_any_other():
+    sympy = "sympy.polys.polytools"  # is imported by what writes formulas, and by nothing else
+    assert pressed(BEGUN, sympy, *FORMULAS) == (130, INTERRUPTED)
+
+
+def test_an_interrupt_while_the_process_ends_is_silent():
+    at_exit = PRESSED + "import atexit; atexit.register(press)\n"
+    ending = at_exit + BEGUN.removeprefix(PRESSED)
+    assert pressed(ending, "nothing", "--version") == (-signal.SIGINT, "")
+
+
+def test_an_interrupt_in_a_callback_is_not_lost():
+    """Python prints such an exception and goes on."""
+    finder = PRESSED.replace("            press()", "            Callback()")
+    program = finder + BEGUN.removeprefix(PRESSED)
+    assert pressed(program, "sympy.polys.polytools", *FORMULAS) == (-signal.SIGINT, "")
+
+
+def test_where_interrupts_are_ignored_they_stay_ignored():
+    """As nohup and a shell's background jobs ask for."""
+    ignoring = BEGUN.replace("default_int_handler", "SIG_IGN")
+    assert pressed(ignoring, "argparse", "--version") == (0, "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("milliseconds", range(0, 601, 20))
+def test_an_interrupt_at_any_moment_leaves_no_traceback(milliseconds):
+    """From the moment on at which the command line is looked for, which the process tells: what is
+    before takes a hundredth of a second, and is not this package's.
+    """
+    program = BEGUN.replace("os.kill(os.getpid(), signal.SIGINT)", "print(flush=True)")
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, "disting.cli", "verdicts", "5", "--no-cache"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    process.stdout.readline()
+    time.sleep(milliseconds / 1000)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert process.returncode in (130, -signal.SIGINT) and error.strip() in ("", INTERRUPTED)
+
+
 def test_interrupt_ends_the_workers_without_a_word(tmp_path):
     many = 12  # until all of them are at work
     assert interrupted(

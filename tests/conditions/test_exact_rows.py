@@ -69,7 +69,7 @@ def test_a_stored_verdict_by_a_program_is_refused_with_the_reason():
 
 
 def test_rows_of_chains_that_the_theorem_does_not_cover_decide_nothing():
-    damped, undamped = WALLED[0], Chain(5, 4, 2, 5, 4, 5, damped=False)
+    damped, undamped = WALLED[0], Chain(5, 4, 2, 5, 4, 5)
     assert row_pairs(damped.structure, undamped.structure, "test") == []
     rubbed = Chain(5, 4, 2, 5, 4, 5, damped=True, ground_dampers=(1,))
     assert row_pairs(damped.structure, rubbed.structure, "test") == []

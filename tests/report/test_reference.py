@@ -15,7 +15,8 @@ from tests.report.outline import Outline
 
 def offered(name: str) -> dict[str, object]:
     """What a module offers when it runs: all that is not private and no module."""
-    found = vars(importlib.import_module(name))
+    module = importlib.import_module(name)
+    found = {key: getattr(module, key) for key in dir(module)}
     return {
         key: value
         for key, value in found.items()

@@ -123,7 +123,7 @@ def site(
     found: SizesCatalog, opened: SizesCatalog, tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
     folder = tmp_path_factory.mktemp("sizes")
-    write_report([catalog(3, damped=False)], folder, across=[found])
+    write_report([catalog(3)], folder, across=[found])
     beside = families(found.catalogs[2:])
     (folder / "opened.html").write_text(sizes_page(opened, beside=beside), encoding="utf-8")
     return folder

@@ -44,25 +44,29 @@ class Module:
 def parsed(name: str) -> Module:
     """A module or package of disting, parsed; raises ModuleNotFoundError if there is none."""
     tree = ast.parse(_source(name))
-    imports = {
-        alias.asname or alias.name: Place(node.module, alias.name)
-        for node in tree.body
-        if isinstance(node, ast.ImportFrom) and node.module
+    aliases = [
+        (node.module, alias)
+        for node in _imported(tree.body)
+        if node.module and node.module != name  # else a package names its own modules
         for alias in node.names
-    }
-    handed_on = tuple(
-        alias.name
-        for node in tree.body
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-        if alias.asname == alias.name
-    )
+    ]
+    imports = {alias.asname or alias.name: Place(origin, alias.name) for origin, alias in aliases}
+    handed_on = tuple(alias.name for _, alias in aliases if alias.asname == alias.name)
     definitions = {
         key: node for node in tree.body if isinstance(node, Definition) for key in _names(node)
     }
     return Module(
         name, ast.get_docstring(tree) or "", definitions, imports, _texts(tree.body), handed_on
     )
+
+
+def _imported(body: list[ast.stmt]) -> Iterator[ast.ImportFrom]:
+    """Names that are imported when the module is, or when they are used, as `disting` does it."""
+    for node in body:
+        if isinstance(node, ast.ImportFrom):
+            yield node
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            yield from _imported(node.body)
 
 
 def public(name: str) -> tuple[str, ...]:
