@@ -1,7 +1,7 @@
 """What the data files of a folder are: `provenance.json` with the digest of each, compared
 whenever one is read.
 
-Files that `disting catalog settle` appends to are named with the length that they had: what is
+The file that `disting catalog settle` appends to is named with the length that it had: what is
 appended later is the user's own. See `disting.files.intact_text`, which compares.
 """
 
@@ -12,10 +12,7 @@ from pathlib import Path
 
 from disting.catalogs.damper_settled import FILE as SETTLED
 from disting.catalogs.files import PROVENANCE, SCHEMA, Record, digest
-from disting.fibres.ideals.row_answers import ROWS
 from disting.files import __version__, write_whole
-
-GROWING = (ROWS, SETTLED)
 
 
 def provenance_of(folder: Path) -> Record:
@@ -39,4 +36,4 @@ def write_provenance(folder: Path) -> Path:
 
 
 def _told(path: Path) -> str:
-    return f"{digest(path)}:{path.stat().st_size}" if path.name in GROWING else digest(path)
+    return f"{digest(path)}:{path.stat().st_size}" if path.name == SETTLED else digest(path)

@@ -7,7 +7,6 @@ from pathlib import Path
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
-from disting.fibres.ideals.row_answers import false_answers
 from disting.model.symmetry import canonical
 from disting.questions.inclusion import confirms
 from disting.questions.positive import proves
@@ -25,15 +24,12 @@ def verify(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> list[str]:
-    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is. With
-    the answers about damped rows.
-    """
+    """Everything that is wrong with a catalogue file, in sentences; empty if nothing is."""
     stored = catalog(n_masses, damped=damped, folder=folder)
     rebuilt = build(n_masses, damped=damped, engine=engine, executor=executor, progress=progress)
     return [
         *_differences(stored, rebuilt, folder / f"{name_of(n_masses, damped)}.jsonl"),
         *false_evidence(stored, progress),
-        *(false_answers(folder, n_masses) if damped else ()),
     ]
 
 

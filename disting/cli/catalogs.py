@@ -35,8 +35,6 @@ def add_sizes_arguments(parser: argparse.ArgumentParser) -> None:
 def add_settle_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `settle`."""
     add_masses(parser)
-    text = "and what is open with dampers to the ground, of 3 to 5 masses"
-    parser.add_argument("--dampers", action="store_true", help=text)
     _add_read_folder(parser, Path("catalog"), "catalog")
 
 
@@ -91,26 +89,19 @@ def sizes(options: argparse.Namespace) -> int:
 
 
 def settle(options: argparse.Namespace) -> int:
-    """Decide the rows of masses that leave pairs open, and on request the classes with dampers
-    to the ground.
+    """Decide pairs of classes with dampers to the ground that are open, of the sizes that have
+    files.
     """
-    from disting.catalogs.damper_files import SHIPPED_SIZES, read
+    from disting.catalogs.damper_files import read
     from disting.catalogs.damper_settle import settle_dampers
-    from disting.catalogs.settle import settle
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:
-            print(
-                f"{n} masses, damped: {settle(n, options.catalog, engine, print)} pairs of rows"
-                " settled"
+            found = (read(options.catalog, n, damped) for damped in (False, True))
+            count = sum(
+                settle_dampers(family, options.catalog, engine.settings, print) for family in found
             )
-            if options.dampers and n in SHIPPED_SIZES:
-                found = (read(options.catalog, n, damped) for damped in (False, True))
-                count = sum(
-                    settle_dampers(family, options.catalog, engine.settings, print)
-                    for family in found
-                )
-                print(f"{n} masses with dampers to the ground: {count} pairs of classes settled")
+            print(f"{n} masses with dampers to the ground: {count} pairs of classes settled")
     return 0
 
 

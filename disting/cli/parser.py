@@ -106,7 +106,7 @@ CATALOG = Group(
         ),
         Command(
             "settle",
-            "decide the rows of masses that leave pairs open, to be shipped",
+            "decide pairs of classes with dampers to the ground that are open, to be shipped",
             "catalogs",
             "settle",
             "add_settle_arguments",

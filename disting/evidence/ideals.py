@@ -189,50 +189,6 @@ class Shared:
 
 
 @dataclass(frozen=True, slots=True)
-class ByRow:
-    """Exact decision: the `part` of both chains ("grounded", "free", "whole") is a row of so many
-    masses, with a wall or not.
-
-    A generic one with the ports `given` is none with the ports `searched`: see `zeros.Branched`
-    for the rest.
-    """
-
-    kind: ClassVar[str] = "row"
-    part: str
-    wall: bool
-    masses: int
-    given: tuple[int, int]
-    searched: tuple[int, int]
-    label: str
-    branches: int
-    degree: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """What was found of the rows, and why it decides."""
-        ports = (
-            f"force and sensor on its masses {a} and {b}" for a, b in (self.given, self.searched)
-        )
-        where = "are one row" if self.part == "whole" else f"have a {self.part} row"
-        rest = (
-            ""
-            if self.part == "whole"
-            else " An equivalent model would have the same poles in each of its rows."
-        )
-        return (
-            f"{left} and {right} {where} of {self.masses}"
-            f" masses{' with the wall' if self.wall else ''}.{rest} For random elements modulo a"
-            f" random prime, a row with {next(ports)} has no equivalent with {next(ports)}: of the"
-            f" ways to give the zeros to the factors of its numerator, all {self.branches} that"
-            " need be tried are contradictory."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The fibre is empty."""
-        return "N₂(q) = Π(s − z), D₂(q) = D₁(p₀): 1 ∈ I for each choice of zeros"
-
-
-@dataclass(frozen=True, slots=True)
 class FullRows:
     """Exact decision: `free` coefficients of each row, as many as its rank; 0 where both
     chains have the very same row.

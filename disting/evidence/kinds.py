@@ -18,7 +18,7 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import ByConditions, Counts
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import OfGeneralModels
-from disting.evidence.ideals import ByRow, ByRows, FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import ByRows, FullRows, Refuted, Shared, Solved
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
@@ -29,9 +29,7 @@ from disting.evidence.limits import (
 )
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 
-ByDecision = (
-    Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | ByRow | Refuted | Shared
-)
+ByDecision = Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | Refuted | Shared
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
 )
@@ -58,7 +56,6 @@ GROUNDS = {
     "fibre under experiments": "one fibre",
     "solved": "the ideal of one fibre",
     "refuted": "the ideal of one fibre",
-    "row": "a row of masses decided once for all",
     "shared": "all ways to share out the zeros of a row",
     "full-parts": "rows that can have any receptance",
     "constants": "constants",

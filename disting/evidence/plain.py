@@ -7,6 +7,11 @@ from dataclasses import asdict, is_dataclass
 from types import UnionType
 from typing import Any, ClassVar, Union, get_args, get_origin, get_type_hints
 
+GONE = {
+    "program": "an external program, which decides nothing now",
+    "row": "an answer about rows of masses that is shipped no more",
+}  # kinds that older versions wrote, each with what it rested on
+
 
 def to_dict(evidence: Any) -> dict[str, object]:
     """Plain data, ready for JSON."""
@@ -19,11 +24,10 @@ def from_dict(data: dict[str, Any], kinds: Iterable[type[Any]]) -> Any:
     """Evidence of one of these kinds; lists become tuples. Raises KeyError, TypeError or
     ValueError for what is none.
     """
-    if data["kind"] == "program":
-        raise ValueError(
-            "this verdict rests on an external program, which decides nothing now; ask for it again"
-        )
-    kind = {k.kind: k for k in kinds}[str(data["kind"])]
+    name = str(data["kind"])
+    if name in GONE:
+        raise ValueError(f"this verdict rests on {GONE[name]}; ask for it again")
+    kind = {k.kind: k for k in kinds}[name]
     if hasattr(kind, "from_dict"):
         return kind.from_dict(data)
     return kind(**fields(data))

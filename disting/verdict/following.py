@@ -15,7 +15,7 @@ from disting.evidence.conditions import (
 )
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
-from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.model.domain import Domain
@@ -24,7 +24,7 @@ from disting.verdict.cascade import PROVES
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
-APART = (DeadTime, FibreUnder, Refuted, Shared, ByRow, Constants)  # of the exact decision
+APART = (DeadTime, FibreUnder, Refuted, Shared, Constants)  # of the exact decision
 SAME = (Theorem, FullRows, Solved)
 BY_CONDITION: dict[type[Any], tuple[str, ...]] = {
     Counts: ("1", "2"),

@@ -31,7 +31,6 @@ KILLS = [
     ((*VERDICTS, "--jobs", "2"), 30, 0.0),
     (("catalog", "build", "2", "--out", FOLDER), 50, 0.0),
     (("catalog", "dampers", "2", "--out", FOLDER), 30, 0.0),
-    (("catalog", "settle", "2", "--catalog", FOLDER), 10, 0.0),
     (("report", "1", "2", "--out", FOLDER), 40, 0.0),
     (FIT, 40, 0.0),
     ((*FIT, "--out", f"{FOLDER}/out"), 10, 0.6),  # late, while its page is written

@@ -6,8 +6,6 @@ apart first (`by_two_rows`). Independent of `disting.fibres.synthesis`.
 """
 
 from disting.fibres.decision import Decision as Decision
-from disting.fibres.ideals.by_one_row import confirms_row as confirms_row
-from disting.fibres.ideals.by_one_row import differ_by_row as differ_by_row
 from disting.fibres.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.fibres.ideals.by_two_rows import confirms_by_rows as confirms_by_rows
 from disting.fibres.ideals.by_two_rows import decide_by_rows as decide_by_rows

@@ -63,7 +63,7 @@ class FactoredMap:
     are 1.
 
     D is without its factor s^k. `whole`: the receptance with its gain, the last parameter, which
-    the others do not contain; of `monic_map` without the gain.
+    the others do not contain.
     """
 
     name: str
@@ -170,10 +170,9 @@ def shared_fibre(
             field.constant(0),
         )
         equations += _tangents(height, other, normal)
-    placed = list(field.gens())
-    for h, z in zip(other.joints, share.joints, strict=True):
-        placed[h] = field.constant(-z % modulus)
-    return _solved([p.compose(*placed) for p in equations], field, set(other.joints))
+    heads = zip(other.joints, share.joints, strict=True)
+    placed: dict[str | int, int] = {h: -z % modulus for h, z in heads}
+    return _solved([p.subs(placed) for p in equations], field, set(other.joints))
 
 
 def _ports(row: Row) -> tuple[int, int]:
@@ -249,20 +248,17 @@ def _solved(
     equations: list[fmpz_mod_mpoly], field: fmpz_mod_mpoly_ctx, gone: set[int]
 ) -> tuple[int, list[Polynomial]]:
     """The equations without the unknowns that are gone already, or that linear equations give."""
-    gens, gone = list(field.gens()), set(gone)
+    gone = set(gone)
     while True:
         equations = [p for p in equations if not p.is_zero()]
         linear = next((p for p in equations if p.total_degree() == 1), None)
         if linear is None:
             break
         lead = next(e for e, _ in linear.terms() if sum(e))
-        at = lead.index(1)
-        images = list(gens)
-        images[at] = gens[at] - linear * pow(int(linear[lead]), -1, int(field.modulus()))
-        gone.add(at)
-        equations = [p.compose(*images) for p in equations]
+        gone.add(lead.index(1))
+        equations = [p % linear for p in equations]  # its first unknown is put in
     # in this order the bases are found a little faster
-    kept = [i for i in reversed(range(len(gens))) if i not in gone]
+    kept = [i for i in reversed(range(field.nvars())) if i not in gone]
     return len(kept), [
-        {tuple(int(e[i]) for i in kept): int(c) for e, c in p.terms()} for p in equations
+        {tuple(map(int, map(e.__getitem__, kept))): int(c) for e, c in p.terms()} for p in equations
     ]

@@ -28,7 +28,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations, permutations
 from math import ceil, lcm, log2
 
-from flint import fmpz_mod_poly
+from flint import fmpz, fmpz_mod_poly
 
 from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
 from disting.algebra.groebner.modular import long_polynomial
@@ -124,15 +124,16 @@ def _points(
     """Points with all roots of N in the field and distinct, with the roots and their types."""
     for draw in range(DRAWS):
         point = residues(f"{label}:{draw}", len(given.parameters), modulus)
-        found = [_roots(_monic(f, point, modulus), modulus) for f in (given.left, given.right)]
-        if any(f is None for f in found):
+        factors = [_monic(f, point, modulus) for f in (given.left, given.right)]
+        # the cheap test of both first
+        if not all(test(f, modulus) for test in (_may_split, _splits) for f in factors):
             continue
         at = values(given, point, modulus)
         types = [(z, f"joint {i}") for i, z in enumerate(at.joints)]
         types += [
             (z, kind)
-            for kind, roots in zip(("left", "right"), found, strict=True)
-            for z in roots or ()
+            for kind, factor in zip(("left", "right"), factors, strict=True)
+            for z in _roots(factor)
         ]
         if len({z for z, _ in types}) == len(types):
             yield at, types
@@ -199,17 +200,19 @@ def _cycles(factor: fmpz_mod_poly) -> tuple[int, ...]:
     )
 
 
-def _roots(factor: fmpz_mod_poly, modulus: int) -> tuple[int, ...] | None:
-    """All roots, if the polynomial splits into distinct linear factors; that x^p = x modulo it
-    is found in no time.
-    """
-    degree, x = factor.degree(), long_polynomial([0, 1], modulus)
-    if degree < 1:
-        return ()
-    if degree > 1 and x.pow_mod(modulus, factor) != x:
-        return None
-    found = tuple(sorted(int(z) for z, _ in factor.roots()))
-    return found if len(found) == degree else None
+def _may_split(factor: fmpz_mod_poly, modulus: int) -> bool:
+    """Whether its discriminant is a square, as of distinct linear factors (L. Stickelberger)."""
+    return factor.degree() < 2 or fmpz(int(factor.discriminant())).jacobi(modulus) == 1
+
+
+def _splits(factor: fmpz_mod_poly, modulus: int) -> bool:
+    """Whether it is a product of distinct linear factors: modulo these alone x^p = x."""
+    x = long_polynomial([0, 1], modulus)
+    return factor.degree() < 2 or x.pow_mod(modulus, factor) == x
+
+
+def _roots(factor: fmpz_mod_poly) -> list[int]:
+    return sorted(int(z) for z, _ in factor.roots()) if factor.degree() > 0 else []
 
 
 def _monic(coordinates: Sequence[Terms], point: Sequence[int], modulus: int) -> fmpz_mod_poly:

@@ -6,7 +6,7 @@ from disting.algebra.certainty import Certainty, Grade, weakest
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.decision import Decision
@@ -17,7 +17,6 @@ from disting.model.settings import Settings
 from disting.questions.identifiability import identifiability
 from disting.questions.same.exact import (
     by_full_rows,
-    by_row,
     by_shares,
     by_synthesis,
     decided,
@@ -50,8 +49,6 @@ def exact_again(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> F
             return by_synthesis(a, b, settings)
         case FullRows():
             return by_full_rows(a, b)
-        case ByRow():
-            return by_row(a, b)
         case Shared():
             return by_shares(a, b, settings)
         case Solved() | Refuted():

@@ -20,14 +20,13 @@ from disting.evidence.conditions import (
 )
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
-from disting.evidence.ideals import ByRow, FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
     chains_told_apart,
     coefficient_map,
-    confirms_row,
     normalised,
     same_by_full_rows,
     seen_again,
@@ -74,10 +73,6 @@ class Witness:
                 return _shares(evidence, left, right)
             case Solved() | Refuted():
                 return _ideal(evidence, left, right)
-            case ByRow():
-                return confirms_row(
-                    evidence, *(rational_part(canonical(chain).chain) for chain in (left, right))
-                )
             case BothWays():
                 return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
             case OddFibres():

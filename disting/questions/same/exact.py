@@ -19,8 +19,8 @@ Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up 
 drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a row; with
-dampers to the ground also some neighbouring ports) or finds only numbers, what is known of the
-rows of both chains decides (`ideals.by_one_row`), then the fibre's ideal, modulo random primes and
+dampers to the ground also some neighbouring ports) or finds only numbers, the ways to share out
+the numerator's roots decide (`ideals.by_shares`), then the fibre's ideal, modulo random primes and
 with bounds of its own (see `disting.fibres.ideals`). No other program is asked: the answer depends
 on the question alone.
 
@@ -49,15 +49,12 @@ from disting.evidence.ideals import Refuted, Shared, Solved
 from disting.fibres import ideals
 from disting.fibres.decision import Decision
 from disting.fibres.ideals import Limits, chains_told_apart, coefficient_map, normalised
-from disting.fibres.ideals.by_one_row import differ_by_row
 from disting.fibres.ideals.full_rows import same_by_full_rows
-from disting.fibres.ideals.zeros import safety_of_branches
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
 from disting.model.chain import Chain
 from disting.model.question import Membership
-from disting.model.row import Row
 from disting.model.settings import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
@@ -87,9 +84,6 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     if found is None:
         found = by_full_rows(a, b)
     if found is None:
-        found = by_row(a, b)
-    # they make the ideals of whole fibres too large
-    if found is None and (a.ground_dampers or b.ground_dampers):
         found = by_shares(a, b, settings)
     return by_ideals(a, b, settings, LIMITS) if found is None else found
 
@@ -132,31 +126,6 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
         certainty=Certainty.BOUNDED,
         safety=found[1],
         evidence=found[0],
-    )
-
-
-def by_row(a: Chain, b: Chain) -> Finding | None:
-    """What is known once for all of rows of masses; a dead time that both have is a factor of
-    its own.
-    """
-    evidence = differ_by_row(rational_part(a), rational_part(b))
-    if evidence is None:
-        return None
-    given, searched = (
-        Row(evidence.masses, evidence.wall, *ports, damped=True)
-        for ports in (evidence.given, evidence.searched)
-    )
-    safety = safety_of_branches(given, searched)
-    return (
-        Finding(
-            rule=EXACT,
-            outcome=Outcome.FAILS,
-            certainty=Certainty.BOUNDED,
-            safety=safety,
-            evidence=evidence,
-        )
-        if safety >= LEAST_SAFETY
-        else None
     )
 
 

@@ -4,20 +4,29 @@ that are known to be the same.
 
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, product
 
 import pytest
 import sympy
 
 from disting import Family
+from disting.algebra.groebner.modular import long_polynomial
 from disting.algebra.sampling import prime, residues
 from disting.catalogs.damper_files import damper_catalog
 from disting.conditions import Outcome
-from disting.fibres.ideals import chains_told_apart
+from disting.fibres.ideals import Limits, chains_told_apart, decide, generic_rank
 from disting.fibres.ideals.factored import factored, shared_fibre, values
-from disting.fibres.ideals.shares import _transposes, is_symmetric, shares_by_type
+from disting.fibres.ideals.shares import (
+    _may_split,
+    _splits,
+    _transposes,
+    is_symmetric,
+    shares_by_type,
+    told_apart,
+)
 from disting.model.chain import Chain
-from disting.model.row import rows_of
+from disting.model.question import Membership
+from disting.model.row import Row, rows_of
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
@@ -181,3 +190,46 @@ def test_a_power_that_is_a_transposition():
 def test_groups_of_rows_are_symmetric():
     assert is_symmetric(factored(*rows_of(model("5:2+b1").structure)), "six roots")
     assert is_symmetric(factored(*rows_of(model("5:8+b1").structure)), "two and two")
+
+
+def of_one_kind(masses):
+    """Pairs of damped rows of equal rank and degrees, with one damper to the ground or none."""
+    ports = [(a, b) for a in range(1, masses + 1) for b in range(a, masses + 1)]
+    dampers = [(), *((m,) for m in range(1, masses + 1))]
+    found = product((False, True), ports, dampers)
+    rows = sorted({Row(masses, wall, *p, True, d).canonical for wall, p, d in found})
+    maps = {row: factored(row) for row in rows}
+    ranks = {row: generic_rank(m.whole, "test") for row, m in maps.items()}
+    return [
+        (maps[r], maps[s]) for r, s in combinations(rows, 2) if alike(r, ranks) == alike(s, ranks)
+    ]
+
+
+def alike(row, ranks):
+    """What two rows that may be the same have in common."""
+    return row.grounded, row.distance, len(row.ground_dampers), ranks[row]
+
+
+@pytest.mark.parametrize("masses", [2, pytest.param(3, marks=pytest.mark.slow)])
+def test_rows_are_told_apart_where_the_ideal_of_the_whole_fibre_is_everything(masses):
+    limits, told = Limits(seconds=600, entries=10**8, safety=40), list[bool]()
+    for left, right in of_one_kind(masses):
+        whole = decide(left.whole, right.whole, equal_rank=True, seed="test", limits=limits)
+        told.append(whole.membership is Membership.EXCLUDED)
+        assert whole.membership is not Membership.UNKNOWN
+        assert (told_apart(left, right, "test") is not None) == told[-1]
+    assert 0 < sum(told) < len(told)
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3, 4])
+def test_what_splits_is_what_has_as_many_linear_factors(degree):
+    seen = set()
+    for draw in range(200):
+        f = long_polynomial([*residues(f"{degree}:{draw}", degree, 31), 1], 31)
+        factors = f.factor()[1]
+        seen.add(_splits(f, 31))
+        assert _splits(f, 31) == all(g.degree() == e == 1 for g, e in factors)
+        assert _may_split(f, 31) or not _splits(f, 31)
+        distinct = all(e == 1 for _, e in factors)
+        assert degree < 2 or _may_split(f, 31) == (distinct and (degree - len(factors)) % 2 == 0)
+    assert seen == {True, False} or degree == 1
