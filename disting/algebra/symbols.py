@@ -100,8 +100,8 @@ def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]
     the same factors, primitive and in the same order, and compares numbers of any size.
 
     >>> x, y = symbols(["x", "y"]).values()
-    >>> factored(6 * (x + 2**200) * (x + 1) ** 2 * (x - y))[1][0]
-    (x - y, 1)
+    >>> factored(6 * (x + 3 * 10**9) * (x + 1) ** 2 * (x - 10**9))
+    (6, [(x - 1000000000, 1), (x + 3000000000, 1), (x + 1, 2)])
     """
     try:
         number, found = polynomial.factor()
