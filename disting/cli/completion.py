@@ -6,8 +6,9 @@ import argparse
 import re
 from collections.abc import Iterator
 
-from disting.model.family import NUMBERED_UP_TO, Family
+from disting.model.family import Family
 
+SIZES = range(1, 9)  # that are offered: of 9 masses there are a thousand models
 MODELS = re.compile(r"\b[NM]:[IJ]\b")  # in what an argument is called
 
 
@@ -33,10 +34,9 @@ def models(prefix: str, **_: object) -> list[str]:
     match = re.fullmatch(r"([1-9]?)(:\d*)?", prefix)
     if match is None:
         return []
-    sizes = range(1, NUMBERED_UP_TO + 1)
     if match[2] is None:
-        return [f"{n}:" for n in sizes if str(n).startswith(match[1])]
-    known = Family(int(match[1])) if int(match[1] or 0) in sizes else ()
+        return [f"{n}:" for n in SIZES if str(n).startswith(match[1])]
+    known = Family(int(match[1])) if int(match[1] or 0) in SIZES else ()
     names = (f"{match[1]}:{i}" for i in range(1, len(known) + 1))
     return [name for name in names if name.startswith(prefix)]
 

@@ -19,7 +19,7 @@ from disting.errors import InputError, shown
 from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
 from disting.model.family import Family
-from disting.model.names import EXTRAS, chain_of, extended, sized
+from disting.model.names import EXTRAS, chain_of, extended, name_of, sized
 
 Value = Number | str
 
@@ -78,14 +78,13 @@ def point_of(chain: Chain, values: Mapping[str, Value]) -> dict[str, fmpq]:
     unknown = [str(name) for name in values if name not in chain.parameters]
     if unknown:
         raise InputError(
-            f"{', '.join(unknown)}: no parameter of the chain with {chain}; its parameters are"
-            f" {names}"
+            f"{', '.join(unknown)}: no parameter of {name_of(chain)}; its parameters are {names}"
         )
     missing = [name for name in chain.parameters if name not in values]
     if missing:
         raise InputError(
-            f"the value of {', '.join(missing)} is missing; the parameters of the chain with"
-            f" {chain} are {names}"
+            f"the value of {', '.join(missing)} is missing; the parameters of {name_of(chain)} are"
+            f" {names}"
         )
     return {name: _fraction(name, values[name]) for name in chain.parameters}
 

@@ -105,4 +105,4 @@ def reference(chain: Chain) -> str:
 
 def _is_in(family: Family, chain: Chain) -> bool:
     plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
-    return plain in family.models
+    return plain in family

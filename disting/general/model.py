@@ -25,6 +25,7 @@ from disting.general.expression import tree
 from disting.general.response import responses
 from disting.general.trees import LONGEST_NUMBER, Tree, names
 from disting.model.chain import Chain
+from disting.model.names import name_of
 from disting.model.shown import Shown, plural, summary
 
 MOST_SYMBOLS = 300
@@ -115,7 +116,7 @@ class Model(Shown):
         parameters = tuple(sorted(chain.parameters))
         ring = symbols(["s", *parameters])
         num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
-        return _model(RationalFunction(num, den), parameters, name or str(chain))
+        return _model(RationalFunction(num, den), parameters, name or name_of(chain))
 
     @property
     def numerator(self) -> tuple[fmpz_mpoly, ...]:

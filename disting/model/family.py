@@ -3,18 +3,16 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
-from disting.model.constraints import Indices, violated
+from disting.model.constraints import violated
+from disting.model.numbering import after, before, count
 from disting.model.shown import Shown
 
 # of a family that a command or a text may ask for: it has 1.4 million models, listed in half a
 # minute
 MOST_MASSES = 40
-# masses; larger families are long to list, so their chains are named by their indices
-NUMBERED_UP_TO = 8
 
 
 @dataclass(frozen=True)
@@ -47,37 +45,34 @@ class Family(Shown):
     @cached_property
     def models(self) -> tuple[Chain, ...]:
         """All models; `models[0]` is model 1."""
-        return tuple(
-            Chain(*i, sensor=self.sensor, damped=self.damped) for i in _admissible(self.n_masses)
-        )
+        return tuple(map(self._model, range(len(self))))
 
     def __len__(self) -> int:
-        return len(self.models)
+        return count(self.n_masses)
 
     def __iter__(self) -> Iterator[Chain]:
         return iter(self.models)
+
+    def __contains__(self, chain: object) -> bool:
+        return (
+            isinstance(chain, Chain)
+            and chain.n_masses == self.n_masses
+            and chain == Chain(*chain.indices, sensor=self.sensor, damped=self.damped)
+            and not any(violated(chain.indices, (38,)))  # no chain breaks (36) or (37)
+        )
 
     def __getitem__(self, number: int) -> Chain:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(self):
             raise InputError(
                 f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)}"
             )
-        return self.models[number - 1]
+        return self._model(number - 1)
 
     def number(self, chain: Chain) -> int:
         """Number of a chain in this family; raises InputError for a chain outside it."""
-        try:
-            return self.models.index(replace(chain, sensor=self.sensor, damped=self.damped)) + 1
-        except ValueError:
-            raise InputError(
-                f"the chain with {chain} is not in the {self.n_masses}-mass family"
-            ) from None
+        if replace(chain, sensor=self.sensor, damped=self.damped) not in self:
+            raise InputError(f"the chain with {chain} is not in the {self.n_masses}-mass family")
+        return before(chain.indices) + 1
 
-
-def _admissible(n: int) -> Iterator[Indices]:
-    for gap in range(n):
-        low, high = range(gap + 1), range(gap + 1, n + 1)
-        for act_minus, act_plus, meas_minus, meas_plus in product(low, high, low, high):
-            indices = Indices(n, gap, act_minus, act_plus, meas_minus, meas_plus)
-            if not any(violated(indices, (36, 37, 38))):
-                yield indices
+    def _model(self, place: int) -> Chain:
+        return Chain(*after(self.n_masses, place), sensor=self.sensor, damped=self.damped)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.family import MOST_MASSES, NUMBERED_UP_TO, Family
+from disting.model.family import MOST_MASSES, Family
 
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
 NAME = re.compile(rf"(?:(\d{{1,3}}):[Aa]?|[Aa])(\d{{1,7}})({EXTRAS})")
@@ -109,18 +109,19 @@ def chains_named(
 
 
 def name_of(chain: Chain) -> str:
-    """The name of a chain, wholly; its indices instead of a number for chains without one.
+    """The name of a chain, wholly; its indices instead of a number for chains without one: those
+    of another numbering (38), and of more masses than names have.
 
     >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)))
     '3:4+b1'
+    >>> name_of(Chain(40))
+    '40:1'
     """
     plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
     family = Family(chain.n_masses, chain.damped, chain.sensor)
-    try:
-        number = family.number(plain) if chain.n_masses <= NUMBERED_UP_TO else 0
-    except InputError:
-        number = 0
-    return (f"{chain.n_masses}:{number}" if number else f"({plain})") + extras_of(chain)
+    numbered = chain.n_masses <= MOST_MASSES and plain in family
+    name = f"{chain.n_masses}:{family.number(plain)}" if numbered else f"({plain})"
+    return name + extras_of(chain)
 
 
 def extras_of(chain: Chain) -> str:

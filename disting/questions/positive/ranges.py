@@ -31,6 +31,7 @@ from disting.fibres.synthesis.result import Answer, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
+from disting.model.names import name_of
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical, forms
 from disting.questions.positive.obstacles import Obstacle, Point
@@ -258,7 +259,7 @@ def _known(chain: Chain, side: Mapping[str, Range]) -> None:
     strange = sorted(set(side) - set(chain.parameters))
     if strange:
         raise InputError(
-            f"{chain} has no parameter {strange[0]}; it has {', '.join(chain.parameters)}"
+            f"{name_of(chain)} has no parameter {strange[0]}; it has {', '.join(chain.parameters)}"
         )
 
 
