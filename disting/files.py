@@ -5,6 +5,7 @@ all, with the same bytes on every system.
 import contextlib
 import json
 import os
+import re
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import BinaryIO
 from disting.errors import CatalogError
 
 PROVENANCE = "provenance.json"
+STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
 __version__ = "0.2.0"  # of the package; files that it writes name it
 
 
@@ -63,31 +65,38 @@ def write_whole(path: Path, content: bytes | Iterable[str]) -> Path:
     names, is escaped.
 
     A kill or a full disk leaves an older file as it was, and processes that write the same file at
-    once leave that of one of them. A link stays a link; devices and pipes are written to as they
-    are. Raises OSError that names the file.
+    once leave that of one of them. A link stays a link; devices, pipes and open streams (/dev/fd/3)
+    are written to as they are. Raises OSError that names the file.
     """
-    parts = (
-        (content,)
-        if isinstance(content, bytes)
-        else (text.encode(errors="backslashreplace") for text in content)
-    )
+    parts = (content,) if isinstance(content, bytes) else map(in_bytes, content)
     try:
-        with _opened(path.resolve()) as file:
+        with _opened(path) as file:
             file.writelines(parts)
     except OSError as reason:
         raise OSError(reason.errno, reason.strerror, str(path)) from None
     return path
 
 
+def in_bytes(text: str) -> bytes:
+    """UTF-8; what it lacks, of odd file names, is escaped, which in JSON means the same."""
+    return text.encode(errors="backslashreplace")
+
+
 @contextlib.contextmanager
-def _opened(target: Path) -> Iterator[BinaryIO]:
-    """A file that takes the target's place at the end, or the target itself where it is no
-    plain file.
+def _opened(path: Path) -> Iterator[BinaryIO]:
+    """A file that takes the place of the one that a path leads to at the end, or what it leads to
+    where that is no plain file.
     """
-    if target.exists() and not target.is_file():
-        with target.open("wb") as file:
+    stream = STREAM.fullmatch(str(path))
+    if stream:
+        with open(int(stream[1]), "wb", closefd=False) as file:
             yield file
         return
+    if path.exists() and not path.is_file():
+        with path.open("wb") as file:
+            yield file
+        return
+    target = path.resolve()
     beside = target.with_name(f"{target.name[:200]}.{os.getpid()}.partial")
     beside.unlink(missing_ok=True)  # of a killed process that had this number
     try:

@@ -1,15 +1,10 @@
-"""What several commands share: how models, conditions and views are written, and how results
-are told.
-"""
+"""What several commands share: how conditions and views are written, and how relations are told."""
 
-import sys
 from collections import Counter
 from collections.abc import Iterable
-from pathlib import Path
 
 from disting.conditions.table import RULES
 from disting.errors import InputError
-from disting.files import write_whole
 from disting.model.domain import Domain
 from disting.verdict import Query, Relation, View
 
@@ -56,24 +51,3 @@ def rules_in_words(counts: dict[str, int], domain: Domain) -> str:
         )
         or "none"
     )
-
-
-def emitted(where: str, text: str) -> None:
-    """Write text to a file, or to standard output for -; raises InputError where that is
-    impossible.
-    """
-    emitted_lines(where, [text])
-
-
-def emitted_lines(where: str, lines: Iterable[str]) -> None:
-    """As `emitted`, line by line as they come."""
-    if where == "-":
-        sys.stdout.writelines(lines)
-        return
-    try:
-        write_whole(Path(where), lines)
-    except OSError as reason:
-        raise InputError(
-            f"{where} cannot be written ({reason.strerror}); name another file, or - for standard"
-            " output"
-        ) from None

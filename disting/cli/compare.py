@@ -18,7 +18,9 @@ from disting.cli.arguments import (
     add_quantity,
 )
 from disting.cli.colour import in_colour
-from disting.cli.common import emitted, query
+from disting.cli.common import query
+from disting.cli.output import emitted
+from disting.cli.plain import keep_apart
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
@@ -123,7 +125,9 @@ def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | An
         refuse_chain_options(options)
     rest = [text for text in texts if FILE not in text]
     named = iter(chains_named(rest, damped=options.damped, sensor=options.quantity))
-    return [_of_file(text) if FILE in text else next(named) for text in texts]
+    lists = {path: read_models(path) for path, _ in map(_parted, texts) if path}
+    keep_apart(model.name for found in lists.values() for model in found)
+    return [lists[path][name] if path else next(named) for path, name in map(_parted, texts)]
 
 
 def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
@@ -132,9 +136,10 @@ def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
     return chains if len(chains) == len(sides) else []
 
 
-def _of_file(text: str) -> AnyModel:
-    path, name = text.split(FILE, 1)
-    return read_models(f"{path}{FILE[:-1]}")[name]
+def _parted(text: str) -> tuple[str, str]:
+    """A file and the name of a model in it; "" and the text where it names a chain."""
+    path, mark, name = text.partition(FILE)
+    return (f"{path}{FILE[:-1]}", name) if mark else ("", text)
 
 
 def _in_letters(side: Chain | AnyModel) -> str:

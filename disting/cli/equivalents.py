@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from disting.cli.arguments import add_damped, add_json
-from disting.cli.common import emitted
+from disting.cli.output import emitted
 from disting.equivalence import (
     NONE,
     Equivalent,

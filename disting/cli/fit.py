@@ -8,9 +8,9 @@ import shlex
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from disting.cli.common import emitted
 from disting.cli.fit_data import Data, data, sensors
 from disting.cli.fit_told import told
+from disting.cli.output import emitted
 from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.fit.admissible import Rule

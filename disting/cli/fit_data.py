@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from disting.cli.plain import complain
+from disting.cli.plain import complain, keep_apart
 from disting.errors import InputError, shown
 from disting.fit.joint import Further
 from disting.fit.setup import Setup
@@ -76,6 +76,7 @@ def _check(options: argparse.Namespace) -> None:
 
 def _from_files(options: argparse.Namespace) -> Data:
     places = sensors(options)
+    keep_apart(map(str, (*options.train, *options.test, *options.repeat)))
     train = list(_responses(options.train, options, "TRAIN"))
     tests = list(_responses(options.test, options, "--test")) if options.test else []
     signs = _signs(options, len(places))

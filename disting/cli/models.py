@@ -10,6 +10,7 @@ from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import add_damped, add_work, is_damped, size_or_file
+from disting.cli.plain import keep_apart
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError
@@ -96,6 +97,7 @@ def _of_file(path: Path, options: argparse.Namespace) -> int:
         raise InputError("--also belongs to chains: a model of a file has no masses to name")
     refuse_chain_options(options)
     found = read_models(path)
+    keep_apart(model.name for model in found)
     asked = [(replace(model, name="model"),) for model in found]
     with engine_for(options) as (engine, pool, progress):
         engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)

@@ -6,6 +6,7 @@ them, which loads libraries that help needs not.
 """
 
 import argparse
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -260,6 +261,9 @@ class _Parser(argparse.ArgumentParser):
             known = list(map(str, action.choices))
             said = f"{shown(value)} is none of {', '.join(known)}{near(str(value), known)}"
             raise argparse.ArgumentError(action, said)
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        (file or sys.stderr).write(message)  # argparse would hide that it cannot be written
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""

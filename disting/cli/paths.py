@@ -7,6 +7,8 @@ import os
 from pathlib import Path
 from tempfile import TemporaryFile
 
+from disting.cli.output import ITS_NAMES
+
 
 def written_file(text: str) -> str:
     """A file that can be written, or - for standard output; raises ArgumentTypeError.
@@ -15,8 +17,10 @@ def written_file(text: str) -> str:
     '-'
     """
     path = Path(text)
-    if text == "-":
-        return text
+    if text in ITS_NAMES:
+        return "-"
+    if text == "/dev/stderr":  # by its number it is a stream, whatever it leads to
+        return "/dev/fd/2"
     if not text or "\0" in text or path.is_dir():
         raise argparse.ArgumentTypeError(
             f"{text or 'an empty name'} is no file; name a file, or - for standard output"

@@ -7,6 +7,7 @@ in an error.
 
 import codecs
 import sys
+from collections.abc import Iterable
 from unicodedata import normalize
 
 from disting.errors import brief
@@ -29,14 +30,26 @@ def say_what_can_be_said() -> None:
             stream.reconfigure(errors=HANDLER)
 
 
+def keep_apart(names: Iterable[str]) -> None:
+    """Write what the streams lack so that no two of these names, of models or files, become one:
+    as escapes where they would.
+    """
+    known = set(names)
+    for stream in (sys.stdout, sys.stderr):
+        ways = (HANDLER, "backslashreplace", "namereplace")
+        if hasattr(stream, "reconfigure"):
+            encoding = stream.encoding
+            apart = (w for w in ways if len({n.encode(encoding, w) for n in known}) == len(known))
+            stream.reconfigure(errors=next(apart, ways[-1]))
+
+
 def in_ascii(text: str) -> str:
-    """The text in ASCII: a sign's usual substitute, a letter without its accent, else a question
-    mark.
+    """The text in ASCII: a sign's usual substitute, a letter without its accent, else an escape.
 
     >>> in_ascii("rank ∂(G₁)/∂p = 6 ≠ 7, Gröbner, ☂")
-    'rank d(G1)/dp = 6 != 7, Grobner, ?'
+    'rank d(G1)/dp = 6 != 7, Grobner, \\\\u2602'
     """
-    return "".join(c if c.isascii() else PLAIN.get(c) or _without_marks(c) or "?" for c in text)
+    return "".join(c if c.isascii() else PLAIN.get(c) or _without_marks(c) for c in text)
 
 
 def complain(message: object) -> None:
@@ -47,7 +60,8 @@ def complain(message: object) -> None:
 
 
 def _without_marks(character: str) -> str:
-    return normalize("NFKD", character).encode("ascii", "ignore").decode()
+    bare = normalize("NFKD", character).encode("ascii", "ignore").decode()
+    return bare or character.encode("ascii", "backslashreplace").decode()
 
 
 def _replaced(error: UnicodeError) -> tuple[str, int]:

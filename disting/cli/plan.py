@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from disting.cli.arguments import is_damped
-from disting.cli.common import emitted
+from disting.cli.output import emitted
 from disting.cli.plain import complain
 from disting.cli.workers import engine_for
 from disting.equivalence.given import assignments, point_of

@@ -4,9 +4,12 @@ import os
 import signal
 import sys
 import warnings
+from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from typing import TextIO, cast
 
+from disting.cli.output import Output
 from disting.cli.parser import parser
 from disting.cli.plain import complain, say_what_can_be_said
 from disting.errors import DistingError, shown
@@ -22,7 +25,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with open(os.devnull, "w", encoding="utf-8") as nowhere, warnings.catch_warnings():
         warnings.showwarning = _warned
         # the shell may have closed them
-        with redirect_stdout(sys.stdout or nowhere), redirect_stderr(sys.stderr or nowhere):
+        out = Output(sys.stdout or nowhere)
+        with redirect_stdout(cast(TextIO, out)), redirect_stderr(sys.stderr or nowhere):
             return _run(arguments)
 
 
@@ -41,7 +45,7 @@ def _run(arguments: Sequence[str] | None) -> int:
     try:
         if COMPLETION in os.environ:
             return _complete()
-        options = parser(whole=False).parse_args(arguments)
+        options = _parsed(arguments)
         work = options.command.work()
         with _heard():
             status: int = work(options)
@@ -65,6 +69,14 @@ def _run(arguments: Sequence[str] | None) -> int:
         return 130
     finally:
         _drop_what_cannot_be_written()
+
+
+def _parsed(arguments: Sequence[str] | None) -> Namespace:
+    try:
+        return parser(whole=False).parse_args(arguments)
+    except SystemExit:  # help was asked for, and must have been written
+        sys.stdout.flush()
+        raise
 
 
 def _complete() -> int:

@@ -17,14 +17,10 @@ from disting.cli.arguments import (
     sizes_or_file,
     whole,
 )
-from disting.cli.common import (
-    VIEWS,
-    emitted,
-    query,
-    relations_in_words,
-    rules_in_words,
-)
+from disting.cli.common import VIEWS, query, relations_in_words, rules_in_words
+from disting.cli.output import emitted
 from disting.cli.paths import written_file
+from disting.cli.plain import keep_apart
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
@@ -110,6 +106,7 @@ def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
 def list_of(path: Path) -> ModelList:
     """The models of a file, two at least."""
     found = read_models(path)
+    keep_apart(model.name for model in found)
     if len(found) < 2:
         raise InputError(f"{path} has one model: there is nothing to compare; add another one")
     refuse_ports(found.models)

@@ -8,12 +8,15 @@ by the inode number that the path holds another file, and open that one.
 
 import contextlib
 import os
+import re
 import sqlite3
 from pathlib import Path
 from typing import Final
 
 import platformdirs
 from filelock import FileLock
+
+from disting.errors import InputError, shown
 
 Identity = tuple[int, int]  # device and inode number: which file a path holds
 
@@ -22,7 +25,9 @@ SCHEMA_VERSION: Final = 1
 SCHEMA: Final = (
     "CREATE TABLE entry (key BLOB PRIMARY KEY, checksum BLOB NOT NULL, value BLOB NOT NULL)"
 )
+VARIABLE: Final = "DISTING_CACHE"
 NOWHERE: Final = ""
+OFF: Final = "off"
 MEMORY: Final = ":memory:"
 MISSING: Final = (0, 0)
 IN_MEMORY: Final = (-1, -1)
@@ -42,13 +47,36 @@ class _ForeignError(sqlite3.DatabaseError):
 
 
 def located(where: str | Path | None) -> str:
-    """The absolute path of the database file, or MEMORY, or NOWHERE."""
+    """The absolute path of the database file, or MEMORY, or NOWHERE; raises InputError where the
+    variable holds none of them.
+    """
     default = str(platformdirs.user_cache_path("disting") / "cache.sqlite3")
-    text = os.environ.get("DISTING_CACHE", default) if where is None else str(where)
-    if text in (NOWHERE, "off"):
+    text = os.environ.get(VARIABLE) if where is None else str(where)
+    word = default if text is None else text.strip().lower()
+    if word in (NOWHERE, OFF):
         return NOWHERE
+    if word == MEMORY:
+        return MEMORY
+    if text is not None and where is None:
+        _refuse_no_file(text)
     # Symbolic links are followed, so that all processes lock and rename beside the same file.
-    return text if text == MEMORY else os.path.realpath(os.path.expanduser(text))
+    return os.path.realpath(os.path.expanduser(default if text is None else text))
+
+
+def _refuse_no_file(text: str) -> None:
+    """Of the variable a plain word is no file: who writes 0 or no means something else. A file has
+    an ending, or a folder before its name.
+    """
+    path = os.path.expanduser(text)
+    folder, name = os.path.split(path)
+    is_file = name and (folder or re.search(r"\.[a-z]\w*$", name, re.IGNORECASE))
+    is_address = re.match(r"\w{2,}:", text)  # file:x?mode=memory; C: is a drive
+    is_other = os.path.exists(path) and not os.path.isfile(path)
+    if not is_file or is_address or is_other or not os.path.isdir(folder or os.curdir):
+        raise InputError(
+            f"{VARIABLE} is {shown(text)}, which is none of its three choices: off, :memory:, or a"
+            " file in a folder that is there, such as cache.sqlite3"
+        )
 
 
 def identity(path: str) -> Identity:

@@ -120,9 +120,11 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         cache).
 
         None means the environment variable DISTING_CACHE, or if that is not set `cache.sqlite3` in
-        the user's cache folder. Missing folders are made. An operation that finds the database
-        locked by another process waits up to twice `wait_seconds`, and then the store gives up the
-        cache.
+        the user's cache folder. Missing folders are made, but not for the variable: what is
+        neither one of these words nor a file in a folder that is there raises InputError.
+
+        An operation that finds the database locked by another process waits up to twice
+        `wait_seconds`, and then the store gives up the cache.
         """
         store = cls(located(where), wait_seconds)
         store._run(lambda connection: None, None)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from disting.errors import InputError
 from disting.store.database_file import APPLICATION_ID, SCHEMA_VERSION
 from disting.store.store import Store
 from tests.store.store_tools import TEN, aside, cache_warnings, keeps_nothing, overwrite, works
@@ -106,6 +107,7 @@ def test_without_variable_the_cache_is_in_the_users_cache_folder(
 def test_the_variable_names_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
     for text, place in ((f"{tmp_path}/a/b?c#%41.db", "a/b?c#%41.db"), ("~/d.db", "d.db")):
+        (tmp_path / place).parent.mkdir(exist_ok=True)
         monkeypatch.setenv("DISTING_CACHE", text)
         with Store.open() as store:
             assert works(store)
@@ -114,7 +116,53 @@ def test_the_variable_names_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         assert store.info().path == str(tmp_path / "e.db")
 
 
-@pytest.mark.parametrize("text", ["", "off"])
+REFUSED = [
+    "0",
+    "1",
+    "no",
+    "none",
+    "false",
+    "cache",
+    "0.5",
+    "off.",
+    "file:x.db?mode=memory",
+    "file:x",
+]
+REFUSED += [
+    "sqlite:///x.db",
+    "missing/a.db",
+    "folder",
+    "folder/",
+    "./folder",
+    "/dev/null",
+    "~nobody/x",
+]
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_the_variable_is_refused_where_it_names_no_file(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    monkeypatch.setenv("DISTING_CACHE", text)
+    with pytest.raises(InputError, match="off, :memory:, or a file in a folder that is there"):
+        Store.open()
+    assert [p.name for p in tmp_path.rglob("*")] == ["folder"]
+
+
+@pytest.mark.parametrize("text", ["cache.sqlite3", "./cache", "folder/cache", " b.db"])
+def test_a_file_is_named_by_an_ending_or_a_folder(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    monkeypatch.setenv("DISTING_CACHE", text)
+    with Store.open() as store:
+        assert store.info().path == str((tmp_path / text).resolve())
+
+
+@pytest.mark.parametrize("text", ["", " ", "off", "OFF ", " Off"])
 def test_the_variable_can_say_no_cache(
     text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,7 +179,7 @@ def test_a_cache_in_memory_is_private_and_leaves_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("DISTING_CACHE", ":memory:")
+    monkeypatch.setenv("DISTING_CACHE", " :Memory: ")
     with Store.open() as store, Store.open(":memory:") as other:
         store.put_many(TEN)
         assert (store.get_many(TEN), other.get_many(TEN)) == (TEN, {})
