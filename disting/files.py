@@ -1,20 +1,26 @@
-"""Files: the data that the package ships, read whole, and files that are written whole or not at
-all, with the same bytes on every system.
+"""Files: the data that the package ships, read whole; files that a user names, never read without
+a bound; and files that are written whole or not at all, with the same bytes on every system.
 """
 
 import contextlib
 import json
 import os
 import re
+import stat
+import threading
+import warnings
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
-from disting.errors import CatalogError
+from disting.errors import CatalogError, InputError, printable
 
 PROVENANCE = "provenance.json"
 STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
+LARGEST = 50_000_000  # bytes of a file, unless its reader takes more
+PART = 1 << 20  # bytes that are read at once of what does not tell its size
+PATIENCE = 2.0  # seconds after which a pipe that says nothing is spoken of
 __version__ = "0.2.0"  # of the package; files that it writes name it
 
 
@@ -58,6 +64,69 @@ def _digests(folder: Path) -> dict[str, str]:
         raise CatalogError(
             f"{path} is damaged; install disting anew, or build the catalogues again"
         ) from None
+
+
+def read_bounded(path: Path, wanted: str, most: int = LARGEST) -> bytes:
+    """The bytes of a file that a user names; `wanted` = what to name instead, for messages.
+
+    A size that the system tells is held against `most` before anything is read; of a pipe or a
+    device no more than `most` is read. A pipe without a writer is waited for, which a warning
+    says after two seconds. Raises InputError for what is larger, or cannot be read.
+    """
+    name, size = printable(str(path)), 0
+    try:
+        about = path.stat()
+        size = about.st_size if stat.S_ISREG(about.st_mode) else 0
+        content = b"" if size > most else _at_most(path, size, most + 1)
+    except (OSError, ValueError) as reason:
+        why = getattr(reason, "strerror", None) or reason
+        raise InputError(f"{name} cannot be read ({why}); name {wanted}") from None
+    if max(size, len(content)) > most:
+        raise InputError(f"{name} is larger than {most // 10**6} MB, too large; name {wanted}")
+    return content
+
+
+def read_json(path: Path, wanted: str) -> Any:
+    """What a JSON file holds, of at most 50 MB; raises InputError."""
+    content = read_bounded(path, wanted)
+    try:
+        return json.loads(content.decode("utf-8-sig"))
+    except (ValueError, RecursionError):  # the second: brackets by the thousand
+        raise InputError(f"{printable(str(path))} holds no JSON; name {wanted}") from None
+
+
+def _at_most(path: Path, size: int, most: int) -> bytes:
+    """The first `most` bytes of a file of `size`, 0 where the system does not tell it."""
+    if size:
+        with path.open("rb") as file:
+            return _rest(file, file.read(size), most)
+    word = threading.Timer(PATIENCE, _waiting, [path])
+    word.daemon = True
+    word.start()
+    try:
+        with path.open("rb") as file:  # waits for the writer of a pipe
+            first = file.read1(PART)
+            word.cancel()
+            return _rest(file, first, most)
+    finally:
+        word.cancel()
+
+
+def _rest(file: BinaryIO, first: bytes, most: int) -> bytes:
+    """`first` and what comes behind it, at most `most` bytes in all."""
+    parts, size = [first], len(first)
+    while parts[-1] and size < most:
+        parts.append(file.read(min(PART, most - size)))
+        size += len(parts[-1])
+    return b"".join(part for part in parts if part)
+
+
+def _waiting(path: Path) -> None:
+    warnings.warn(
+        f"{printable(str(path))} is open, but nothing is written to it yet; still waiting, Ctrl-C"
+        " stops it",
+        stacklevel=2,
+    )
 
 
 def write_whole(path: Path, content: bytes | Iterable[str]) -> Path:

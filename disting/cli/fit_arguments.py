@@ -98,6 +98,12 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
     )
+    group.add_argument(
+        "--lines",
+        type=int,
+        metavar="N",
+        help="use only so many lines, evenly spaced on a logarithmic scale",
+    )
     text = (
         "sign of the sensor: +, - or auto, what fits better among small and large candidates; of"
         " several --sign=+,- (default: +)"

@@ -2,7 +2,8 @@
 
 import argparse
 import re
-from collections.abc import Iterator, Sequence
+import shlex
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from disting.measurement.scaling import scaled, with_constant
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
+MANY, ENOUGH = 10_000, 2000  # lines: more than the first are advised to be thinned to the second
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
 FORM = "an experiment is written FILE:lock=2, FILE:inertia=1:0.5 or FILE:sensor=2,lock=1"
 
@@ -39,11 +41,17 @@ def data(options: argparse.Namespace) -> Data:
         found = Data(train, test, ())
     else:
         found = _from_files(options)
-    found = _masked(found, options.band) if options.band else found
+    found = _each(found, lambda one: one.masked(*options.band)) if options.band else found
+    found = _each(found, lambda one: one.thinned(options.lines)) if options.lines else found
     both = [(found.train, found.test), *((f.measured, f.test) for f in found.further)]
     for response in (one for pair in both for one in pair if one is not None):
         for note in (*response.notes, *response.suspicions):
             complain(f"{response.origin or 'data'}: {note}")
+        if len(response) > MANY:
+            complain(
+                f"{len(response)} lines take long, and say hardly more than {ENOUGH}; thin them"
+                f" out: disting fit {shlex.join(map(str, options.train))} --lines {ENOUGH}"
+            )
     return found
 
 
@@ -220,10 +228,10 @@ def _inertia(text: str) -> tuple[str, float]:
         raise InputError(f"a known inertia is written inertia=1:0.5, {wrong}") from None
 
 
-def _masked(found: Data, band: tuple[float, float]) -> Data:
+def _each(found: Data, change: Callable[[FrequencyResponse], FrequencyResponse]) -> Data:
+    """The same change of all responses."""
     further = tuple(
-        replace(f, measured=f.measured.masked(*band), test=f.test.masked(*band) if f.test else None)
+        replace(f, measured=change(f.measured), test=change(f.test) if f.test else None)
         for f in found.further
     )
-    test = found.test.masked(*band) if found.test else None
-    return Data(found.train.masked(*band), test, further)
+    return Data(change(found.train), change(found.test) if found.test else None, further)

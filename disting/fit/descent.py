@@ -19,6 +19,7 @@ Indices = NDArray[np.intp]
 
 # starts at once: more do not fit into a processor's cache, which costs half as much again
 BATCH = 8
+RESIDUALS = 400_000  # of all starts at once: of many lines, one start alone is enough work
 FIRST_DAMPING, HOPELESS = 1e-2, 1e8  # of Levenberg and Marquardt
 LARGEST_STEP = 1.5  # of a logarithm in one iteration
 WORTHLESS = 1e-4  # relative gain below which a start counts as settled
@@ -66,11 +67,12 @@ def rough(
     costs, damping = np.empty(len(points)), np.full(len(points), FIRST_DAMPING)
     curvature, slope = np.empty((*points.shape, points.shape[1])), np.empty(points.shape)
     active = np.arange(len(points))
-    for part in _batches(active):
+    batch = max(1, min(BATCH, RESIDUALS // cost.n_residuals))
+    for part in _batches(active, batch):
         costs[part], curvature[part], slope[part] = _normal(plant, cost, box, points[part])
     costs[np.isnan(costs)] = np.inf
     for _ in range(iterations):
-        for part in _batches(active):
+        for part in _batches(active, batch):
             tried = box.clipped(
                 points[part] * np.exp(_step(curvature[part], slope[part], damping[part]))
             )
@@ -90,8 +92,8 @@ def rough(
     return points, costs
 
 
-def _batches(active: Indices) -> list[Indices]:
-    return np.array_split(active, -(-len(active) // BATCH))
+def _batches(active: Indices, batch: int) -> list[Indices]:
+    return np.array_split(active, -(-len(active) // batch))
 
 
 def _normal(plant: AnyPlant, cost: AnyCost, box: Box, points: Real) -> tuple[Real, Real, Real]:

@@ -5,15 +5,15 @@ they behave the same. What behaves exactly the same for the fitted values stands
 with this force and sensor tell it from the selected one.
 """
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from disting.errors import InputError
+from disting.files import read_json
 from disting.fit.candidates import as_listed, reference
-from disting.fit.selection_json import chain_from_dict, model_from_dict
+from disting.fit.selection_json import FIT_FILE, chain_from_dict, model_from_dict
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
@@ -65,12 +65,9 @@ class Named:
 
 def named_by(path: Path) -> Named:
     """What a JSON file of `disting fit` names; raises InputError."""
-    try:
-        plain = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as reason:
-        raise InputError(f"{path} is no JSON file of a fit: {reason}") from None
+    plain = read_json(path, FIT_FILE)
     if not isinstance(plain, dict) or not isinstance(plain.get("selected"), dict):
-        raise InputError(f"{path} holds no selected model: name a file of 'disting fit --json'")
+        raise InputError(f"{path} holds no selected model: name {FIT_FILE}")
     model, values = model_from_dict(plain["selected"])
     try:
         range_of = plain.get("frequencies", {"low": 0.0, "high": 0.0, "lines": 0})

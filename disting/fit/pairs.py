@@ -20,6 +20,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 
 CENTRES = 240  # lines that are tried as frequency of a pair, at most
+TOGETHER = 1_000_000  # centres times lines that are held at once
 SHARP = (0.003, 0.02)  # damping ratios of such a pair
 PAIRS = 4  # frequencies that are taken
 CLOSE = (1e-3, 3e-3, 3e-2)  # relative distance of pole and zero there,
@@ -121,11 +122,19 @@ def conspicuous(measured: FrequencyResponse, response: Complex) -> list[float]:
     ratio = measured.G / response
     missed = np.log(np.abs(ratio)) + 1j * np.angle(ratio)
     centres = measured.omega[:: -(-len(measured.omega) // CENTRES)]
-    x = measured.omega / centres[:, None]
+    parts = np.array_split(centres, -(-len(centres) * len(missed) // TOGETHER))
+    gains = [_explained(missed, measured.omega / part[:, None]) for part in parts]
+    gain = np.concatenate([[0.0], *gains, [0.0]])
+    peaks = np.flatnonzero((gain[1:-1] > gain[:-2]) & (gain[1:-1] >= gain[2:]))
+    return [float(centres[i]) for i in peaks[np.argsort(-gain[1 + peaks], kind="stable")[:PAIRS]]]
+
+
+def _explained(missed: Complex, x: Real) -> Real:
+    """|h'e|^2 / h'h of e = `missed` at x = omega/omega_0, shape (centres, lines), for the better
+    of two damping ratios.
+    """
     shapes = (1 / (1 - x**2 + 2j * zeta * x) for zeta in SHARP)
     gains = [
         np.abs(h.conj() @ missed) ** 2 / np.einsum("cf,cf->c", h, h.conj()).real for h in shapes
     ]
-    gain = np.concatenate([[0.0], np.max(gains, axis=0), [0.0]])
-    peaks = np.flatnonzero((gain[1:-1] > gain[:-2]) & (gain[1:-1] >= gain[2:]))
-    return [float(centres[i]) for i in peaks[np.argsort(-gain[1 + peaks], kind="stable")[:PAIRS]]]
+    return np.asarray(np.max(gains, axis=0))

@@ -1,6 +1,5 @@
 """A selection as plain data, ready for JSON, and the models in it, read back bit-equal."""
 
-import json
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, shown
+from disting.files import read_json
 from disting.fit.candidates import as_listed, reference
 from disting.fit.each import explanations
 from disting.fit.explained import Explanation
@@ -17,6 +17,8 @@ from disting.fit.members import Member
 from disting.fit.select import Selection
 from disting.fit.telling import suspicions
 from disting.model.chain import Chain
+
+FIT_FILE = "a file of 'disting fit --json'"
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:
@@ -221,10 +223,7 @@ def _no_model(reason: Exception) -> InputError:
 
 def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
     """The selected model of a JSON file of `disting fit`; raises InputError."""
-    try:
-        plain = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as reason:
-        raise InputError(f"{path} is no JSON file of a fit: {reason}") from None
+    plain = read_json(path, FIT_FILE)
     selected = plain.get("selected", plain) if isinstance(plain, dict) else None
     if not isinstance(selected, dict):
         raise InputError(f"{path} holds no selected model")

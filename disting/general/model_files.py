@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from disting.errors import InputError, listed, printable, shown
-from disting.files import write_whole
+from disting.files import read_bounded, write_whole
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.spelled import polynomial_text
@@ -97,19 +97,8 @@ def read_models(path: Path | str) -> ModelList:
     ...     str(read_models(file)["lag"])
     'G(s) = k/(1 + T*s)'
     """
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(LARGEST + 1)
-    except (OSError, ValueError) as reason:
-        why = getattr(reason, "strerror", None) or reason
-        raise InputError(
-            f"{printable(str(path))} cannot be read ({why}); name a file of models"
-        ) from None
-    if len(content) > LARGEST:
-        raise InputError(
-            f"{printable(str(path))} is larger than {LARGEST // 10**6} MB; split it into several"
-            " lists"
-        )
+    wanted = f"a file of models of at most {LARGEST // 10**6} MB"
+    content = read_bounded(Path(path), wanted, LARGEST)
     try:
         return models_of(plain_of(content))
     except InputError as reason:

@@ -40,6 +40,17 @@ def same(left: NDArray[Any] | None, right: NDArray[Any] | None) -> bool:
     return left.shape == right.shape and left.tobytes() == right.tobytes()
 
 
+def nearest(ordered: Real, wanted: Real) -> NDArray[np.intp]:
+    """Indices of the rising numbers `ordered` that are nearest to the wanted ones, the lower of
+    two.
+
+    >>> nearest(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.6, 3.0, 9.0])).tolist()
+    [0, 1, 1, 2]
+    """
+    above = np.clip(np.searchsorted(ordered, wanted), 1, len(ordered) - 1)
+    return np.where(wanted - ordered[above - 1] <= ordered[above] - wanted, above - 1, above)
+
+
 def applied(function: Callable[[Real], Real], array: Real | None) -> Real | None:
     """The function's value, or None for None."""
     return None if array is None else function(array)

@@ -6,13 +6,13 @@ A new format is a row of `FORMATS`; a file is of the first one that it fits.
 import inspect
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, TypeVar
 
 from disting.errors import InputError, listed
 from disting.measurement.column_words import FREQUENCIES, meaning
 from disting.measurement.matlab import responses, variables
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.source import Source
 from disting.measurement.stored import chosen_response, from_stored
 from disting.measurement.table import Table
 from disting.measurement.table_series import is_time, time_series
@@ -44,14 +44,14 @@ class Records:
     a file; `held` = whether a file, with these options, is a record rather than a response.
     """
 
-    read: Callable[[Path, str | int, str | int, Options], TimeSeries]
-    names: Callable[[Path], Iterable[str]]
-    held: Callable[[Path, Options], bool]
+    read: Callable[[Source, str | int, str | int, Options], TimeSeries]
+    names: Callable[[Source], Iterable[str]]
+    held: Callable[[Source, Options], bool]
 
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """One format: `fits` = whether a file is of it, by its path and first bytes; `response` reads
+    """One format: `fits` = whether a file is of it, by its name and first bytes; `response` reads
     a frequency response; `records` = None where no time series are read; `begin`: columns (from 1)
     at which the responses begin, of a format that has some.
 
@@ -59,28 +59,27 @@ class Format:
     """
 
     name: str
-    fits: Callable[[Path, bytes], bool]
-    response: Callable[[Path, Options], FrequencyResponse]
+    fits: Callable[[Source, bytes], bool]
+    response: Callable[[Source, Options], FrequencyResponse]
     records: Records | None = None
-    begin: Callable[[Path, Sequence[str] | None], tuple[int, ...]] | None = None
+    begin: Callable[[Source, Sequence[str] | None], tuple[int, ...]] | None = None
 
 
-def format_of(file: Path) -> Format:
+def format_of(file: Source) -> Format:
     """The format of a file: that of the content, where the content shows it, else of the ending."""
-    with file.open("rb") as stream:
-        head = stream.read(HEAD)
+    head = file.content[:HEAD]
     return next(known for known in FORMATS if known.fits(file, head))
 
 
-def _is_matlab(file: Path, head: bytes) -> bool:
+def _is_matlab(file: Source, head: bytes) -> bool:
     return (
-        file.suffix.lower() == ".mat"
+        file.suffix == ".mat"
         or head.startswith(b"MATLAB ")
         or b"\x89HDF\r\n" in (head[:6], head[512:518])
     )
 
 
-def _from_matlab(file: Path, options: Options) -> FrequencyResponse:
+def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """A response object where one is asked for, or where no variables make up a response; else
     variables.
     """
@@ -97,12 +96,14 @@ def _from_matlab(file: Path, options: Options) -> FrequencyResponse:
     return checked(from_variables, options, file)(arrays, file.name, **options)
 
 
-def _matlab_series(file: Path, input: str | int, output: str | int, options: Options) -> TimeSeries:
+def _matlab_series(
+    file: Source, input: str | int, output: str | int, options: Options
+) -> TimeSeries:
     read = checked(series_from_variables, options, file)
     return read(variables(file), file.name, str(input), str(output), **options)
 
 
-def _is_matlab_record(file: Path, options: Options) -> bool:
+def _is_matlab_record(file: Source, options: Options) -> bool:
     """Whether there is a clock or a sampling rate, and nothing that is a frequency response."""
     arrays = variables(file)
     return bool(arrays.keys() & CLOCKS) and not (
@@ -110,31 +111,31 @@ def _is_matlab_record(file: Path, options: Options) -> bool:
     )
 
 
-def _is_universal(file: Path, head: bytes) -> bool:
-    return file.suffix.lower() in (".uff", ".unv", ".unf", ".bunv")
+def _is_universal(file: Source, head: bytes) -> bool:
+    return file.suffix in (".uff", ".unv", ".unf", ".bunv")
 
 
-def _from_universal(file: Path, options: Options) -> FrequencyResponse:
+def _from_universal(file: Source, options: Options) -> FrequencyResponse:
     return checked(read_uff, options, file)(file, **options)
 
 
-def _table(file: Path) -> Table:
-    return table(decoded(file.read_bytes(), file.name), file.name)
+def _table(file: Source) -> Table:
+    return table(decoded(file.content, file.name), file.name)
 
 
-def _from_text(file: Path, options: Options) -> FrequencyResponse:
+def _from_text(file: Source, options: Options) -> FrequencyResponse:
     return checked(frequency_response, options, file)(_table(file), **options)
 
 
-def _begin(file: Path, columns: Sequence[str] | None) -> tuple[int, ...]:
+def _begin(file: Source, columns: Sequence[str] | None) -> tuple[int, ...]:
     return response_columns(_table(file), columns)
 
 
-def _text_series(file: Path, input: str | int, output: str | int, options: Options) -> TimeSeries:
+def _text_series(file: Source, input: str | int, output: str | int, options: Options) -> TimeSeries:
     return checked(time_series, options, file)(_table(file), input, output, **options)
 
 
-def _is_text_record(file: Path, options: Options) -> bool:
+def _is_text_record(file: Source, options: Options) -> bool:
     """Whether there is a column of times and none of frequencies."""
     if "columns" in options:
         return False
@@ -144,7 +145,7 @@ def _is_text_record(file: Path, options: Options) -> bool:
     )
 
 
-def checked(reader: Callable[..., T], options: Options, file: Path) -> Callable[..., T]:
+def checked(reader: Callable[..., T], options: Options, file: Source) -> Callable[..., T]:
     """The reader, if it knows all these options; else InputError, naming those that it knows."""
     known = {
         p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
+from disting.measurement.source import Take
 
 HEADER = 128
 MATRIX, COMPRESSED = 14, 15
@@ -31,30 +32,33 @@ IS_COMPLEX = 0x800
 # what damaged bytes raise
 DAMAGE = (struct.error, zlib.error, ValueError, KeyError, IndexError, OverflowError, MemoryError)
 HEAD = 512  # bytes that surely hold flags, dimensions and name
+Bytes = bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A matrix of a file, not yet read: name, class, bytes, whether they are compressed, and
-    the order of bytes.
+    """A matrix of a file, not yet read: name, class, the size [bytes] that its header says,
+    numbers taken as those of eight bytes; its bytes, whether they are compressed, their order.
     """
 
     name: str
     kind: int
-    body: bytes
+    size: int
+    body: Bytes
     compressed: bool
     order: str
 
-    def read(self) -> NDArray[Any]:
-        """The array; raises InputError where it is none of numbers, or damaged."""
+    def read(self, take: Take) -> NDArray[Any]:
+        """The array; raises InputError where it is none of numbers, damaged or too large."""
         try:
-            return array(self.matrix(), self.order)
+            return array(self.matrix(take), self.order)
         except DAMAGE as error:
             raise InputError(f"{self.name} cannot be read: {error}") from None
 
-    def matrix(self) -> bytes:
-        """The matrix's elements, unpacked."""
-        return _matrix(zlib.decompress(self.body)) if self.compressed else self.body
+    def matrix(self, take: Take) -> Bytes:
+        """The matrix's elements, unpacked; raises InputError where they are too large."""
+        take(self.name, self.size)
+        return _matrix(unpacked(self.body, self.order)) if self.compressed else self.body
 
 
 def is_version_5(content: bytes) -> bool:
@@ -62,51 +66,78 @@ def is_version_5(content: bytes) -> bool:
     return len(content) >= HEADER and content[126:128] in (b"IM", b"MI")
 
 
-def matrices(content: bytes, order: str, start: int) -> Iterator[bytes]:
-    """Yield the matrices among the elements from `start` on, unpacked."""
+def matrices(content: Bytes, order: str, start: int, take: Take) -> Iterator[Bytes]:
+    """Yield the matrices among the elements from `start` on, unpacked; raises InputError where
+    one is too large.
+    """
     for kind, body in elements(content[start:], order):
+        if kind == COMPRESSED:
+            take("the objects", _said(zlib.decompressobj().decompress(body, HEAD), order))
         if kind in (MATRIX, COMPRESSED):
-            yield body if kind == MATRIX else _matrix(zlib.decompress(body))
+            yield body if kind == MATRIX else _matrix(unpacked(body, order))
+
+
+def unpacked(body: Bytes, order: str) -> bytes:
+    """A compressed element, as many bytes as its header says at most."""
+    packer = zlib.decompressobj()
+    head = packer.decompress(body, HEAD)
+    return head + packer.decompress(packer.unconsumed_tail, max(_said(head, order) - len(head), 1))
+
+
+def _said(element: bytes, order: str) -> int:
+    """Size of an element with its header, as this says."""
+    return 8 + int(struct.unpack_from(order + "I", element, 4)[0])
 
 
 def variables(content: bytes) -> Iterator[Variable]:
     """Yield the matrices that have a name, as far as the file is whole."""
-    order = "<" if content[126:128] == b"IM" else ">"
+    order, whole = "<" if content[126:128] == b"IM" else ">", memoryview(content)
     at = HEADER
     while at + 8 <= len(content):
         kind, size = struct.unpack_from(order + "II", content, at)
-        body = content[at + 8 : at + 8 + size]
+        body = whole[at + 8 : at + 8 + size]
         at += 8 + size
         try:
-            head = (
-                _matrix(zlib.decompressobj().decompress(body, HEAD))
-                if kind == COMPRESSED
-                else body[:HEAD]
-            )
-            name, of = (
-                (_name(head, order), flags(head, order) & 0xFF)
-                if kind in (MATRIX, COMPRESSED)
-                else ("", 0)
-            )
+            if kind in (MATRIX, COMPRESSED):
+                yield _variable(body, kind == COMPRESSED, order)
         except DAMAGE:
             continue
-        if name:
-            yield Variable(
-                name=name, kind=of, body=body, compressed=kind == COMPRESSED, order=order
-            )
 
 
-def _name(head: bytes, order: str) -> str:
+def _variable(body: memoryview, compressed: bool, order: str) -> Variable:
+    """A matrix by its head; raises one of `DAMAGE` where it is damaged or has no name."""
+    first = zlib.decompressobj().decompress(body, HEAD) if compressed else b""
+    head = _matrix(first) if compressed else body[:HEAD]
+    name, of = _name(head, order), flags(head, order)
+    if not name:
+        raise ValueError("no name")
+    numbers = _count(head, order) * (16 if of & IS_COMPLEX else 8) if of & 0xFF in NUMBERS else 0
+    return Variable(
+        name=name,
+        kind=of & 0xFF,
+        size=max(numbers, _said(first, order) if compressed else len(body)),
+        body=body,
+        compressed=compressed,
+        order=order,
+    )
+
+
+def _count(head: Bytes, order: str) -> int:
+    """How many numbers the dimensions of an array of them make."""
+    return prod(max(int(n), 0) for n in _parts(head, order, 2)[1])
+
+
+def _name(head: Bytes, order: str) -> str:
     parts = _parts(head, order, 3)
     return parts[1 if flags(head, order) & 0xFF == OPAQUE else 2].tobytes().decode("ascii")
 
 
-def _matrix(element: bytes) -> bytes:
+def _matrix(element: Bytes) -> Bytes:
     """Content of an element without its type and size."""
     return element[8:]
 
 
-def elements(matrix: bytes, order: str) -> Iterator[tuple[int, bytes]]:
+def elements(matrix: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
     """Yield type and content of the elements of a matrix; raises ValueError where one is cut
     off.
     """
@@ -122,12 +153,12 @@ def elements(matrix: bytes, order: str) -> Iterator[tuple[int, bytes]]:
         at = start + -(-size // 8) * 8 if start == at + 8 else at + 8
 
 
-def flags(matrix: bytes, order: str) -> int:
+def flags(matrix: Bytes, order: str) -> int:
     """Class of a matrix, in the lowest byte, and what it is besides."""
     return int(_parts(matrix, order, 1)[0][0])
 
 
-def array(matrix: bytes, order: str) -> NDArray[Any]:
+def array(matrix: Bytes, order: str) -> NDArray[Any]:
     """The numbers of a matrix; raises one of `DAMAGE` where it has none, or where it is damaged."""
     of = flags(matrix, order)
     if of & 0xFF not in NUMBERS:
@@ -142,7 +173,7 @@ def array(matrix: bytes, order: str) -> NDArray[Any]:
     return np.asarray(whole).reshape(shape, order="F")
 
 
-def _parts(matrix: bytes, order: str, count: int) -> list[NDArray[Any]]:
+def _parts(matrix: Bytes, order: str, count: int) -> list[NDArray[Any]]:
     """The first elements of a matrix, at most `count`, as arrays."""
     return [
         np.frombuffer(content, dtype=order + TYPES[kind])

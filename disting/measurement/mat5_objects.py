@@ -22,6 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.measurement import mat5
+from disting.measurement.mat5 import Bytes
+from disting.measurement.source import Take
 
 CELL, STRUCT, OBJECT, CHARACTERS = 1, 2, 3, 4
 MAGIC = 0xDD000000
@@ -38,7 +40,7 @@ class Reference:
     number: int
 
 
-def tree(matrix: bytes, order: str, deep: int = 0) -> Any:
+def tree(matrix: Bytes, order: str, deep: int = 0) -> Any:
     """Array, text, list (cells), dictionary (a struct of one element), `Reference`, or None for
     what is none of these.
     """
@@ -66,18 +68,20 @@ def tree(matrix: bytes, order: str, deep: int = 0) -> Any:
     )
 
 
-def objects(content: bytes) -> "Objects | None":
+def objects(content: bytes, take: Take) -> "Objects | None":
     """The subsystem of a file, None where it has none."""
     order = "<" if content[126:128] == b"IM" else ">"
     at = struct.unpack_from(order + "Q", content, 116)[0]
     inner = (
-        next(mat5.matrices(content, order, at), None) if mat5.HEADER <= at < len(content) else None
+        next(mat5.matrices(memoryview(content), order, at, take), None)
+        if mat5.HEADER <= at < len(content)
+        else None
     )
     if inner is None:
         return None
     data = mat5.array(inner, order).astype(np.uint8).tobytes()
     order = "<" if data[2:4] == b"IM" else ">"
-    for matrix in mat5.matrices(data, order, 8):
+    for matrix in mat5.matrices(data, order, 8, take):
         found = tree(matrix, order)
         cells = found.get("MCOS") if isinstance(found, dict) else None
         if isinstance(cells, list) and cells and isinstance(cells[0], np.ndarray):
@@ -85,12 +89,12 @@ def objects(content: bytes) -> "Objects | None":
     return None
 
 
-def numbers_in(variable: mat5.Variable) -> dict[str, NDArray[Any]]:
+def numbers_in(variable: mat5.Variable, take: Take) -> dict[str, NDArray[Any]]:
     """Arrays of numbers in a struct by name, `struct.field`; nothing for what is no struct, or
     damaged.
     """
     try:
-        matrix = variable.matrix() if variable.kind in (STRUCT, OBJECT) else b""
+        matrix = variable.matrix(take) if variable.kind in (STRUCT, OBJECT) else b""
         return _numbers(variable.name, tree(matrix, variable.order)) if matrix else {}
     except mat5.DAMAGE:
         return {}
@@ -155,18 +159,18 @@ def _or_reference(values: NDArray[Any]) -> NDArray[Any] | Reference:
     return Reference(int(flat[2 + int(flat[1])]))
 
 
-def _fields(parts: list[tuple[int, bytes]], order: str, at: int) -> list[str]:
+def _fields(parts: list[tuple[int, Bytes]], order: str, at: int) -> list[str]:
     """Names of the fields, none for an array of structs: the length of each, then all, filled
     with zeros.
     """
     if np.any(np.frombuffer(parts[1][1], order + "i4") != 1):
         return []
     length = struct.unpack(order + "i", parts[at][1])[0]
-    names = parts[at + 1][1].decode("latin-1")
+    names = bytes(parts[at + 1][1]).decode("latin-1")
     return [names[i : i + length].split("\0")[0] for i in range(0, len(names), length)]
 
 
-def _text(type_: int, content: bytes, order: str) -> str:
+def _text(type_: int, content: Bytes, order: str) -> str:
     """Characters of one line; 16 bits each as a rule."""
     wide = "utf-16-le" if order == "<" else "utf-16-be"
-    return content.decode({4: wide, 17: wide, 16: "utf-8"}.get(type_, "latin-1")).strip()
+    return bytes(content).decode({4: wide, 17: wide, 16: "utf-8"}.get(type_, "latin-1")).strip()

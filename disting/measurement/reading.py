@@ -11,6 +11,7 @@ from disting.errors import InputError, listed
 from disting.measurement.formats import FORMATS, Format, Options, Records, format_of
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.signal_words import guessed
+from disting.measurement.source import Source, source
 from disting.measurement.time_series import TimeSeries
 
 # options that only a time series has
@@ -35,7 +36,7 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     `least_coherence`) are then accepted; `sensor` is the quantity of the recorded output, `to` the
     quantity wanted. Raises InputError for a file or an option that cannot be understood.
     """
-    file = _existing(path)
+    file = source(path)
     known = format_of(file)
     if options.keys() & set(SERIES) or (known.records and known.records.held(file, options)):
         return _through_time(file, _records(file, known), options)
@@ -48,7 +49,7 @@ def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[
 
     `columns` as for `read`. Raises InputError where columns are missing.
     """
-    file = _existing(path)
+    file = source(path)
     known = format_of(file)
     if known.begin is None or (known.records and known.records.held(file, {})):
         return None
@@ -65,18 +66,18 @@ def read_time_series(
     [s]); `sensor` = quantity of the output, default position; `sign`; `reference` = the signal
     that a controller was asked for, of a record in closed loop.
     """
-    file = _existing(path)
+    file = source(path)
     return _records(file, format_of(file)).read(file, input, output, options)
 
 
-def _records(file: Path, known: Format) -> Records:
+def _records(file: Source, known: Format) -> Records:
     if known.records is None:
         able = " and ".join(other.name for other in FORMATS if other.records)
         raise InputError(f"{file.name}: time series are read from {able} files")
     return known.records
 
 
-def _signals(file: Path, records: Records, given: Options) -> tuple[Options, tuple[str, ...]]:
+def _signals(file: Source, records: Records, given: Options) -> tuple[Options, tuple[str, ...]]:
     """Input and output, guessed by their names where neither is given, and the note that says
     so.
     """
@@ -92,7 +93,7 @@ def _signals(file: Path, records: Records, given: Options) -> tuple[Options, tup
     return given | {"input": input, "output": output}, (note,)
 
 
-def _through_time(file: Path, records: Records, options: Options) -> FrequencyResponse:
+def _through_time(file: Source, records: Records, options: Options) -> FrequencyResponse:
     ours = {"to", *_keywords(TimeSeries.response)} - {"sensor"}
     estimate = {name: value for name, value in options.items() if name in ours}
     rest, notes = _signals(
@@ -101,15 +102,6 @@ def _through_time(file: Path, records: Records, options: Options) -> FrequencyRe
     wanted = estimate.pop("to", None)
     input, output = rest.pop("input"), rest.pop("output")
     return records.read(file, input, output, rest).response(wanted, **estimate).noted(*notes)
-
-
-def _existing(path: str | Path) -> Path:
-    file = Path(path)
-    if file.is_dir():
-        raise InputError(f"{file} is a folder; name a file with measured data")
-    if not file.is_file():
-        raise InputError(f"there is no file {file}")
-    return file
 
 
 def _keywords(reader: Callable[..., Any]) -> set[str]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from disting.errors import InputError
+from disting.measurement.arrays import nearest
 from disting.measurement.response import FrequencyResponse
 
 NEAR = 0.02  # relative distance of two frequencies at which a phase is compared
@@ -53,7 +54,7 @@ def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:
     """Whether two responses of one machine have opposite signs: at most frequencies that they
     share, the phase is reversed.
     """
-    at = np.abs(one.omega[None, :] - other.omega[:, None]).argmin(axis=1)
+    at = nearest(one.omega, other.omega)
     near = np.abs(one.omega[at] - other.omega) <= NEAR * other.omega
     turned = np.angle(other.G[near]) - np.angle(one.G[at[near]])
     return bool(len(turned) and np.mean(np.cos(turned)) < AGAINST)

@@ -16,6 +16,7 @@ from disting.measurement.arrays import (
     applied,
     complex_,
     frozen,
+    nearest,
     optional,
     real,
     same,
@@ -194,10 +195,9 @@ class FrequencyResponse(Shown):
         if count >= len(self):
             return self
         wanted = np.linspace(np.log(self.omega[0]), np.log(self.omega[-1]), count)
-        nearest = np.abs(np.log(self.omega)[None, :] - wanted[:, None]).argmin(axis=1)
         steps = np.arange(count)
         # each line once, where the measured ones lie too wide
-        apart = np.maximum.accumulate(nearest - steps) + steps
+        apart = np.maximum.accumulate(nearest(np.log(self.omega), wanted) - steps) + steps
         return self.subset(np.minimum(apart, len(self) - count + steps))
 
     def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":

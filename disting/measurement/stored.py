@@ -19,6 +19,8 @@ from disting.measurement.response import (
     Signal,
     as_sign,
 )
+from disting.measurement.source import Take
+from disting.measurement.variables import real_part
 from disting.model.chain import Sensor, as_sensor
 
 HOLDERS = (STRUCT, OBJECT, mat5.OPAQUE)  # classes of variables in which responses may be
@@ -60,19 +62,21 @@ class Stored:
         return chosen[0], chosen[1]
 
 
-def stored_responses(content: bytes) -> dict[str, Stored]:
+def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
     """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct
     holds them.
     """
     found = dict[str, Stored]()
     try:
-        subsystem = objects(content)
+        subsystem = objects(content, take)
     except mat5.DAMAGE:
         subsystem = None
     for variable in mat5.variables(content):
         try:
             if variable.kind in HOLDERS:
-                found |= _within(variable.name, tree(variable.matrix(), variable.order), subsystem)
+                found |= _within(
+                    variable.name, tree(variable.matrix(take), variable.order), subsystem
+                )
         except mat5.DAMAGE:
             continue  # what is damaged is no response
     return found
@@ -168,7 +172,7 @@ def _response(held: Mapping[str, Any]) -> Stored | None:
         if isinstance(held.get(name), str) and held[name]
     ]
     return Stored(
-        frequency.real.astype(np.float64).ravel(),
+        real_part(frequency, "the frequencies of an object").ravel(),
         _in_seconds(units[0] if units else DEFAULT_UNIT, held.get("TimeUnit")),
         response.reshape(shape).astype(np.complex128),
         _dead_time(held.get("Delay"), _number(held.get("Ts")), shape[:2]),

@@ -10,6 +10,7 @@ import io
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from disting.measurement.response import (
     Signal,
     as_sign,
 )
+from disting.measurement.source import Source
 from disting.model.chain import Sensor, as_sensor
 
 RESPONSE, COHERENCE = 4, 6
@@ -38,7 +40,7 @@ Record = Mapping[str, Any]
 
 
 def read_uff(
-    path: Path, *, record: int | None = None, sensor: Sensor | str | None = None, sign: int = 1
+    file: Source, *, record: int | None = None, sensor: Sensor | str | None = None, sign: int = 1
 ) -> FrequencyResponse:
     """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken
     from the file where it is there.
@@ -46,13 +48,13 @@ def read_uff(
     `sensor` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError,
     listing the responses.
     """
-    records = _records(path)
+    records = _records(file)
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
     number = 1 if record is None else record
     if not 1 <= number <= len(responses):
         there = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
         raise InputError(
-            f"{path.name} has no frequency response number {number}; there are: {there}"
+            f"{file.name} has no frequency response number {number}; there are: {there}"
         )
     chosen = responses[number - 1]
     quantity, note = _quantity(chosen, sensor)
@@ -67,26 +69,31 @@ def read_uff(
             sensor=quantity,
             input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
             output=Signal(_node(chosen, "rsp"), _unit(chosen, "ordinate_axis_units_lab")),
-            origin=f"{path.name}, {_place(chosen)}",
+            origin=f"{file.name}, {_place(chosen)}",
         ).noted(note)
     except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"{path.name}, {_place(chosen)}: damaged data set ({error})") from None
+        raise InputError(f"{file.name}, {_place(chosen)}: damaged data set ({error})") from None
 
 
-def _records(path: Path) -> Sequence[Record]:
+def _records(file: Source) -> Sequence[Record]:
     try:
         import pyuff
     except ImportError:
-        raise InputError(f'{path.name} is a universal file: pip install "disting[uff]"') from None
+        raise InputError(f'{file.name} is a universal file: pip install "disting[uff]"') from None
     try:
-        _check_columns(path.read_bytes().decode("latin-1"))
-        with contextlib.redirect_stdout(io.StringIO()):  # pyuff prints what it cannot read
-            file = pyuff.UFF(str(path))
-            numbers = [i for i, kind in enumerate(file.get_set_types()) if kind == 58]
-            return [file.read_sets(i) for i in numbers]
+        _check_columns(file.content.decode("latin-1"))
+        with (
+            TemporaryDirectory() as folder,  # pyuff reads files only
+            contextlib.redirect_stdout(io.StringIO()),  # and prints what it cannot read
+        ):
+            path = Path(folder, "data.uff")
+            path.write_bytes(file.content)
+            sets = pyuff.UFF(str(path))
+            numbers = [i for i, kind in enumerate(sets.get_set_types()) if kind == 58]
+            return [sets.read_sets(i) for i in numbers]
     except Exception as error:  # damaged files raise whatever the library meets first
         raise InputError(
-            f"{path.name} is no universal file that can be read: {type(error).__name__}: {error}"
+            f"{file.name} is no universal file that can be read: {type(error).__name__}: {error}"
         ) from None
 
 

@@ -62,7 +62,7 @@ def from_variables(
     """
     name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
     default = "rad/s" if name in OMEGA_NAMES else "Hz"
-    grid = _numeric(arrays, name, origin).real.ravel()
+    grid = real_part(_numeric(arrays, name, origin), f"{origin}: {name}").ravel()
     values, taken = in_omega(grid, None, frequency_unit, shown(name), default=default)
     response, chosen_index = indexed(response)
     index = index if chosen_index is None else chosen_index
@@ -197,6 +197,15 @@ def _numeric(arrays: Arrays, name: str, origin: str) -> NDArray[Any]:
     return array.astype(np.complex128 if array.dtype.kind == "c" else np.float64)
 
 
+def real_part(values: NDArray[Any], name: str) -> Real:
+    """The numbers where all are real; raises InputError where some are not."""
+    if np.any(values.imag):
+        raise InputError(
+            f"{name} is complex; frequencies and times are real: store the part that is meant alone"
+        )
+    return np.asarray(values.real, dtype=np.float64)
+
+
 def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
     """One signal of a variable, the longest axis of which is time."""
     name, index = (asked, None) if asked in arrays else indexed(asked)
@@ -221,7 +230,8 @@ def _rate(arrays: Arrays, asked: float | str | None, time: str | None, origin: s
     if time is None and any(n in arrays for n in STEP_NAMES):
         return 1.0 / _scalar(arrays, _name(arrays, None, STEP_NAMES, "step", origin), origin)
     name = time if time is not None else _name(arrays, None, TIME_NAMES, "sampling_rate", origin)
-    return rate_of(_signal(arrays, name, origin).real, f"{origin}, {name}")
+    times = real_part(_signal(arrays, name, origin), f"{origin}: {name}")
+    return rate_of(times, f"{origin}, {name}")
 
 
 def _scalar(arrays: Arrays, name: str, origin: str) -> float:

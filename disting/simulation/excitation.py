@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from disting.errors import InputError, shown
+from disting.files import read_bounded
 from disting.measurement.arrays import Real
 
 Lines = np.ndarray[tuple[int], np.dtype[np.intp]]
@@ -122,11 +123,10 @@ class Excitation:
 
 def read_spectrum(path: Path) -> tuple[tuple[float, float], ...]:
     """The spectrum of a CSV file with the columns frequency_hz and amplitude; raises InputError."""
+    text = read_bounded(path, f"a CSV file with the columns {' and '.join(HEADER)}")
     try:
-        rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+        rows = list(csv.DictReader(text.decode("utf-8").splitlines()))
         found = tuple((float(row[HEADER[0]]), float(row[HEADER[1]])) for row in rows)
-    except OSError as reason:
-        raise InputError(f"{path} cannot be read: {reason.strerror}") from None
     except (ValueError, KeyError, TypeError):
         found = ()
     if not found:

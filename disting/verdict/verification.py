@@ -5,7 +5,6 @@ Nothing is looked up. What would take more work to see again than is done for it
 else is checked (see `seen_again`).
 """
 
-import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -19,6 +18,7 @@ from disting.errors import DistingError, InputError, NotSeenError
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
+from disting.files import read_json
 from disting.model.domain import Domain
 from disting.model.shown import summary
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
@@ -36,7 +36,7 @@ from disting.verdict.seen_again import Pair, pair_of
 from disting.verdict.verdict_file import DAMAGED, Stored, differing, exact, has_more, read_file
 
 SECONDS = 60.0  # for a proof that took ten
-LARGEST = 50_000_000  # bytes of a file
+WANTED = "a file of a verdict, as 'disting compare N:I M:J --json' writes it"
 Told = tuple[Certainty | None, int, Evidence | None]
 
 
@@ -81,7 +81,7 @@ def verify(given: dict[str, Any] | str | Path) -> Verification:
     >>> verify(data | {"relation": "indistinguishable"}).standing.value
     'does not hold'
     """
-    data = given if isinstance(given, dict) else _read(Path(given))
+    data = given if isinstance(given, dict) else read_json(Path(given), WANTED)
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
         return _verified(data, read_file(data))
     stored = read_everywhere(data)
@@ -94,23 +94,6 @@ def verify(given: dict[str, Any] | str | Path) -> Verification:
         if where is not None:
             return replace(found[where], reason=f"{found[where].reason} (way {where + 1})")
     return Verification(Standing.HOLDS)
-
-
-def _read(path: Path) -> Any:
-    try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
-    except (OSError, ValueError) as reason:
-        why = getattr(reason, "strerror", None) or reason
-        raise InputError(f"{path} cannot be read ({why})") from None
-    if len(content) > LARGEST:
-        raise InputError(f"{path} is larger than {LARGEST // 10**6} MB, too large for a verdict")
-    try:
-        return json.loads(content.decode("utf-8-sig"))
-    except (ValueError, RecursionError):
-        raise InputError(
-            f"{path} holds no JSON; 'disting compare N:I M:J --json' writes a verdict"
-        ) from None
 
 
 def _verified(data: dict[str, Any], stored: Stored) -> Verification:

@@ -217,3 +217,18 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
     out, err = capsys.readouterr()
     lines = [line for line in err.splitlines() if " detected in the input" not in line]
     assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
+
+
+def test_many_lines_are_advised_to_be_thinned_by_the_command(tmp_path):
+    frequency = np.linspace(5.0, 300.0, 12_000)
+    response = 1 / (0.01 * (1 + 0.002j * frequency))
+    text = [f"{f},{g.real},{g.imag}" for f, g in zip(frequency, response, strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join(["f [Hz],Re,Im", *text]))
+    options = ("--masses", "1", "--lines", "20")
+    done = called("fit", tmp_path / "a.csv", *options, "--json", "-")
+    assert done.returncode == 0 and json.loads(done.stdout)["frequencies"]["lines"] == 20
+    assert "thin them out" not in done.stderr
+    advice = f"thin them out: disting fit {tmp_path / 'a.csv'} --lines 2000"
+    refused = called("fit", tmp_path / "a.csv", "--fix", "m9=1")
+    assert refused.returncode == 2 and "12000 lines take long" in refused.stderr
+    assert advice in refused.stderr

@@ -125,7 +125,7 @@ def test_a_file_that_does_not_tell_its_lines_still_has_its_menu(tmp_path):
     ("text", "more", "words"),
     [
         ("[]", (), "holds no selected model"),
-        ("no json", (), "is no JSON file of a fit"),
+        ("no json", (), "holds no JSON; name a file of 'disting fit --json'"),
         ('{"selected": null}', (), "holds no selected model"),
         ("{}", ("--damped",), "names its structures itself"),
         ("{}", ("3:1",), "names its structures itself"),

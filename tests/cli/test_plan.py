@@ -169,7 +169,7 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
         ((*PAIR, "--noise", "0.1", "--lines", "3"), "at least 8 lines"),
         (("2:1+b1", *PAIR[2:], "--noise", "0.1"), "name the structure to exclude"),
         (("2:1+b1", "2:1+b1", *PAIR[2:], "--noise", "0.1"), "no rival of itself"),
-        (("nothing.json",), "is no JSON file of a fit"),
+        (("nothing.json",), "nothing.json cannot be read"),
         (("fit.json", "2:1"), "names structures and values itself"),
         ((*PAIR, "--noise", "nothing.csv"), "nothing.csv"),
         ((*PAIR[:3], "--set", "m1=1", "--noise", "0.1", "--band", "1..2"), "is missing"),

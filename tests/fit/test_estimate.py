@@ -2,6 +2,7 @@
 work resumes.
 """
 
+import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import permutations
@@ -221,6 +222,15 @@ def test_one_more_pair_of_pole_and_zero_keeps_the_others_and_finds_a_mode_that_h
     )
     shown = FrequencyResponse(OMEGA, exact)
     assert abs(conspicuous(shown, without)[0] / missed[0] - 1) < 2 * (OMEGA[1] / OMEGA[0] - 1)
+
+
+def test_many_lines_take_memory_for_a_part_of_the_tried_frequencies_only():
+    omega = np.linspace(1.0, 500.0, 100_000)
+    measured = FrequencyResponse(omega, np.exp(0.1 / (1 - (omega / 60.0) ** 2 + 0.04j)))
+    tracemalloc.start()
+    (first, *_) = conspicuous(measured, np.ones(100_000))
+    assert abs(first / 60.0 - 1) < 0.05 and tracemalloc.get_traced_memory()[1] < 120e6
+    tracemalloc.stop()
 
 
 def test_bounds_and_fixed_values_are_kept():

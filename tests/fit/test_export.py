@@ -73,11 +73,11 @@ def test_json_reads_back_bit_equal(chain, tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("{", "no JSON file of a fit"),
+        ("{", "holds no JSON; name a file of .disting fit --json."),
         ("[]", "holds no selected model"),
         ('{"selected": null}', "holds no selected model"),
         ('{"selected": {"n_masses": 2}}', "no fitted model"),
-        (None, "no JSON file of a fit"),
+        (None, "cannot be read .*; name a file of .disting fit --json."),
     ],
 )
 def test_what_is_no_model_is_refused(text, message, tmp_path):

@@ -21,10 +21,10 @@ import numpy as np
 from disting.measurement.response import FrequencyResponse
 
 
-def read_json(path, *, sensor="acceleration"):
-    data = json.loads(path.read_text(encoding="utf-8"))
+def read_json(file, *, sensor="acceleration"):
+    data = json.loads(file.content)
     G = np.array(data["re"]) + 1j * np.array(data["im"])
-    return FrequencyResponse(np.array(data["omega"]), G, sensor=sensor, origin=path.name)
+    return FrequencyResponse(np.array(data["omega"]), G, sensor=sensor, origin=file.name)
 """
 ROW = """FORMATS = (
     Format(

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from disting.errors import InputError
 from disting.measurement import Signal, from_arrays, from_control, read, read_time_series
 from disting.measurement.matlab import variables
+from disting.measurement.source import source
 from disting.model.chain import Sensor
 
 FREQUENCY = np.arange(2.0, 14.0)
@@ -319,11 +320,11 @@ NUMERIC = ["f8", "f4", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "c16", "c
     suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=100, deadline=None
 )
 def test_version_5_arrays_are_those_that_scipy_wrote(tmp_path, kind, shape, compressed, seed, data):
-    source = np.random.default_rng(seed)
+    random = np.random.default_rng(seed)
     values = (
-        source.normal(size=shape) * 100 + 1j * source.normal(size=shape)
+        random.normal(size=shape) * 100 + 1j * random.normal(size=shape)
         if kind[0] == "c"
-        else source.normal(size=shape) * 100
+        else random.normal(size=shape) * 100
     )
     values = np.abs(values).astype(kind) if kind[0] == "u" else values.astype(kind)
     name = data.draw(st.from_regex(r"[a-zA-Z][a-zA-Z0-9_]{0,30}", fullmatch=True))
@@ -334,7 +335,7 @@ def test_version_5_arrays_are_those_that_scipy_wrote(tmp_path, kind, shape, comp
         "none": np.zeros((0, 0)),
     }
     scipy.io.savemat(tmp_path / "a.mat", others | {name: values}, do_compression=compressed)
-    arrays = variables(tmp_path / "a.mat")
+    arrays = variables(source(tmp_path / "a.mat"))
     assert set(arrays) == {*others, name, "parts.x"}
     found = arrays[name]()
     assert np.array_equal(found, values) and found.shape == values.shape

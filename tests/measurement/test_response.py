@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import tracemalloc
 from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from disting.errors import InputError
-from disting.measurement import FrequencyResponse, Signal
+from disting.measurement import FrequencyResponse, Signal, are_opposite
 from disting.model.chain import Sensor
 
 OMEGA = np.linspace(10.0, 200.0, 20)
@@ -135,6 +136,15 @@ def test_thinned_lines_are_some_of_the_measured_ones_even_on_a_logarithmic_scale
         assert len(FrequencyResponse(OMEGA, MASS).thinned(count)) == count
     with pytest.raises(InputError, match="at least 8"):
         response.thinned(7)
+
+
+def test_many_lines_are_thinned_and_compared_without_a_table_of_all_pairs():
+    dense = FrequencyResponse(np.linspace(1.0, 500.0, 100_000), np.ones(100_000))
+    tracemalloc.start()
+    assert len(dense.thinned(2000)) == 2000
+    assert are_opposite(dense, dense.sign_reversed()) and not are_opposite(dense, dense)
+    assert tracemalloc.get_traced_memory()[1] < 40e6
+    tracemalloc.stop()
 
 
 def test_a_reversed_sensor_is_suspected_at_a_free_mass_and_not_at_a_mass_on_a_spring():

@@ -12,6 +12,7 @@ from disting.fit.judged import Candidate
 from disting.fit.plant import Real
 from disting.fit.scatter import Scatter, scatter
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import nearest
 from disting.report.fit.style import Tone
 
 if TYPE_CHECKING:
@@ -100,8 +101,8 @@ def barred(omega: Real) -> NDArray[np.intp]:
     allow.
     """
     wanted = np.linspace(np.log(omega[0]), np.log(omega[-1]), BARRED)
-    nearest = np.abs(np.log(omega)[None, :] - wanted[:, None]).argmin(axis=1)
-    return np.arange(len(omega)) if len(omega) <= BARRED else np.unique(nearest)
+    some = len(omega) > BARRED
+    return np.unique(nearest(np.log(omega), wanted)) if some else np.arange(len(omega))
 
 
 def band(
