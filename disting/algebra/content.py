@@ -15,7 +15,8 @@ PLAIN = {int, str, bool, float, complex, type(None)}  # whose `repr` tells all
 
 def written(value: Any) -> str:
     """A value with all fields of all dataclasses in it, but for those that say `repr=False`; what
-    is no dataclass, tuple, list or mapping, by its `repr`.
+    is no dataclass, tuple, list or mapping, by its `repr`. A dataclass whose text must not change
+    with its layout says its fields in `written_fields`.
 
     Raises ValueError for a whole number of more digits than Python writes in decimal.
 
@@ -34,7 +35,9 @@ def written(value: Any) -> str:
     if kind is list:
         return f"[{', '.join(map(written, value))}]"
     if is_dataclass(kind):
-        inside = ", ".join(f"{name}={written(getattr(value, name))}" for name in _names(kind))
+        own = getattr(value, "written_fields", None)
+        told = {name: getattr(value, name) for name in _names(kind)} if own is None else own
+        inside = ", ".join(f"{name}={written(item)}" for name, item in told.items())
         return f"{kind.__qualname__}({inside})"
     if isinstance(value, Mapping):
         parts = ", ".join(f"{written(key)}: {written(item)}" for key, item in value.items())

@@ -19,7 +19,7 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from disting.algebra.tridiagonal import Ring, Tridiagonal
-from disting.model.structure import POWER, Element, Ports
+from disting.model.structure import Element, Ports, power
 
 
 class Arrangement(Protocol):
@@ -151,7 +151,7 @@ def _matrix(
     powers = [one, s, s * s]
     diagonal, off = [one - one] * (last - first + 1), [one - one] * (last - first)
     for e in elements:
-        term = values[e.parameter] * powers[POWER[e.kind]]
+        term = values[e.parameter] * powers[power(e)]
         nodes = _nodes(e, ends)
         for node in nodes:
             diagonal[node - first] = diagonal[node - first] + term
@@ -197,7 +197,7 @@ def _gradient(row: _RowMatrix, element: Element, s: Ring) -> tuple[Ring, Ring]:
     else:
         square, act, meas = matrix.adjugate_diagonal(i), row.act[i], row.meas[i]
     d_num = (row.num * square - act * meas) // matrix.determinant
-    for _ in range(POWER[element.kind]):
+    for _ in range(power(element)):
         d_num, square = d_num * s, square * s
     return d_num, square
 

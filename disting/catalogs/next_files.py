@@ -25,10 +25,11 @@ from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.files import Record, lines, shipped_folder
 from disting.catalogs.provenance import write_provenance
 from disting.errors import CatalogError
-from disting.experiments.menu import Costs, Gain, Kind
+from disting.experiments.menu import Costs, Gain
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.kinds import KINDS, Kind
 from disting.model.shown import plural, summary
 from disting.verdict import Engine, Progress, View, silent
 from disting.verdict.further import Further, further
@@ -101,8 +102,10 @@ class NextCatalog:
 
     def further(self, numbers: Sequence[int], costs: Costs | None = None) -> Further | None:
         """What to measure next to tell these structures of one group apart, in this order; None
-        where they are no two of one group. Raises CatalogError for a damaged record.
+        where they are no two of one group, or a kind with a cost is not in the file. Raises
+        CatalogError for a damaged record.
         """
+        costs = costs or Costs()
         places = {self._place.get(m) for m in numbers}
         at = places.pop()
         if places or at is None or len(set(numbers)) < 2:
@@ -112,7 +115,8 @@ class NextCatalog:
         group, found = self.groups[at - 1], self._read[at]
         if tuple(numbers) != group:
             found = found.only([group.index(m) for m in numbers])
-        return replace(found, costs=costs or Costs())
+        asked = costs.kinds(self.family.n_masses)
+        return replace(found, costs=costs) if found.tables.keys() >= set(asked) else None
 
 
 @cache
@@ -121,7 +125,7 @@ def next_catalog(n_masses: int, *, damped: bool = False, dampers: bool = False) 
     CatalogError where there is nothing.
 
     >>> found = next_catalog(3, damped=True).further((1, 11))
-    >>> [kind.value for kind in found.kinds if found.anywhere(kind)]
+    >>> [kind.name for kind in found.kinds if found.anywhere(kind)]
     ['sensor', 'force', 'inertia', 'lock']
     """
     return read(shipped_folder(), n_masses, damped, dampers)
@@ -151,7 +155,7 @@ def build_next(
     for done, members in enumerate(groups, 1):
         named = [empty.named(m) for m in members]
         found = further(named, engine, executor=executor, progress=progress)
-        tables = {kind.value: _plain(table) for kind, table in found.tables.items()}
+        tables = {kind.name: _plain(table) for kind, table in found.tables.items()}
         records.append({"group": list(members), **tables})
         progress("groups", done, len(groups))
     return lines(records)
@@ -239,9 +243,9 @@ def _further(stored: NextCatalog, record: Record) -> Further:
     n, numbers, tests = stored.family.n_masses, record["group"], stored.records[0]["tests"]
     try:
         tables = {
-            kind: _placed(kind, n, len(numbers), record[kind.value], tests)
-            for kind in Kind
-            if kind.value in record
+            kind: _placed(kind, n, len(numbers), record[kind.name], tests)
+            for kind in KINDS
+            if kind.name in record
         }
         names, chains = zip(*map(stored.named, numbers), strict=True)
         return Further(names, chains, tables)

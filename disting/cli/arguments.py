@@ -13,6 +13,7 @@ from disting.errors import shown
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
+from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 
 
@@ -185,8 +186,8 @@ def add_deciding(parser: argparse.ArgumentParser) -> None:
 def add_also(parser: argparse.ArgumentParser) -> None:
     """--also: further experiments on two chains."""
     text = (
-        "measure also like this: sensor=3, lock=2 or inertia=1:0.5, at masses of the left model"
-        " (3/2: mass 2 of the right one, else every one is tried); may be repeated"
+        f"measure also like this: {EXAMPLES}, one or several, at masses of the left model (3/2:"
+        " mass 2 of the right one, else every one is tried); may be repeated"
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
 

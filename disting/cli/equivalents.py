@@ -26,6 +26,7 @@ from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.model.kinds import EXAMPLES
 from disting.model.names import chains_named, name_of
 
 ABREAST = 3  # parameter sets beside each other
@@ -57,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
     text = (
-        "list what keeps the response of this experiment too: sensor=3, lock=2 or inertia=1:0.5, at"
+        f"list what keeps the response of this experiment too: {EXAMPLES}, one or several, at"
         " masses of the given model (3/2: mass 2 of the other one, else every one is tried); may be"
         " repeated"
     )

@@ -43,7 +43,8 @@ def _responses(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--test", type=Path, action="append", default=[], metavar="TEST", help=text)
     text = (
         "another response of the same machine, fitted together: FILE:lock=2 (mass 2 does not"
-        " move), FILE:inertia=1:0.5 (known inertia added), FILE:sensor=3; may be repeated"
+        " move), FILE:inertia=1:0.5, FILE:brake=1:0.5 or FILE:spring=1:0.5 (a known inertia, damper"
+        " or spring to the ground added), FILE:sensor=3; may be repeated"
     )
     group.add_argument(
         "--experiment", action="append", default=[], metavar="FILE:CHANGE", help=text

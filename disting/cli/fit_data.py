@@ -10,16 +10,22 @@ from typing import Any
 
 from disting.cli.plain import complain, keep_apart
 from disting.errors import InputError, shown
+from disting.experiments.changes import GENERIC, read_changes
 from disting.fit.joint import Further
 from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
 from disting.measurement.scaling import scaled, with_constant
+from disting.model.kinds import CHANGES
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
 MANY, ENOUGH = 10_000, 2000  # lines: more than the first are advised to be thinned to the second
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
-FORM = "an experiment is written FILE:lock=2, FILE:inertia=1:0.5 or FILE:sensor=2,lock=1"
+CHANGED = {kind.name: kind for kind in CHANGES}
+FORM = (
+    f"an experiment is written {', '.join(f'FILE:{kind.example}' for kind in CHANGES)} or"
+    " FILE:sensor=2,lock=1"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,15 +202,18 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
     file, given = Path(found[1]), dict[str, list[str]]()
     for part in found[2].split(","):
         name, equals, value = part.partition("=")
-        if name not in ("sensor", "lock", "inertia", "column") or not (equals and value):
+        if name not in ("sensor", "column", *CHANGED) or not (equals and value):
             raise InputError(f"{FORM}, not {shown(text)}")
         given.setdefault(name, []).append(value)
-    setup = Setup(
-        locked=tuple(at for one in given.get("lock", ()) for at in one.split("+")),
-        inertias=tuple(_inertia(one) for one in given.get("inertia", ())),
-    )
+    changes = [
+        change
+        for name, kind in CHANGED.items()
+        for value in given.get(name, ())
+        for change in read_changes(kind, _measured(name, value), str)
+    ]
+    setup = Setup(changes=changes)
     places = given.get("sensor", list(signs))
-    if not (setup.locked or setup.inertias or "sensor" in given):
+    if not (changes or "sensor" in given):
         raise InputError(f"{FORM}, not {shown(text)}")
     for k, place in enumerate(places):
         alone = "sensor" in given
@@ -219,13 +228,11 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
         yield Further(response, replace(setup, sensor=place, sign=signs.get(place, 1)))
 
 
-def _inertia(text: str) -> tuple[str, float]:
-    at, colon, size = text.partition(":")
-    try:
-        return at, float(size)
-    except ValueError:
-        wrong = f"not {shown(text)}" if colon else "its size is missing"
-        raise InputError(f"a known inertia is written inertia=1:0.5, {wrong}") from None
+def _measured(name: str, value: str) -> str:
+    """What was added to a machine has a size that is known."""
+    if value.endswith(GENERIC):
+        raise InputError(f"a known {name} that was measured with has a number, not {GENERIC}")
+    return value
 
 
 def _each(found: Data, change: Callable[[FrequencyResponse], FrequencyResponse]) -> Data:

@@ -20,6 +20,7 @@ from disting.general import read_models
 from disting.general.parameters import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
+from disting.model.kinds import EXAMPLES
 from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
 from disting.verdict import Engine, Progress
 
@@ -40,8 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="say for each model which parameters can be determined",
     )
     text = (
-        "say it of the models as they are and measured also like this: sensor=3, lock=2 or"
-        " inertia=1:0.5; may be repeated"
+        f"say it of the models as they are and measured also like this: {EXAMPLES}, one or several;"
+        " may be repeated"
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     text = f"say degrees and ranks of more than {AT_ONCE} masses too, which takes a minute or more"

@@ -19,9 +19,10 @@ from disting.cli.output import emitted
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed, printable
-from disting.experiments.menu import COSTS, Costs, Item
+from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
+from disting.model.kinds import COSTS, PRICES
 from disting.model.names import chains_named, name_of, read
 from disting.verdict import Engine, Query, Relation, View
 from disting.verdict.further import Further, further
@@ -52,9 +53,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("models", nargs="+", metavar="N:I|FIT.json", help=text)
     defaults = ",".join(f"{name}={cost:g}" for name, cost in COSTS.items())
+    more = " and ".join(price for price in PRICES if price not in COSTS)
     text = (
         "what the experiments cost, in any unit: a further sensor, a sensor or the force moved, a"
-        f" known inertia added, a mass locked; two cost their sum (default: {defaults})"
+        f" known inertia added, a mass locked; two cost their sum (default: {defaults}); {more} are"
+        " on the menu where their cost is named"
     )
     parser.add_argument("--cost", default="", metavar="LIST", help=text)
     text = "write every experiment at every pair of masses as CSV; - is standard output"
@@ -139,7 +142,7 @@ def _told(found: Further, words: Sequence[str] = (), *, brief: bool = False) -> 
     for structure, name in enumerate(found.names):
         lines += ["", f"if it is {name}:"]
         for kind in found.kinds if found.least(structure) or not brief else ():
-            cost = f"{kind.value:8} cost {found.costs.cost(kind):g}"
+            cost = f"{kind.name:8} cost {found.costs.cost(kind):g}"
             for at in range(1, found.n_masses + 1):
                 lines.append(f"  {cost}  mass {at}: {in_words(found, structure, Item(kind, at))}")
         lines.append(f"  {conclusion(found, structure)}")

@@ -47,7 +47,7 @@ def onward(
         chosen = [(named.left[k].name, named.left[k].chain) for k in members]
         groups.append(further(chosen, engine, costs=costs, executor=executor, progress=progress))
     bench = bench_of(named)
-    seen = foretold(named.left, bench, engine.settings) if bench else None
+    seen = foretold(named.left, bench, engine.settings, costs) if bench else None
     return Onward(source, named, known, tuple(groups), seen, costs)
 
 

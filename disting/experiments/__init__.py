@@ -1,11 +1,13 @@
 """Chains under several experiments with one parameter vector: what to measure next.
 
-`experiment` says how is measured, `profiles` what it reveals, `exact` decides what conditions leave
-open, `compared` makes a measured chain a side of a comparison, `places` tells which mass of one
-model is which of the other.
+`changes` of a machine are of the kinds of one table, `experiment` says how is measured,
+`stacked_profiles` what it reveals, `exact_under` decides what conditions leave open, `machine_side`
+makes a measured chain a side of a comparison, `places` tells which mass of one model is which of
+the other.
 """
 
-from disting.experiments.experiment import GENERIC as GENERIC
+from disting.experiments.changes import GENERIC as GENERIC
+from disting.experiments.changes import Change as Change
 from disting.experiments.experiment import Experiment as Experiment
 from disting.experiments.experiment import MeasuredChain as MeasuredChain
 from disting.experiments.machine_side import ComparedMachine as ComparedMachine

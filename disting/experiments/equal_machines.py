@@ -15,9 +15,9 @@ further experiment.
 """
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
-from disting.experiments.experiment import Experiment, MeasuredChain, Place
+from disting.experiments.experiment import MeasuredChain
 from disting.model.chain import Chain
 
 REMEMBERED = 4096
@@ -43,7 +43,7 @@ def _order(measured: MeasuredChain) -> tuple[object, ...]:
     """What the standard form has least of."""
     chain = measured.chain
     told = [
-        (e.force or (), e.sensor or (), e.locked, e.inertias, e.springs)
+        (e.force or (), e.sensor or (), [(c.kind, c.place, c.size) for c in e.changes])
         for e in measured.experiments
     ]
     forces = sum(e.force is not None for e in measured.experiments)
@@ -71,22 +71,8 @@ def _reflected(measured: MeasuredChain) -> MeasuredChain:
         meas_plus=_fold(given, given.meas_plus),
         ground_dampers=tuple(_fold(given, i) for i in given.ground_dampers),
     )
-    return MeasuredChain(chain, tuple(_folded(given, e) for e in measured.experiments))
-
-
-def _folded(chain: Chain, experiment: Experiment) -> Experiment:
-    def port(place: Place | None) -> Place | None:
-        """Where it is after the reflection."""
-        return None if place is None else (_fold(chain, place[0]), _fold(chain, place[1]))
-
-    return replace(
-        experiment,
-        force=port(experiment.force),
-        sensor=port(experiment.sensor),
-        locked=tuple(_fold(chain, i) for i in experiment.locked),
-        inertias=tuple((_fold(chain, i), size) for i, size in experiment.inertias),
-        springs=tuple((_fold(chain, i), size) for i, size in experiment.springs),
-    )
+    folded = (e.moved(partial(_fold, given)) for e in measured.experiments)
+    return MeasuredChain(chain, tuple(folded))
 
 
 def _fold(chain: Chain, mass: int) -> int:

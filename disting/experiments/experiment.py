@@ -1,104 +1,132 @@
-"""How a machine is measured: ports, sensor quantity, and changes of the machine whose size is
-known.
+"""How a machine is measured: ports, sensor quantity, and changes of the machine.
 
 An experiment is one force, one sensor and one state of the machine. A locked mass does not move:
 its coordinate is 0, so it cuts its row, and what was a joint to it is a joint to something that
-does not move. A known inertia J at mass i adds J s^2, a known spring k to the ground adds k to
-A(s)[i, i]. Everything else is the chain, with its own parameters, whatever is done to it.
+does not move. What is added, of a known size, adds size * s^power to A(s)[i, i] (`model.kinds`).
+Everything else is the chain, with its own parameters, whatever is done to it.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
-from disting.algebra.sampling import residues
 from disting.behaviour.transfer import touched
 from disting.errors import ConstraintViolation, InputError, shown
+from disting.experiments.changes import Change, changes_of, in_order
 from disting.model.chain import Chain, Sensor
-from disting.model.exact_number import is_too_long
+from disting.model.kinds import CHANGES, Kind
 from disting.model.shown import summary
 from disting.model.structure import Element, Known, Ports, Structure
 
-GENERIC = "generic"  # in place of a number: one that is drawn once, the same for all models
-GENERIC_BITS = 64
 Place = tuple[int, int]
 """Plus and minus mass of a port; 0 is the ground."""
-Sizes = tuple[tuple[int, Fraction], ...]
-"""(mass, size) of what is added."""
-Given = Mapping[int, object] | Iterable[tuple[int, object]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False, repr=False)
 class Experiment:
     """One way to measure a chain; as it stands, that of the chain itself.
 
     `force` and `sensor`: a mass, or two of which the second is the other end (0 is the ground);
     None: as in the chain. `quantity`: position, velocity or acceleration, None: as in the chain.
-    `locked`: masses that do not move. `inertias`, `springs`: {mass: size} of known inertias and of
-    known springs to the ground, exact positive numbers or GENERIC. Raises InputError.
+    `changes` of the machine are also given by kind: `locked`, masses that do not move; `inertias`,
+    `brakes` and `springs`, {mass: size} of known inertias and of known dampers and springs to the
+    ground, exact positive numbers or "generic". Raises InputError.
 
     >>> Experiment(sensor=3, locked=2, inertias={1: "0.5"}).text
     'sensor 3, mass 2 locked, inertia 1/2 at mass 1'
     """
 
-    force: Place | None = None
-    sensor: Place | None = None
-    quantity: Sensor | None = None
-    locked: tuple[int, ...] = ()
-    inertias: Sizes = ()
-    springs: Sizes = ()
+    force: Place | None
+    sensor: Place | None
+    quantity: Sensor | None
+    changes: tuple[Change[int], ...]
 
-    if TYPE_CHECKING:  # what may be given, and what it becomes
-
-        def __init__(
-            self,
-            force: Place | int | None = None,
-            sensor: Place | int | None = None,
-            quantity: Sensor | str | None = None,
-            locked: Iterable[int] | int = (),
-            inertias: Given = (),
-            springs: Given = (),
-        ) -> None:
-            """See the class."""
-
-    def __post_init__(self) -> None:
-        given = {
-            "force": _place("force", self.force),
-            "sensor": _place("sensor", self.sensor),
-            "quantity": None if self.quantity is None else _quantity(self.quantity),
-            "locked": _masses("a locked mass", self.locked),
-            "inertias": _sizes("inertia", self.inertias),
-            "springs": _sizes("spring", self.springs),
-        }
-        for name, value in given.items():
+    def __init__(
+        self,
+        force: Place | int | None = None,
+        sensor: Place | int | None = None,
+        quantity: Sensor | str | None = None,
+        *,
+        changes: Iterable[Change[int]] = (),
+        **by_kind: object,
+    ) -> None:
+        listed = in_order([*changes, *changes_of(by_kind)])
+        for change in listed:
+            if type(change.place) is not int or change.place < 1:
+                raise InputError(
+                    f"the place of a {change.kind.name} is mass 1, 2, .., not {shown(change.place)}"
+                )
+        for name, value in (
+            ("force", _place("force", force)),
+            ("sensor", _place("sensor", sensor)),
+            ("quantity", None if quantity is None else _quantity(quantity)),
+            ("changes", listed),
+        ):
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
-        given = [
+        said = [
             f"{name}={place[0] if not place[1] else place}"
             for name, place in (("force", self.force), ("sensor", self.sensor))
             if place
         ]
-        given += [f"quantity={self.quantity.value!r}"] if self.quantity else []
-        given += [f"locked={self.locked}"] * bool(self.locked)
-        for name, sizes in (("inertias", self.inertias), ("springs", self.springs)):
-            items = ", ".join(f"{mass}: {str(size)!r}" for mass, size in sizes)
-            given += [f"{name}={{{items}}}"] * bool(items)
-        return f"Experiment({', '.join(given)})"
+        said += [f"quantity={self.quantity.value!r}"] if self.quantity else []
+        for kind in CHANGES:
+            listed = self.of(kind)
+            items = ", ".join(f"{c.place}: {str(c.size)!r}" for c in listed)
+            what = f"{{{items}}}" if kind.takes_size else f"{tuple(c.place for c in listed)}"
+            said += [f"{kind.argument}={what}"] if listed else []
+        return f"Experiment({', '.join(said)})"
+
+    def of(self, kind: Kind) -> tuple[Change[int], ...]:
+        """The changes of this kind, by mass."""
+        return tuple(change for change in self.changes if change.kind == kind)
+
+    @property
+    def still(self) -> tuple[int, ...]:
+        """The masses that do not move."""
+        return tuple(c.place for c in self.changes if c.kind.holds)
 
     @property
     def masses(self) -> tuple[int, ...]:
         """All masses that it names."""
         ports = [i for port in (self.force, self.sensor) for i in port or () if i]
-        return (*ports, *self.locked, *(i for i, _ in (*self.inertias, *self.springs)))
+        return (*ports, *(change.place for change in self.changes))
 
     @property
-    def changes(self) -> tuple[object, ...]:
-        """The state of the machine: experiments that share it share their poles."""
-        return self.locked, self.inertias, self.springs
+    def written_fields(self) -> dict[str, object]:
+        """All that it says, by the arguments that say it: masses, or (mass, size) where a size is
+        taken. Kinds that came later are there where something is done, so that what was written
+        before them is written so again.
+        """
+        said: dict[str, object] = {
+            "force": self.force,
+            "sensor": self.sensor,
+            "quantity": self.quantity,
+        }
+        for kind in CHANGES:
+            listed = self.of(kind)
+            if listed or kind.always:
+                said[kind.argument] = tuple(
+                    (c.place, c.size) if kind.takes_size else c.place for c in listed
+                )
+        return said
+
+    def moved(self, place: Callable[[int], int]) -> "Experiment":
+        """The same at the masses that its own become; the ground stays the ground."""
+
+        def port(at: Place | None) -> Place | None:
+            """A port there."""
+            return None if at is None else (end(at[0]), end(at[1]))
+
+        def end(at: int) -> int:
+            """One end of a port there."""
+            return place(at) if at else 0
+
+        changes = tuple(change.moved(place) for change in self.changes)
+        return replace(self, force=port(self.force), sensor=port(self.sensor), changes=changes)
 
     @property
     def text(self) -> str:
@@ -108,14 +136,8 @@ class Experiment:
             for name, place in (("force", self.force), ("sensor", self.sensor))
             if place
         ]
-        added = [
-            f"{what} {size} at mass {mass}"
-            for what, sizes in (("inertia", self.inertias), ("spring", self.springs))
-            for mass, size in sizes
-        ]
-        locked = [f"mass {i} locked" for i in self.locked]
         quantity = [self.quantity.value] if self.quantity else []
-        return ", ".join([*ports, *quantity, *locked, *added]) or "as it is"
+        return ", ".join([*ports, *quantity, *(c.text for c in self.changes)]) or "as it is"
 
     def refuse(self, chain: Chain) -> None:
         """Raise InputError if the chain has no such place, or nothing is left that moves."""
@@ -123,7 +145,7 @@ class Experiment:
         wrong = [i for i in self.masses if i > n]
         if wrong:
             raise InputError(f"there is no mass {wrong[0]} in a chain with masses 1 to {n}")
-        if len(self.locked) == n:
+        if len(self.still) == n:
             raise InputError("all masses are locked: leave one that moves")
 
 
@@ -160,14 +182,14 @@ class Entry:
         p = self.structure.ports
         act = self.experiment.force or (p.act_plus, p.act_minus)
         meas = self.experiment.sensor or (p.meas_plus, p.meas_minus)
-        still = set(self.experiment.locked)
+        still = set(self.experiment.still)
         act_plus, act_minus, meas_plus, meas_minus = (0 if i in still else i for i in (*act, *meas))
         return Ports(act_minus, act_plus, meas_minus, meas_plus)
 
     @cached_property
     def row_ends(self) -> tuple[tuple[int, int], ...]:
         """Rows of masses that move, cut at the locked ones."""
-        still = set(self.experiment.locked)
+        still = set(self.experiment.still)
         found = []
         for first, last in self.structure.row_ends:
             walls = [first - 1, *(i for i in range(first, last + 1) if i in still), last + 1]
@@ -177,23 +199,26 @@ class Entry:
     @cached_property
     def elements(self) -> tuple[Element, ...]:
         """Those of the structure that act on a mass that moves, and what is added to it."""
-        still = {0, *self.experiment.locked}
+        still = {0, *self.experiment.still}
 
         def moves(e: Element) -> bool:
             """Whether the element acts on a mass that moves."""
             return not ({e.at, e.at + 1} if e.kind in "kd" else {e.at}) <= still
 
-        added = [Known(i, kind) for kind, sizes in self._added for i, _ in sizes]
-        return tuple(e for e in (*self.structure.elements, *added) if moves(e))
+        return tuple(e for e in (*self.structure.elements, *self._added) if moves(e))
 
     @cached_property
     def known(self) -> dict[str, Fraction]:
         """Sizes of what is added, by the names of `elements`."""
-        return {Known(i, kind).parameter: size for kind, sizes in self._added for i, size in sizes}
+        return {known.parameter: size for known, size in self._added.items()}
 
-    @property
-    def _added(self) -> tuple[tuple[str, Sizes], ...]:
-        return ("m", self.experiment.inertias), ("g", self.experiment.springs)
+    @cached_property
+    def _added(self) -> dict[Known, Fraction]:
+        return {
+            Known(change.place, change.kind.name, change.kind.power): change.size
+            for change in self.experiment.changes
+            if change.kind.power is not None and change.size is not None
+        }
 
 
 @dataclass(frozen=True)
@@ -229,7 +254,7 @@ class MeasuredChain:
         True
         """
         entry, experiment = self.entries[at], self.experiments[at]
-        if any(experiment.changes):
+        if experiment.changes:
             return None
         quantity = experiment.quantity or self.chain.sensor
         try:
@@ -260,17 +285,6 @@ def _place(what: str, given: object) -> Place | None:
     return ends[0], ends[1]
 
 
-def _masses(what: str, given: object) -> tuple[int, ...]:
-    listed = (given,) if isinstance(given, int) else given
-    if not isinstance(listed, Iterable):
-        raise InputError(f"{what} is a whole number, not {shown(given)}")
-    found = list(listed)
-    wrong = [i for i in found if isinstance(i, bool) or not isinstance(i, int) or i < 1]
-    if wrong:
-        raise InputError(f"{what} is mass 1, 2, .., not {shown(wrong[0])}")
-    return tuple(sorted(set(found)))
-
-
 def _quantity(given: object) -> Sensor:
     try:
         return Sensor(str(given))
@@ -278,42 +292,3 @@ def _quantity(given: object) -> Sensor:
         raise InputError(
             f"a sensor shows position, velocity or acceleration, not {shown(given)}"
         ) from None
-
-
-def _sizes(what: str, given: object) -> Sizes:
-    listed = given.items() if isinstance(given, Mapping) else given
-    try:
-        items = [(mass, size) for mass, size in listed]  # type: ignore[attr-defined]
-    except (TypeError, ValueError):
-        raise InputError(f"known sizes are written {{mass: size}}, not {shown(given)}") from None
-    masses = [mass for mass, _ in items]
-    if len(_masses(f"the place of a known {what}", masses)) < len(masses):
-        raise InputError(f"two known {what}s at one mass: give their sum")
-    return tuple(sorted((mass, number(what, size)) for mass, size in items))
-
-
-def number(what: str, given: object) -> Fraction:
-    """A known size, exact; GENERIC is one that is drawn once and for all, between 1 and 2.
-
-    >>> number("inertia", 0.5), 1 < number("inertia", "generic") < 2
-    (Fraction(1, 2), True)
-    """
-    if given == GENERIC:
-        low = 1 << (GENERIC_BITS - 1)
-        return Fraction(low + residues(f"generic {what}", 1, low)[0], low)
-    try:
-        size = Fraction(given if isinstance(given, Fraction) else _written(given))
-    except (ValueError, ZeroDivisionError):
-        raise InputError(
-            f"a known {what} is a positive number or {GENERIC}, not {shown(given)}"
-        ) from None
-    if size <= 0:
-        raise InputError(f"a known {what} is positive, not {shown(str(given))}")
-    return size
-
-
-def _written(given: object) -> str:
-    text = str(given)
-    if isinstance(given, bool) or is_too_long(text):
-        raise ValueError(text)
-    return text

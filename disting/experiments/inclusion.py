@@ -71,15 +71,10 @@ def numberings(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, 
 def _keeps(places: dict[int, int], part: MeasuredChain, whole: MeasuredChain) -> bool:
     """Whether every experiment on the part is that on the whole at these places."""
     for here, there in zip(part.entries, whole.entries, strict=True):
-        one, other = here.experiment, there.experiment
         moved_ports = tuple(places[i] for i in here.ports)
-        locked = {places[i] for i in one.locked} == set(other.locked)
-        sizes = [
-            {places[i]: size for i, size in mine} == dict(theirs)
-            for mine, theirs in ((one.inertias, other.inertias), (one.springs, other.springs))
-        ]
         same = moved_ports == there.ports and here.sensor_order == there.sensor_order
-        if not (same and locked and all(sizes)):
+        changes = here.experiment.moved(places.__getitem__).changes
+        if not same or changes != there.experiment.changes:
             return False
     return True
 

@@ -29,6 +29,7 @@ from disting.fibres.ideals import Fraction, StackedMap, Terms, stacked_maps
 from disting.fibres.ideals.stacked import is_one, map_of
 
 REMEMBERED = 256
+OF_MASSES = 2  # power of s with which a mass stands in A(s), so what adds to it
 
 
 def stacked_map(measured: MeasuredChain) -> StackedMap:
@@ -88,9 +89,12 @@ def _split(measured: MeasuredChain) -> _Split | None:
     if len(measured.experiments) != 2:
         return None
     first, second = measured.experiments
-    if any(first.changes) or len(second.inertias) != 1 or replace(second, inertias=()) != first:
+    if first.changes or len(second.changes) != 1 or replace(second, changes=()) != first:
         return None
-    ((mass, size),) = second.inertias
+    (change,) = second.changes
+    if change.kind.power != OF_MASSES:
+        return None
+    mass, size = change.place, change.size
     num, den = _fraction(measured.entries[0])
     if not is_one(den[-1]):
         return None

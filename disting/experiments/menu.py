@@ -1,50 +1,28 @@
 """What could be measured next: a menu of experiments beside the present one, with what each costs.
 
-An item is one thing that is done at one mass: a sensor there, the force there, a known inertia
-added, the mass locked. A further sensor and the present sensor moved show the same: transfer
-functions of one machine with one parameter vector, whether they are measured at once or one after
-the other. So they are one item, at the cheaper price.
+An item is one thing of the table of kinds (`model.kinds`) that is done at one mass: a sensor there,
+the force there, a known inertia added, the mass locked. A further sensor and the present sensor
+moved show the same: transfer functions of one machine with one parameter vector, whether they are
+measured at once or one after the other. So they are one item, at the cheaper price.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
+from typing import Any
 
 from flint import nmod_poly
 
 from disting.algebra.sampling import PROOF_BITS
 from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
-from disting.experiments.experiment import GENERIC, Entry, Experiment, MeasuredChain
+from disting.experiments.changes import GENERIC
+from disting.experiments.experiment import Entry, Experiment, MeasuredChain
 from disting.experiments.polynomials import residues_of
 from disting.experiments.stacked_profiles import drawn
 from disting.model.chain import Chain
-
-COSTS = {"sensor": 1.0, "move": 1.0, "inertia": 2.0, "lock": 3.0}
-
-
-class Kind(StrEnum):
-    """What is done."""
-
-    SENSOR = "sensor"
-    FORCE = "force"
-    INERTIA = "inertia"
-    LOCK = "lock"
-
-
-WORDS = {
-    Kind.SENSOR: "a sensor at mass {}",
-    Kind.FORCE: "the force moved to mass {}",
-    Kind.INERTIA: "a known inertia added to mass {}",
-    Kind.LOCK: "mass {} locked",
-}
-ANYWHERE = {
-    Kind.SENSOR: "a sensor at any further mass, one more or the present one moved",
-    Kind.FORCE: "the force moved to any other mass",
-    Kind.INERTIA: "a known inertia added to any mass",
-    Kind.LOCK: "any mass locked that carries neither force nor sensor",
-}
+from disting.model.kinds import COSTS, FORCE, KINDS, PRICES, SENSOR, Kind
 
 
 class Gain(StrEnum):
@@ -66,40 +44,37 @@ class Item:
 
     @property
     def experiment(self) -> Experiment:
-        """The further experiment; an added inertia has a generic size."""
-        match self.kind:
-            case Kind.SENSOR:
-                return Experiment(sensor=self.at)
-            case Kind.FORCE:
-                return Experiment(force=self.at)
-            case Kind.INERTIA:
-                return Experiment(inertias={self.at: GENERIC})
-            case Kind.LOCK:
-                return Experiment(locked=self.at)
+        """The further experiment; what takes a size has a generic one."""
+        given: dict[str, Any] = {self.kind.argument: self.at}
+        if self.kind.takes_size:
+            given = {self.kind.argument: {self.at: GENERIC}}
+        return Experiment(**given)
 
     @property
     def text(self) -> str:
         """In words, with the mass."""
-        return WORDS[self.kind].format(self.at)
+        return self.kind.item.format(self.at)
 
     def is_worth(self, gain: Gain) -> bool:
-        """Whether there is anything to be seen. An inertia whose effect can be foretold is worth
-        it: a structure of which another effect is foretold is excluded. A sensor or a force where
-        it is already is none.
+        """Whether there is anything to be seen. Something known whose effect can be foretold is
+        worth it: a structure of which another effect is foretold is excluded. A sensor or a force
+        where it is already is none.
         """
-        return gain is Gain.NEW or (gain is Gain.REPEATS and self.kind is Kind.INERTIA)
+        return gain is Gain.NEW or (gain is Gain.REPEATS and self.kind.takes_size)
 
 
 @dataclass(frozen=True)
 class Costs:
-    """What each kind costs, in any unit; two things together cost their sum. Raises InputError."""
+    """What each kind costs, in any unit; two things together cost their sum. Kinds without a cost
+    of their own are on a menu only where one is named. Raises InputError.
+    """
 
     of: Mapping[str, float] = field(default_factory=lambda: dict(COSTS))
 
     def __post_init__(self) -> None:
-        unknown = [name for name in self.of if name not in COSTS]
+        unknown = [name for name in self.of if name not in PRICES]
         if unknown:
-            raise InputError(f"costs are those of {', '.join(COSTS)}, not of {shown(unknown[0])}")
+            raise InputError(f"costs are those of {', '.join(PRICES)}, not of {shown(unknown[0])}")
         wrong = [name for name, cost in self.of.items() if not (isfinite(cost) and cost > 0)]
         if wrong:
             raise InputError(f"the cost of {wrong[0]} is a positive number")
@@ -124,22 +99,23 @@ class Costs:
     def cost(self, kind: Kind) -> float:
         """Of one item of this kind.
 
-        >>> Costs.read("sensor=5,move=2").cost(Kind.SENSOR)
+        >>> Costs.read("sensor=5,move=2").cost(SENSOR)
         2.0
         """
-        if kind is Kind.SENSOR:
-            return min(self.of["sensor"], self.of["move"])
-        return self.of["move" if kind is Kind.FORCE else kind.value]
+        return min(self.of[price] for price in kind.prices)
 
     @property
     def cheapest_first(self) -> tuple[Kind, ...]:
-        """All kinds; of equal cost in their order."""
-        return tuple(sorted(Kind, key=self.cost))
+        """All kinds that have a cost; of equal cost in their order."""
+        priced = (kind for kind in KINDS if set(kind.prices) <= self.of.keys())
+        return tuple(sorted(priced, key=self.cost))
 
-
-def kinds(n_masses: int) -> tuple[Kind, ...]:
-    """What can be done on chains of this size: a single mass cannot be locked."""
-    return tuple(kind for kind in Kind if n_masses > 1 or kind is not Kind.LOCK)
+    def kinds(self, n_masses: int) -> tuple[Kind, ...]:
+        """What can be done on chains of this size, in the order of the table: a single mass cannot
+        be held still.
+        """
+        priced = set(self.cheapest_first)
+        return tuple(k for k in KINDS if k in priced and (n_masses > 1 or not k.holds))
 
 
 def measured(chain: Chain, *items: Item) -> MeasuredChain:
@@ -149,8 +125,7 @@ def measured(chain: Chain, *items: Item) -> MeasuredChain:
     A(s) and its inverse are symmetric), so the sensor is moved.
     """
     found = [
-        Item(Kind.SENSOR, item.at) if chain.collocated and item.kind is Kind.FORCE else item
-        for item in items
+        Item(SENSOR, item.at) if chain.collocated and item.kind == FORCE else item for item in items
     ]
     return MeasuredChain(chain, (Experiment(), *(item.experiment for item in found)))
 
@@ -159,17 +134,19 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     """What an item adds; None where it is not known: at a random point what was measured implies
     the same, so maybe it always does.
 
-    Implied are the same transfer function G and, where force and sensor are at the one mass that
-    gets the inertia J, G/(1 + J s^2 R) with the receptance R = G/s^q, q differentiations; a lag
-    stands between both. NEW is proven: what differs at a point modulo a prime differs.
+    Implied are the same transfer function G and, where force and sensor are at the one mass to
+    which h(s) is added, such as J s^2, G/(1 + h R) with the receptance R = G/s^q, q
+    differentiations; a lag stands between both. NEW is proven: what differs at a point modulo a
+    prime differs.
     """
     both = measured(chain, item)
     here, there = both.entries
     if not touched(there):
         return Gain.SILENT
-    if item.kind is Kind.INERTIA and not chain.lag and here.ports == (0, item.at, 0, item.at):
+    sized = item.kind.power is not None
+    if sized and not chain.lag and here.ports == (0, item.at, 0, item.at):
         return Gain.REPEATS
-    if not any(there.experiment.changes) and _seen(here) == _seen(there):
+    if not there.experiment.changes and _seen(here) == _seen(there):
         return Gain.REPEATS
     where = drawn(both, "gain", PROOF_BITS)
     first, second = where.quotients
@@ -178,10 +155,17 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     if first is None:
         return Gain.NEW
     num, den = first.num, first.den
-    if item.kind is Kind.INERTIA:
+    if item.kind.power is not None:
         (size,) = residues_of(there.known, where.modulus).values()
-        den = den + num * nmod_poly([0] * (2 - here.sensor_order) + [size], where.modulus)
+        lift = item.kind.power - here.sensor_order
+        num, den = (_shifted(p, -lift) for p in (num, den)) if lift < 0 else (num, den)
+        den = den + _shifted(first.num, lift) * size
     return Gain.NEW if num * second.den != second.num * den else None
+
+
+def _shifted(p: nmod_poly, by: int) -> nmod_poly:
+    """A polynomial times s^by, itself where that is none."""
+    return p * nmod_poly([0] * by + [1], p.modulus()) if by > 0 else p
 
 
 def _seen(entry: Entry) -> tuple[object, ...]:

@@ -7,22 +7,23 @@ stay different, the ground stays the ground, and one thing is one mass in all ex
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import permutations
 from math import perm
 from typing import Any
 
 from disting.errors import InputError, listed, shown
-from disting.experiments.experiment import Experiment, Place
+from disting.experiments.changes import Change, read_changes
+from disting.experiments.experiment import Experiment
 from disting.model.chain import Chain
+from disting.model.kinds import BY_NAME, EXAMPLES
 
 Places = tuple[tuple[int, int], ...]
 """(mass of the left chain, the same thing in the right one), sorted."""
 MOST_WAYS = 200  # to place what is not known: each is a verdict
-SETTINGS = ("force", "sensor", "quantity", "lock", "inertia", "spring")
 FORM = (
-    "an experiment is written sensor=3, force=2, lock=2, inertia=1:0.5 or spring=1:100, joined by"
-    " commas; 3/2 is mass 3 of the left model and 2 of the right one"
+    f"an experiment is written {EXAMPLES}, one or several of them, joined by commas; 3/2 is mass 3"
+    " of the left model and 2 of the right one"
 )
 
 
@@ -40,27 +41,30 @@ def named(text: str) -> Named:
     >>> named("sensor=3/2-1,lock=1").places, named("inertia=1:0.5").experiment.text
     (((3, 2),), 'inertia 1/2 at mass 1')
     """
-    given: dict[str, Any] = {}
+    ports: dict[str, Any] = {}
+    changes: list[Change[int]] = []
     places: list[tuple[int, int]] = []
+
+    def mass(text: str) -> int:
+        """A mass of the left chain; one of the right that is the same is kept."""
+        return _mass(text, places)
+
     for part in text.split(","):
         key, _, value = part.strip().partition("=")
-        if key not in SETTINGS or not value:
+        kind = BY_NAME.get(key)
+        if not value or (kind is None and key != "quantity"):
             raise InputError(f"{FORM}, not {shown(text)}")
-        if key == "quantity":
-            _once(given, key, value)
-        elif key in ("force", "sensor"):
-            ends = [_mass(end, places) for end in value.split("-")]
-            _once(given, key, ends[0] if len(ends) == 1 else tuple(ends))
-        elif key == "lock":
-            _once(given, "locked", tuple(_mass(end, places) for end in value.split("+")))
-        else:
-            mass, colon, size = value.partition(":")
-            if not colon:
-                raise InputError(f"the size of a known {key} is missing: write {key}={mass}:1")
-            name = {"inertia": "inertias", "spring": "springs"}[key]
-            given.setdefault(name, []).append((_mass(mass, places), size))
+        if kind is not None and not kind.is_port:
+            changes += read_changes(kind, value, mass)
+            continue
+        if key in ports:
+            raise InputError(
+                f"an experiment has one {key}: repeat the whole option for another one"
+            )
+        ends = value.split("-") if kind else ()
+        ports[key] = tuple(map(mass, ends)) if len(ends) > 1 else mass(value) if kind else value
     agreed = _agreed(places)
-    return Named(Experiment(**given), agreed)
+    return Named(Experiment(**ports, changes=changes), agreed)
 
 
 def ways(left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()) -> list[Places]:
@@ -97,26 +101,7 @@ def ways(left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()) 
 
 def moved(experiment: Experiment, places: Places) -> Experiment:
     """The experiment at the places of the right chain."""
-    there = {0: 0} | dict(places)
-
-    def port(place: Place | None) -> Place | None:
-        """The port of the same things."""
-        return None if place is None else (there[place[0]], there[place[1]])
-
-    return replace(
-        experiment,
-        force=port(experiment.force),
-        sensor=port(experiment.sensor),
-        locked=tuple(there[i] for i in experiment.locked),
-        inertias=tuple((there[i], size) for i, size in experiment.inertias),
-        springs=tuple((there[i], size) for i, size in experiment.springs),
-    )
-
-
-def _once(given: dict[str, object], key: str, value: object) -> None:
-    if key in given:
-        raise InputError(f"an experiment has one {key}: repeat the whole option for another one")
-    given[key] = value
+    return experiment.moved(dict(places).__getitem__)
 
 
 def _mass(text: str, places: list[tuple[int, int]]) -> int:

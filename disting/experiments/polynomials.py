@@ -2,8 +2,8 @@
 denominators are one and the same, and the proof of a renaming.
 
 Degrees. In an entry in which force and sensor have one end each in every row that both reach, all
-terms of a row's numerator have one sign (all-minors matrix-tree theorem; known inertias and
-springs are positive). Where the rows agree in it nothing cancels, and a coefficient vanishes
+terms of a row's numerator have one sign (all-minors matrix-tree theorem; what is added
+is positive). Where the rows agree in it nothing cancels, and a coefficient vanishes
 exactly if it does at all parameters = 1; numerator and denominator have only powers of s in
 common, as for chains. Other entries are written out and their greatest common divisor is divided
 out.

@@ -2,16 +2,17 @@
 
 The receptance of a chain with a gap is R + F, R of the grounded and F of the free row, each between
 its own ports and with parameters of its own. What is done at one mass of a row changes this row
-only: the further experiment shows R' + F or R + F' (a mass locked or an inertia added), or a motion
-of this row alone, which the force causes in it (a sensor there). So all that is measured is one and
-the same algebraic image of two independent things: what that row shows, (R, R') say, and F. If the
-closures of both are equal on both sides, so are those of the images.
+only: the further experiment shows R' + F or R + F' (a mass locked or something known added), or a
+motion of this row alone, which the force causes in it (a sensor there). So all that is measured is
+one and the same algebraic image of two independent things: what that row shows, (R, R') say, and F.
+If the closures of both are equal on both sides, so are those of the images.
 
 * A row whose ports and mass are the same as on the other side, maybe numbered from its other end,
   shows the same there.
 * What is implied by the row's receptance alone has equal closures where the receptances have: a
   sensor at the row's other port shows the receptance; a mass locked at a port or between the ports
-  makes it 0; an inertia J at the one mass that is both ports makes it R/(1 + J s^2 R).
+  makes it 0; what adds h(s), such as J s^2, at the one mass that is both ports makes it R/(1 + h R)
+  (A + h e e' has the inverse A^-1 - h A^-1 e e' A^-1/(1 + h e' A^-1 e)).
 * Receptances have equal closures where the rows are the same, or both full with the same constant
   coefficients (`fibres.ideals.full_rows`).
 
@@ -82,10 +83,10 @@ def _done(measured: MeasuredChain) -> _Done | None:
         force = (chain.act_plus if in_free else chain.act_minus) - here.before
         first, last = force, first + last - force
         kind, implied = "sensor", at == last
-    elif further == Experiment(locked=mass):
-        kind, implied = "lock", first <= at <= last
-    elif further.inertias and further == Experiment(inertias=further.inertias):
-        kind, implied = f"inertia {further.inertias[0][1]}", first == at == last
+    elif further == Experiment(changes=further.changes):
+        (change,) = further.changes
+        kind = f"{change.kind.name} {change.size}"
+        implied = first == at == last if change.kind.takes_size else first <= at <= last
     else:
         return None
     return _Done(kind, in_free, here, elsewhere, implied, _form(here, first, last, at))

@@ -4,6 +4,7 @@ It is that of `behaviour.stacked`, whatever is done to the machine; a dead time 
 itself.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -125,17 +126,24 @@ def minor_size(measured: MeasuredChain, representation: Representation, count: i
     """Bounds for the cleared minors of the Jacobian, as in `behaviour.profile.minor_size`.
 
     What is known makes numbers of h bits larger at most, h those of the integers that A(s) has in
-    the place of 1 or of a known size; each of N rows brings one, and a row has two sums more: 8 at
-    most. A difference of two denominators has both leading coefficients below it, so twice the
-    power.
+    the place of 1 or of a known size; each of N rows brings one, and a row has a term more for each
+    thing that is added to its mass, beside 6. A difference of two denominators has both leading
+    coefficients below it, so twice the power.
     """
     n = measured.chain.n_masses
-    degree, bits = n + 1, (3 + max(map(_height, measured.entries))) * n + 4
+    degree = n + 1
+    bits = max(_term_bits(entry) + _height(entry) for entry in measured.entries) * n + 4
     power = 2 if representation is Representation.TF else count + 2
     power *= 1 + (len(measured.entries) > 1)
     entry = Size(power * degree, power * (bits + 1) + ceil(log2(power * degree)) + 1)
     rank = len(measured.chain.parameters)
     return Size(rank * entry.degree, rank * (entry.bits + ceil(log2(rank + 1))))
+
+
+def _term_bits(entry: Entry) -> int:
+    """Of the number of terms that a row of A(s) sums: 3 where two things are added at most."""
+    added = Counter(change.place for change in entry.experiment.changes if change.kind.takes_size)
+    return max(3, (5 + max(added.values(), default=0)).bit_length())
 
 
 def _height(entry: Entry) -> int:

@@ -23,11 +23,12 @@ from math import inf, pi
 import numpy as np
 
 from disting.experiments import MeasuredChain
-from disting.experiments.menu import Gain, Item, Kind, gain, kinds
+from disting.experiments.menu import Costs, Gain, Item, gain
 from disting.fit.named import Left, Named, Values
 from disting.fit.plan import power, surplus
 from disting.fit.plant import Complex, Plant, Real
 from disting.model.chain import Chain
+from disting.model.kinds import Kind
 from disting.model.settings import Settings
 
 Spot = tuple[int, int]
@@ -49,6 +50,13 @@ class Bench:
     def hertz(self) -> Real:
         """Frequencies, shape (n_f,)."""
         return self.omega / (2 * pi)
+
+    def size(self, power: int) -> float:
+        """Of what adds size * s^power to a mass: as much as the inertia does in the middle of the
+        lines, w = sqrt(w_1 w_n).
+        """
+        middle = float(np.sqrt(self.omega[0] * self.omega[-1]))
+        return self.inertia * middle ** (2 - power)
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -91,8 +99,9 @@ def shown(chain: Chain, values: Values, item: Item, bench: Bench) -> Complex | N
     if machine.silent:
         return None
     structure = replace(chain.structure, ports=machine.entries[0].ports)
-    added = ((item.at, bench.inertia),) if item.kind is Kind.INERTIA else ()
-    plant = Plant(structure, bench.omega, 1, item.experiment.locked, added)
+    power = item.kind.power
+    added = () if power is None else ((item.at, power, bench.size(power)),)
+    plant = Plant(structure, bench.omega, 1, item.experiment.still, added)
     return plant.response(np.array([values[name] for name in chain.parameters]))
 
 
@@ -116,12 +125,19 @@ class Foretold:
     bench: Bench
     responses: Mapping[tuple[Item, int], Sequence[Complex | None]]
     settings: Settings
+    costs: Costs
 
     def items(self, structure: int) -> tuple[Item, ...]:
         """What is worth doing if it is this structure, by kind and mass."""
         chain = self.left[structure].chain
-        every = _menu(chain)
+        every = _menu(chain, self.costs)
         return tuple(i for i in every if i.is_worth(gain(chain, i) or Gain.NEW))
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """Of what the menu adds, by its name."""
+        sized = ((kind.name, kind.power) for kind in self.costs.kinds(2))
+        return {name: self.bench.size(power) for name, power in sized if power is not None}
 
     def at(self, kind: Kind, here: Spot, there: Spot) -> Step | None:
         """The difference of two structures at these masses; None where one has no known values."""
@@ -145,16 +161,22 @@ class Foretold:
         return power(found.noncentrality, surplus(*chains, self.settings))
 
 
-def foretold(left: Sequence[Left], bench: Bench, settings: Settings | None = None) -> Foretold:
-    """Every structure under every item of its menu."""
+def foretold(
+    left: Sequence[Left],
+    bench: Bench,
+    settings: Settings | None = None,
+    costs: Costs | None = None,
+) -> Foretold:
+    """Every structure under every item of its menu, of all kinds that have a cost."""
+    costs = costs or Costs()
     responses = {
         (item, k): [shown(one.chain, values, item, bench) for values in one.values]
         for k, one in enumerate(left)
-        for item in _menu(one.chain)
+        for item in _menu(one.chain, costs)
     }
-    return Foretold(tuple(left), bench, responses, settings or Settings())
+    return Foretold(tuple(left), bench, responses, settings or Settings(), costs)
 
 
-def _menu(chain: Chain) -> list[Item]:
+def _menu(chain: Chain, costs: Costs) -> list[Item]:
     masses = range(1, chain.n_masses + 1)
-    return [Item(kind, at) for kind in kinds(chain.n_masses) for at in masses]
+    return [Item(kind, at) for kind in costs.kinds(chain.n_masses) for at in masses]

@@ -13,7 +13,8 @@ two numbers; where force and sensor sit at the same place, y = x. Everything is 
 frequencies and over parameter vectors.
 
 A locked mass has x_i = y_i = 0: its row and column of A are those of the identity, and nothing acts
-on it; a known inertia J adds J s^2 to A_ii. All formulas above hold for both.
+on it; what is added to mass i, such as a known inertia J s^2, is a term of A_ii. All formulas above
+hold for both.
 """
 
 from dataclasses import dataclass, replace
@@ -44,14 +45,14 @@ class Plant:
     """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for
     a reversed sensor.
 
-    `still`: masses that are locked; `added`: (mass, known inertia).
+    `still`: masses that are locked; `added`: (mass, power of s, size) of what is known.
     """
 
     structure: Structure
     omega: Real
     sign: int = 1
     still: tuple[int, ...] = ()
-    added: tuple[tuple[int, float], ...] = ()
+    added: tuple[tuple[int, int, float], ...] = ()
 
     def __post_init__(self) -> None:
         if self.sign not in (1, -1):
@@ -127,8 +128,8 @@ class Plant:
                 values = p[..., self._slices[kind], None]
                 coupling[..., self._rows[kind], :] += values if kind == "k" else values * s
         pivots: Complex = p[..., self._slices["m"], None] * self._s2
-        for at, size in self.added:
-            pivots[..., at - 1, :] += size * self._s2
+        for at, power, size in self.added:
+            pivots[..., at - 1, :] += size * s**power
         if "b" in self._rows:
             pivots[..., self._rows["b"], :] += p[..., self._slices["b"], None] * s
         pivots += coupling

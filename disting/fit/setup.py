@@ -1,66 +1,100 @@
 """How a further response of the same machine was measured: what differs from the first one.
 
-The force is the same. The sensor may be elsewhere, masses may be locked (their coordinates are 0)
-and inertias of known size may be added. Places are written as the commands write ports, such as 2,
-last or 1:3, since candidates of several sizes are asked.
+The force is the same. The sensor may be elsewhere, and the machine may be changed as in any
+experiment. Places are written as the commands write ports, such as 2, last or 1:3, since
+candidates of several sizes are asked: with so many masses a setup is an `Experiment`.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from math import isfinite
+from functools import partial
 
+from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
-from disting.experiments import Experiment, MeasuredChain
+from disting.experiments import Change, Experiment, MeasuredChain
+from disting.experiments.changes import changes_of, in_order
+from disting.experiments.experiment import Entry
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Ports, Structure
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False)
 class Setup:
     """One way to measure; as it stands, that of the first response.
 
-    `sensor`: a port, "" for that of the candidate; `locked`: masses that do not move; `inertias`:
-    (mass, size) of what is added, in the unit of the masses; `sign` = -1 for a sensor that is
-    reversed against the first; `delay`: name of a dead time of its own, "" for the common one.
-    Raises InputError.
+    `sensor`: a port, "" for that of the candidate; `changes` of the machine, sizes in the units of
+    its parameters, also by kind: `locked`, masses that do not move, `inertias`, `springs`,
+    `brakes`, (mass, size) of what is added; `sign` = -1 for a sensor that is reversed against the
+    first; `delay`: name of a dead time of its own, "" for the common one. Raises InputError.
 
     >>> Setup(sensor="3", locked=("2",), inertias=(("1", 0.5),)).text
     'sensor 3, mass 2 locked, inertia 0.5 at mass 1'
     """
 
-    sensor: str = ""
-    locked: tuple[str, ...] = ()
-    inertias: tuple[tuple[str, float], ...] = ()
-    sign: int = 1
-    delay: str = ""
+    sensor: str
+    changes: tuple[Change[str], ...]
+    sign: int
+    delay: str
 
-    def __post_init__(self) -> None:
-        for at in (*self.locked, *(at for at, _ in self.inertias)):
-            if not re.fullmatch(r"[1-9]\d*|last", at):
-                raise InputError(f"a mass is a number or the word last, not {shown(at)}")
-        for _, size in self.inertias:
-            if not (size > 0 and isfinite(size)):
-                raise InputError(f"a known inertia is a positive number, not {size:g}")
-        if self.sign not in (1, -1):
-            raise InputError(f"the sign of a sensor is 1 or -1, not {self.sign!r}")
+    def __init__(
+        self,
+        sensor: str = "",
+        sign: int = 1,
+        delay: str = "",
+        *,
+        changes: Iterable[Change[str]] = (),
+        **by_kind: object,
+    ) -> None:
+        listed = in_order([*changes, *changes_of(by_kind)])
+        for change in listed:
+            if not re.fullmatch(r"[1-9]\d*|last", change.place):
+                raise InputError(f"a mass is a number or the word last, not {shown(change.place)}")
+        if sign not in (1, -1):
+            raise InputError(f"the sign of a sensor is 1 or -1, not {sign!r}")
+        for name, value in (
+            ("sensor", sensor),
+            ("changes", listed),
+            ("sign", sign),
+            ("delay", delay),
+        ):
+            object.__setattr__(self, name, value)
 
     @property
     def text(self) -> str:
         """The setup in words."""
         said = [f"sensor {self.sensor}"] * bool(self.sensor)
-        said += [f"mass {at} locked" for at in self.locked]
-        said += [f"inertia {size:g} at mass {at}" for at, size in self.inertias]
+        for change in self.changes:
+            size = "" if change.size is None else f"{float(change.size):g}"
+            said.append(change.kind.text.format(at=change.place, size=size))
         return ", ".join(said) or "the first response"
+
+    def experiment(self, n: int) -> Experiment:
+        """What it is on a chain of n masses, without quantity, sign and dead time; raises
+        InputError.
+        """
+        minus, plus = port(self.sensor, n) if self.sensor else (0, 0)
+        changes = [change.moved(partial(_mass, n=n)) for change in self.changes]
+        return Experiment(sensor=(plus, minus) if plus else None, changes=changes)
+
+    def moved(self, n: int, place: Callable[[int], int]) -> "Setup":
+        """The same on another chain, at the masses that those of a chain of n masses become."""
+        there = self.experiment(n).moved(place)
+        plus, minus = there.sensor or (0, 0)
+        changes = tuple(change.moved(str) for change in there.changes)
+        return replace(self, sensor=f"{minus}:{plus}" if plus else "", changes=changes)
 
     def still(self, n: int) -> tuple[int, ...]:
         """The masses of a chain of n masses that do not move; raises InputError."""
-        return tuple(sorted({_mass(at, n) for at in self.locked}))
+        return self.experiment(n).still
 
-    def added(self, n: int) -> tuple[tuple[int, float], ...]:
-        """(mass, size) of what is added in a chain of n masses; raises InputError."""
-        return tuple((_mass(at, n), size) for at, size in self.inertias)
+    def added(self, n: int) -> tuple[tuple[int, int, float], ...]:
+        """(mass, power of s, size) of what is added in a chain of n masses; raises InputError."""
+        return tuple(
+            (change.place, change.kind.power, float(change.size))
+            for change in self.experiment(n).changes
+            if change.kind.power is not None and change.size is not None
+        )
 
     def seen(self, structure: Structure, quantity: Sensor) -> Structure:
         """The structure with this sensor; raises InputError."""
@@ -77,7 +111,6 @@ class Setup:
         n = structure.n_masses
         try:
             self.seen(structure, Sensor.POSITION)
-            self.added(n)
             whole = len(self.still(n)) == n
         except InputError as reason:
             return str(reason)
@@ -85,14 +118,7 @@ class Setup:
 
     def is_silent(self, structure: Structure) -> bool:
         """Whether the sensor never moves: no mass that it shows is joined to one that is driven."""
-        ports, still = self.seen(structure, Sensor.POSITION).ports, self.still(structure.n_masses)
-        parts = []
-        for first, last in structure.row_ends:
-            walls = [first - 1, *(i for i in still if first <= i <= last), last + 1]
-            parts += [range(a + 1, b) for a, b in pairwise(walls)]
-        driven = {i for i in (ports.act_minus, ports.act_plus) if i}
-        shown_at = {i for i in (ports.meas_minus, ports.meas_plus) if i}
-        return not any(driven & set(part) and shown_at & set(part) for part in parts)
+        return not touched(Entry(structure, self.experiment(structure.n_masses)))
 
 
 def port(text: str, n: int) -> tuple[int, int]:
@@ -111,18 +137,8 @@ def measured_chain(chain: Chain, setups: Sequence[Setup]) -> MeasuredChain:
     """The chain under the experiments of all setups, for verdicts; quantities, signs and dead times
     tell nothing more.
     """
-    n = chain.n_masses
-    found = []
-    for setup in setups:
-        minus, plus = port(setup.sensor, n) if setup.sensor else (0, 0)
-        found.append(
-            Experiment(
-                sensor=(plus, minus) if plus else None,
-                locked=setup.still(n),
-                inertias=[(at, repr(size)) for at, size in setup.added(n)],
-            )
-        )
-    return MeasuredChain(chain, tuple(found))
+    experiments = (setup.experiment(chain.n_masses) for setup in setups)
+    return MeasuredChain(chain, tuple(experiments))
 
 
 def measurable(chain: Chain, setups: tuple[Setup, ...]) -> tuple[bool, ...]:

@@ -16,7 +16,7 @@ from disting.fit.alternatives import Alternative, Limits, is_within
 from disting.fit.estimate import Task
 from disting.fit.joint import Further, JointCost
 from disting.fit.plant import Complex
-from disting.fit.setup import Setup, measured_chain, port
+from disting.fit.setup import Setup, measured_chain
 from disting.model.chain import Chain
 from disting.questions.positive import renamings
 from disting.verdict import Engine, Query, Relation, View
@@ -92,8 +92,8 @@ def representatives_under_all(
 def behaves_alike(
     chain: Chain, values: Mapping[str, float], other: Chain, there: Mapping[str, float], task: Task
 ) -> bool:
-    """Whether another structure with its own values has all responses too, with its sensors, its
-    locked masses and its inertias at some places.
+    """Whether another structure with its own values has all responses too, with all sensors and
+    changes at some places.
 
     One thing is one mass in all responses; which one is not known of the other structure, so that
     each is tried.
@@ -125,27 +125,12 @@ def _same(one: Complex, other: Complex) -> bool:
 def _placed(chain: Chain, other: Chain, setups: Sequence[Setup]) -> Iterator[list[Setup]]:
     """The setups at every choice of masses of the other structure."""
     n = chain.n_masses
-    used = sorted({i for setup in setups for i in _masses(setup, n)})
+    used = sorted({i for setup in setups for i in setup.experiment(n).masses})
     for chosen in permutations(range(1, other.n_masses + 1), len(used)):
-        at = dict(zip(used, chosen, strict=True)) | {0: 0}
-        moved = [_moved(setup, n, at) for setup in setups]
+        at = dict(zip(used, chosen, strict=True))
+        moved = [setup.moved(n, at.__getitem__) for setup in setups]
         if all(not (s.missing(other.structure) or s.is_silent(other.structure)) for s in moved):
             yield moved
-
-
-def _masses(setup: Setup, n: int) -> set[int]:
-    ports = port(setup.sensor, n) if setup.sensor else ()
-    return {*ports, *setup.still(n), *(i for i, _ in setup.added(n))} - {0}
-
-
-def _moved(setup: Setup, n: int, at: Mapping[int, int]) -> Setup:
-    minus, plus = port(setup.sensor, n) if setup.sensor else (0, 0)
-    return replace(
-        setup,
-        sensor=f"{at[minus]}:{at[plus]}" if plus else "",
-        locked=tuple(str(at[i]) for i in setup.still(n)),
-        inertias=tuple((str(at[i]), size) for i, size in setup.added(n)),
-    )
 
 
 def learning(

@@ -76,27 +76,28 @@ class GroundDamper(NamedTuple):
 
 
 class Known(NamedTuple):
-    """Inertia ("m") or spring to the ground ("g") at mass `at`, of a size that is known: no
-    parameter.
+    """What adds to A(s)[at, at], with that power of s, something whose size is known: no parameter.
+
+    `kind` is its word, such as inertia.
     """
 
     at: int
     kind: str
+    power: int
 
     @property
     def parameter(self) -> str:
-        """Name of its value, such as +m2."""
+        """Name of its value, such as +inertia2."""
         return f"+{self.kind}{self.at}"
 
 
 Element = Mass | Spring | Damper | GroundDamper | Known
-POWER = {
-    "m": 2,
-    "k": 0,
-    "g": 0,
-    "d": 1,
-    "b": 1,
-}  # of s, with which an element's parameter enters A(s)
+_POWER = {"m": 2, "k": 0, "d": 1, "b": 1}
+
+
+def power(element: Element) -> int:
+    """Of s, with which an element's parameter enters A(s)."""
+    return element.power if isinstance(element, Known) else _POWER[element.kind]
 
 
 class Ports(NamedTuple):

@@ -1,17 +1,21 @@
 """What an experiment adds to the drawing of a chain.
 
 A further sensor is a bar below that of the first; a moved force stands for that of the chain; a
-locked mass is clamped between two pieces of ground; a known inertia is a block +J on the mass. Each
-is a layer over the drawing of any chain of the size, so that a page holds it once.
+locked mass is clamped between two pieces of ground; what is added is a block with its sign on the
+mass, +J for a known inertia. Each is a layer over the drawing of any chain of the size, so that a
+page holds it once.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from disting.experiments.menu import Item, Kind
+from disting.experiments import Change
+from disting.experiments.menu import Item
 from disting.model.chain import Chain
+from disting.model.kinds import FORCE, SENSOR, Kind
 from disting.report.drawing import (
     LOWER,
     MASS,
@@ -28,7 +32,7 @@ from disting.report.svg import body, number
 
 SMALL = 0.62  # of the natural width
 ASIDE = 9.0  # x of a further sensor's post, from the middle of its mass
-BLOCK = (17.0, 12.0)  # an added inertia
+BLOCK = (17.0, 12.0)  # what is added
 JAW = 18.0  # half of the width of the ground that holds a locked mass
 Port = tuple[int, int]
 """Plus and minus mass; 0 is the ground."""
@@ -57,7 +61,7 @@ class Sketch:
 
 def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
     """The drawing of a model that its page holds, with what these items add."""
-    moved = any(item.kind is Kind.FORCE for item in items)
+    moved = any(item.kind == FORCE for item in items)
     names = (f"more-{added(chain, item).name}" for item in items)
     text = " and ".join(item.text for item in items)
     parts = (f"{'rest' if moved else 'chain'}-{model}", *names)
@@ -75,9 +79,9 @@ def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
 
 def with_items(chain: Chain, items: Sequence[Item]) -> Scene:
     """The drawing of a chain with what these items add."""
-    more = sum(item.kind is Kind.SENSOR for item in items)
+    more = sum(item.kind == SENSOR for item in items)
     scene = draw(chain, more)
-    kept = scene.layers[:-1] if any(i.kind is Kind.FORCE for i in items) else scene.layers
+    kept = scene.layers[:-1] if any(i.kind == FORCE for i in items) else scene.layers
     said = "; ".join(item.text for item in items)
     return replace(
         scene,
@@ -86,12 +90,7 @@ def with_items(chain: Chain, items: Sequence[Item]) -> Scene:
     )
 
 
-def state(
-    chain: Chain,
-    sensors: Mapping[str, Port],
-    locked: Iterable[int] = (),
-    inertias: Iterable[int] = (),
-) -> Scene:
+def state(chain: Chain, sensors: Mapping[str, Port], changes: Sequence[Change[int]] = ()) -> Scene:
     """A chain with the sensors that are read in one state of the machine, each under its sign; "y"
     is that of the chain.
     """
@@ -102,8 +101,11 @@ def state(
     layers = [layer for layer in own.layers if layer.name != "sensor" or first]
     for place, sign in enumerate(further, first):
         layers.append(Layer(f"sensor {sign}", further_sensor(at, sensors[sign], place, sign)))
-    layers += [Layer(f"lock {i}", clamp(at, i)) for i in locked]
-    layers += [Layer(f"inertia {i}", inertia(at, i)) for i in inertias]
+    height = Counter[int]()
+    for change in changes:
+        shapes = on_mass(at, change.kind, change.place, height[change.place])
+        layers.append(Layer(f"{change.kind.name} {change.place}", shapes))
+        height[change.place] += change.kind.takes_size
     return replace(own, layers=tuple(layers))
 
 
@@ -112,16 +114,17 @@ def added(chain: Chain, item: Item) -> Layer:
     of the size.
     """
     at, node = Layout(chain), item.at
-    name = f"{item.kind.value}-{node}"
-    match item.kind:
-        case Kind.SENSOR:
-            return Layer(name, further_sensor(at, (node, 0), 1, "y2"))
-        case Kind.FORCE:
-            return Layer(name, (*_wall(at.axis - RISE), *force_bar(at, (0, node))))
-        case Kind.LOCK:
-            return Layer(name, clamp(at, node))
-        case Kind.INERTIA:
-            return Layer(name, inertia(at, node))
+    name = f"{item.kind.name}-{node}"
+    if item.kind == SENSOR:
+        return Layer(name, further_sensor(at, (node, 0), 1, "y2"))
+    if item.kind == FORCE:
+        return Layer(name, (*_wall(at.axis - RISE), *force_bar(at, (0, node))))
+    return Layer(name, on_mass(at, item.kind, node))
+
+
+def on_mass(at: Layout, kind: Kind, node: int, height: int = 0) -> tuple[Shape, ...]:
+    """A change of the machine: what holds the mass, or a block on it and on so many others."""
+    return block(at, node, f"+{kind.sign}", height) if kind.takes_size else clamp(at, node)
 
 
 def further_sensor(at: Layout, port: Port, place: int, sign: str) -> tuple[Shape, ...]:
@@ -144,13 +147,13 @@ def clamp(at: Layout, node: int) -> tuple[Shape, ...]:
     return tuple(shapes)
 
 
-def inertia(at: Layout, node: int) -> tuple[Shape, ...]:
-    """A known inertia on a mass, left of the post of a force."""
-    width, height = BLOCK
+def block(at: Layout, node: int, sign: str, height: int = 0) -> tuple[Shape, ...]:
+    """What is added to a mass, left of the post of a force, on top of `height` others."""
+    width, depth = BLOCK
     x = at.middle(node) - 2.5 - width / 2
-    y = at.axis - (MASS + height) / 2
-    box = Rect(x - width / 2, y - height / 2, width, height, Ink.PAPER, Ink.LINE, radius=2)
-    return box, Text(x, y, "+J", 10.5, bold=True)
+    y = at.axis - (MASS + depth) / 2 - height * depth
+    box = Rect(x - width / 2, y - depth / 2, width, depth, Ink.PAPER, Ink.LINE, radius=2)
+    return box, Text(x, y, sign, 10.5, bold=True)
 
 
 def _wall(y: float) -> Iterator[Shape]:

@@ -10,19 +10,12 @@ from itertools import combinations
 from disting.catalogs import Catalog
 from disting.catalogs.files import SHIPPED_SIZES as CATALOGUES
 from disting.catalogs.next_files import SHIPPED_SIZES, NextCatalog, name_of, next_catalog
-from disting.experiments.menu import Item, Kind
+from disting.experiments.menu import Item
 from disting.model.chain import Chain
 from disting.report.experiment_drawing import Sketch, sketch
 from disting.verdict import View
 from disting.verdict.further import Further
 from disting.verdict.further_words import anywhere, conclusion, in_words, left_over
-
-TITLES = {
-    Kind.SENSOR: "sensor there, one more or moved",
-    Kind.FORCE: "force moved there",
-    Kind.INERTIA: "known inertia added there",
-    Kind.LOCK: "mass locked",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +123,7 @@ def advice_of(found: Further, structure: int, members: tuple[int, ...]) -> Advic
     masses = range(1, found.n_masses + 1)
     rows = tuple(
         (
-            TITLES[kind],
+            kind.title,
             f"{found.costs.cost(kind):g}",
             tuple(_cell(found, structure, members, Item(kind, at)) for at in masses),
         )

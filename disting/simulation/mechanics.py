@@ -14,7 +14,7 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.structure import POWER, Element, Structure
+from disting.model.structure import Element, Structure, power
 
 
 class Matrices(NamedTuple):
@@ -58,7 +58,7 @@ def matrices(model: Chain | Structure, values: Mapping[str, float]) -> Matrices:
     by_power = [np.zeros((structure.n_masses, structure.n_masses)) for _ in range(3)]
     for element in structure.elements:
         vector = _vector(element, structure.n_masses)
-        by_power[POWER[element.kind]] += numbers[element.parameter] * np.outer(vector, vector)
+        by_power[power(element)] += numbers[element.parameter] * np.outer(vector, vector)
     return Matrices(by_power[2], by_power[1], by_power[0])
 
 

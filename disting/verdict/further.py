@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from disting.errors import InputError
-from disting.experiments.menu import Costs, Item, Kind, kinds
+from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
+from disting.model.kinds import Kind
 from disting.model.shown import Shown, plural, summary
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
@@ -42,7 +43,7 @@ class Further(Shown):
     costs: Costs = field(default_factory=Costs)
 
     def __repr__(self) -> str:
-        kinds = ", ".join(self.kinds)
+        kinds = ", ".join(kind.name for kind in self.kinds)
         size = plural(self.n_masses, "mass", "masses")
         return summary(self, f"{plural(len(self.chains), 'structure')} of {size}: {kinds}")
 
@@ -95,7 +96,7 @@ class Further(Shown):
             (k, item)
             for k in range(len(self.chains))
             for item in self.items(k)
-            if item.kind is kind
+            if item.kind == kind
         ]
         return (
             len(self.chains) > 1
@@ -155,8 +156,9 @@ def further(
     if len({(chain.n_masses, chain.sensor) for _, chain in named}) != 1:
         raise InputError("the structures have different numbers of masses or sensor quantities")
     names, chains = zip(*named, strict=True)
+    costs = costs or Costs()
     tables = {
         kind: placed(chains, kind, engine, executor=executor, progress=progress)
-        for kind in kinds(chains[0].n_masses)
+        for kind in costs.kinds(chains[0].n_masses)
     }
-    return Further(names, chains, tables, costs or Costs())
+    return Further(names, chains, tables, costs)

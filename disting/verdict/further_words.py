@@ -6,7 +6,7 @@ from typing import Any
 
 from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING
-from disting.experiments.menu import ANYWHERE, Gain, Item
+from disting.experiments.menu import Gain, Item
 from disting.verdict.further import Further, Option
 from disting.verdict.placed import REPEATS
 from disting.verdict.result import Relation, error_bound
@@ -65,8 +65,8 @@ def in_words(found: Further, structure: int, item: Item) -> str:
 def option_in_words(option: Option) -> str:
     """A set of items with its price.
 
-    >>> from disting.experiments.menu import Kind
-    >>> option_in_words(Option((Item(Kind.LOCK, 2),), 3.0, ()))
+    >>> from disting.model.kinds import LOCK
+    >>> option_in_words(Option((Item(LOCK, 2),), 3.0, ()))
     'mass 2 locked (cost 3)'
     """
     return f"{' and '.join(item.text for item in option.items)} (cost {option.cost:g})"
@@ -90,7 +90,7 @@ def conclusion(found: Further, structure: int) -> str:
 def anywhere(found: Further) -> str:
     """The kinds that tell all of them apart wherever they are done; "" if none does."""
     enough = [k for k in found.kinds if found.anywhere(k)]
-    told = [f"{ANYWHERE[k]} (cost {found.costs.cost(k):g})" for k in enough]
+    told = [f"{k.anywhere} (cost {found.costs.cost(k):g})" for k in enough]
     return "; or ".join(told)
 
 
@@ -105,7 +105,7 @@ def rows(found: Further) -> Iterator[tuple[str, ...]]:
                     relation, rule = table.look_up((a, i), (b, j))
                     grade = table.certainty(rule) or ""
                     bound = error_bound(grade, table.safety)
-                    row = (kind.value, left, i, right, j, relation.value, rule, grade, bound)
+                    row = (kind.name, left, i, right, j, relation.value, rule, grade, bound)
                     yield tuple(map(str, row))
 
 
@@ -115,7 +115,7 @@ def to_dict(found: Further) -> dict[str, Any]:
         "structures": list(found.names),
         "domain": "complex",
         "costs": dict(found.costs.of),
-        "anywhere": [kind.value for kind in found.kinds if found.anywhere(kind)],
+        "anywhere": [kind.name for kind in found.kinds if found.anywhere(kind)],
         "menu": [_item(found, k, item) for k in range(len(found.names)) for item in found.items(k)],
         "least": {
             name: [_option(found, o) for o in found.least(k)] for k, name in enumerate(found.names)
@@ -128,7 +128,7 @@ def _item(found: Further, structure: int, item: Item) -> dict[str, Any]:
     left = left_over(found, structure, item)
     return {
         "structure": found.names[structure],
-        "experiment": item.kind.value,
+        "experiment": item.kind.name,
         "mass": item.at,
         "cost": found.costs.cost(item.kind),
         "answer": found.whole(structure, item).value,
@@ -137,7 +137,7 @@ def _item(found: Further, structure: int, item: Item) -> dict[str, Any]:
 
 
 def _option(found: Further, option: Option) -> dict[str, Any]:
-    items = [{"experiment": i.kind.value, "mass": i.at} for i in option.items]
+    items = [{"experiment": i.kind.name, "mass": i.at} for i in option.items]
     return {"cost": option.cost, "experiments": items}
 
 

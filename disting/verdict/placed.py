@@ -9,7 +9,8 @@ from functools import cached_property
 from disting.algebra.certainty import Certainty
 from disting.conditions.rule import EXACT
 from disting.conditions.table import NECESSARY
-from disting.experiments.menu import Gain, Kind
+from disting.experiments.menu import Gain
+from disting.model.kinds import Kind
 from disting.model.shown import plural, summary
 from disting.verdict.everywhere import Answer
 from disting.verdict.result import Relation
@@ -43,7 +44,7 @@ class Placed:
     safety: int
 
     def __repr__(self) -> str:
-        return summary(self, f"{self.kind}, {plural(len(self.gains), 'place')}")
+        return summary(self, f"{self.kind.name}, {plural(len(self.gains), 'place')}")
 
     @cached_property
     def _alike(self) -> dict[tuple[Spot, int], tuple[int, ...]]:

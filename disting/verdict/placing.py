@@ -35,8 +35,9 @@ from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.equal_machines import standard
 from disting.experiments.exact_under import QUICKLY
-from disting.experiments.menu import Gain, Item, Kind, gain, measured
+from disting.experiments.menu import Gain, Item, gain, measured
 from disting.model.chain import Chain
+from disting.model.kinds import Kind
 from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.placed import NOT_KNOWN, REPEATS, TESTS, Placed

@@ -8,6 +8,7 @@ trust: of every field the type is looked at, and what asks for too much work is 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from fractions import Fraction
 from typing import Any
 
 from disting.errors import DistingError, InputError, shown
@@ -19,6 +20,7 @@ from disting.general.model_files import as_entry, read_entry
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
+from disting.model.kinds import CHANGES
 from disting.model.names import name_of
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion
@@ -148,25 +150,21 @@ def differing(data: dict[str, Any], stored: Stored, names: tuple[str, str]) -> s
 
 def plain_experiment(experiment: Experiment) -> dict[str, object]:
     """An experiment as plain data, sizes as exact text."""
-    sizes = {
-        name: [[mass, str(size)] for mass, size in given]
-        for name, given in (("inertias", experiment.inertias), ("springs", experiment.springs))
-    }
-    return {
-        "force": None if experiment.force is None else list(experiment.force),
-        "sensor": None if experiment.sensor is None else list(experiment.sensor),
-        "quantity": None if experiment.quantity is None else experiment.quantity.value,
-        "locked": list(experiment.locked),
-        **sizes,
-    }
+    return {name: _plain_field(value) for name, value in experiment.written_fields.items()}
 
 
 def read_experiment(data: Mapping[str, Any]) -> Experiment:
     """Inverse of `plain_experiment`; raises InputError, TypeError or ValueError."""
-    given = {name: tuple(map(tuple, data[name])) for name in ("inertias", "springs")}
-    if any(type(size) is not str for sizes in given.values() for _, size in sizes):
+    sized = [data.get(kind.argument, ()) for kind in CHANGES if kind.takes_size]
+    if any(type(size) is not str for listed in sized for _, size in listed):
         raise InputError("a known size is a fraction as text")
-    return Experiment(**{**data, **given})
+    return Experiment(**data)
+
+
+def _plain_field(value: object) -> object:
+    if isinstance(value, tuple):
+        return [_plain_field(item) for item in value]
+    return str(value) if isinstance(value, Fraction | Sensor) else value
 
 
 def same_plain(given: object, again: object) -> bool:

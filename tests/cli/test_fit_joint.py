@@ -112,10 +112,10 @@ def test_experiments_say_what_is_locked_and_what_is_added(bench):
     load, locked, heavy, loaded, between = found.further
     inertias = (("2", 0.004), ("1", 0.001))
     assert load.setup == Setup("2", sign=-1, delay="Td2")
-    assert locked.setup == Setup("1", ("2",), delay="Td3")
-    assert heavy.setup == Setup("1", (), inertias, delay="Td4")
-    assert loaded.setup == Setup("2", (), inertias, sign=-1, delay="Td5")
-    assert between.setup == Setup("1:2", ("last",), delay="Td6")
+    assert locked.setup == Setup("1", locked=("2",), delay="Td3")
+    assert heavy.setup == Setup("1", inertias=inertias, delay="Td4")
+    assert loaded.setup == Setup("2", inertias=inertias, sign=-1, delay="Td5")
+    assert between.setup == Setup("1:2", locked=("last",), delay="Td6")
     for one, same in ((loaded, load.measured), (between, load.measured), (heavy, found.train)):
         np.testing.assert_array_equal(one.measured.G, same.G)
 
@@ -176,8 +176,11 @@ REFUSED = [
     (["motor", "load", "--sensor", "1,2", "--sign=+,-,+"], "3 signs, 2 sensors: give one for each"),
     (["motor", "--experiment", "{locked}:lock=7"], "there is no mass 7 in a chain of 2 masses"),
     (["motor", "--experiment", "{locked}:lock=1+2"], "all masses of a chain of 2 are locked"),
-    (["motor", "--experiment", "{locked}:inertia=1:-1"], "a known inertia is a positive number"),
-    (["motor", "--experiment", "{locked}:inertia=1"], "inertia=1:0.5, its size is missing"),
+    (["motor", "--experiment", "{locked}:inertia=1:-1"], "a known inertia is positive"),
+    (
+        ["motor", "--experiment", "{locked}:inertia=1"],
+        "size of a known inertia is missing: write inertia=1:1",
+    ),
     (["motor", "--experiment", "{locked}"], "an experiment is written FILE:lock=2"),
     (["motor", "--experiment", "{locked}:force=2"], "an experiment is written FILE:lock=2"),
     (["motor", "--experiment", "nowhere.csv:lock=2"], "there is no file nowhere.csv"),

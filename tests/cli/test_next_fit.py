@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-from disting.experiments.menu import Kind
 from disting.fit.foretold import bench_of, foretold
 from disting.fit.named import named_by
 from disting.model.chain import Chain
+from disting.model.kinds import SENSOR
 from tests.cli.process import called
 from tests.fit.drives import truth
 from tests.fit.test_foretold import FREE, VALUES, fit_file, member, twin_values
@@ -74,7 +74,7 @@ def test_tables_hold_all_pairs_of_places(path):
     ]  # fmt: skip
     assert moved["relation"] == "distinguishable" and float(moved["largest"]) > 1
     found = foretold(named_by(path).left, bench_of(named_by(path)))
-    step = found.at(Kind.SENSOR, (0, 2), (2, 2))
+    step = found.at(SENSOR, (0, 2), (2, 2))
     assert float(moved["noncentrality"]) == pytest.approx(step.noncentrality)
 
 

@@ -9,13 +9,14 @@ S = Symbol("s")
 PRIME = 2147483029
 
 
-def stiffness(chain, values, locked=(), inertias=None, springs=None):
+def stiffness(chain, values, locked=(), inertias=None, springs=None, brakes=None):
     """A(s) of the masses that move, and their numbers; `values` of parameters by name."""
     n = chain.n_masses
     whole = zeros(n + 1, n + 1)
     for i in range(1, n + 1):
         mass = values[f"m{i}"] + Rational(str((inertias or {}).get(i, 0)))
         whole[i, i] += mass * S**2 + Rational(str((springs or {}).get(i, 0)))
+        whole[i, i] += Rational(str((brakes or {}).get(i, 0))) * S
     for i in chain.ground_dampers:
         whole[i, i] += values[f"b{i}"] * S
     for a in (i for i in range(n) if i != chain.gap):
@@ -24,6 +25,15 @@ def stiffness(chain, values, locked=(), inertias=None, springs=None):
             whole[x, y] += sign * law
     moving = [i for i in range(1, n + 1) if i not in locked]
     return whole.extract(moving, moving), moving
+
+
+def keywords(experiment):
+    """An experiment of the package as the functions here take it."""
+    said = {"force": experiment.force, "sensor": experiment.sensor, "locked": ()}
+    for change in experiment.changes:
+        name, at, size = change.kind.argument, change.place, change.size
+        said[name] = (*said[name], at) if size is None else {**said.get(name, {}), at: size}
+    return said
 
 
 def transfer(chain, values, *, force=None, sensor=None, **changes):
@@ -76,7 +86,8 @@ def responses(chain, values, at, **experiment):
     """G at the number `at`, and its derivatives by the parameters: A(s) is linear in each one, and
     dG = -x' dA y with A x = sensor, A y = force; a lag and the sensor's order are factors.
     """
-    changes = {k: experiment[k] for k in ("locked", "inertias", "springs") if k in experiment}
+    every = ("locked", "inertias", "springs", "brakes")
+    changes = {k: experiment[k] for k in every if k in experiment}
     matrix, moving = stiffness(chain, values, **changes)
     act = experiment.get("force") or (chain.act_plus, chain.act_minus)
     meas = experiment.get("sensor") or (chain.meas_plus, chain.meas_minus)

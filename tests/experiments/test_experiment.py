@@ -12,9 +12,10 @@ from disting import (
     compare,
     compare_everywhere,
 )
-from disting.experiments import MeasuredChain
+from disting.experiments import Change, MeasuredChain
 from disting.experiments.polynomials import expanded, shape
 from disting.experiments.stacked_profiles import degrees
+from disting.model.kinds import LOCK
 from tests.experiments.plain_stack import S, coefficients, transfer
 
 A = Family(3, damped=True)
@@ -37,6 +38,10 @@ COMPLEX = Query(View.EXACT)
         ({"inertias": "1:2"}, "are written"),
         ({"inertias": 5}, "are written"),
         ({"springs": [1]}, "are written"),
+        ({"brakes": {1: 0}}, "a known brake is positive"),
+        ({"brakes": {0: 1}}, "the place of a brake is mass 1, 2"),
+        ({"brakes": [(1, 2), (1, 2)]}, "two known brakes at one mass"),
+        ({"changes": [Change(LOCK, "last")]}, "mass 1, 2"),
         ({"inertias": {1: float("nan")}}, "a positive number or generic"),
         ({"inertias": {1: float("inf")}}, "a positive number or generic"),
         ({"quantity": "jerk"}, "position, velocity or acceleration"),
@@ -124,6 +129,11 @@ CASES = [
     (A[1], {"sensor": (2, 3)}),  # two ends in one row: terms of both signs
     (A[1], {"force": (1, 3), "sensor": (1, 3)}),
     (A[11], {"inertias": {2: "1/2"}, "springs": {3: 2}}),
+    (A[11], {"brakes": {2: "1/2"}}),
+    (Chain(3), {"brakes": {1: 2, 3: "2/7"}, "sensor": (3, 0)}),
+    (A[9], {"brakes": {2: 3}, "inertias": {2: "1/5"}, "springs": {2: 7}, "locked": (1,)}),
+    (A[1], {"force": (1, 3), "sensor": (2, 3), "brakes": {3: 1}}),  # terms of both signs
+    (Chain(2, damped=True, sensor="position"), {"brakes": {1: 1}, "inertias": {1: 1}}),
     (A[11], {"sensor": (1, 0)}),  # only the grounded part is seen
     (A[9], {"locked": (2,), "sensor": (3, 0), "force": (3, 0)}),
     (Chain(3, 1, 1, 2, 1, 3, ground_dampers=(2,), lag=True), {"sensor": (3, 1)}),

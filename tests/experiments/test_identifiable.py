@@ -11,7 +11,7 @@ from disting import Chain, Engine, Experiment, Family, InputError, Level, Store,
 from disting.behaviour.sample import Representation
 from disting.experiments import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE, identifiability_under
-from disting.experiments.menu import Kind, kinds
+from disting.experiments.menu import Costs
 from disting.experiments.stacked_profiles import profile
 from disting.model.settings import Settings
 from tests.experiments.plain_stack import determined, has_other
@@ -25,22 +25,16 @@ def cases(*sizes):
         (chain, kind, i)
         for n, damped in sizes
         for chain in Family(n, damped)
-        for kind in kinds(n)
+        for kind in Costs().kinds(n)
         for i in range(1, n + 1)
     ]
 
 
 def further(kind, i):
     """The same experiment for the package and for the twin."""
-    match kind:
-        case Kind.SENSOR:
-            return Experiment(sensor=i), {"sensor": (i, 0)}
-        case Kind.FORCE:
-            return Experiment(force=i), {"force": (i, 0)}
-        case Kind.INERTIA:
-            return Experiment(inertias={i: SIZE}), {"inertias": {i: SIZE}}
-        case Kind.LOCK:
-            return Experiment(locked=i), {"locked": (i,)}
+    at = {i: SIZE} if kind.takes_size else i
+    plain = at if kind.takes_size else (i, 0) if kind.is_port else (i,)
+    return Experiment(**{kind.argument: at}), {kind.argument: plain}
 
 
 def point_of(chain, seed):
@@ -51,7 +45,7 @@ def point_of(chain, seed):
 def check_ranks(chain, kind, i):
     given, plain = further(kind, i)
     found = identifiability(chain, experiments=[Experiment(), given])
-    rank, seen = determined(chain, point_of(chain, f"{chain}{kind}{i}"), [AS_IT_IS, plain])
+    rank, seen = determined(chain, point_of(chain, f"{chain}{kind.name}{i}"), [AS_IT_IS, plain])
     assert found.rank == rank and found.freedom == len(chain.parameters) - rank
     assert [n for n, level in found.levels.items() if level is not Level.NOT] == seen
     assert Level.UNKNOWN not in found.levels.values()
@@ -60,7 +54,7 @@ def check_ranks(chain, kind, i):
 def check_values(chain, kind, i):
     given, plain = further(kind, i)
     found = identifiability(chain, experiments=[Experiment(), given])
-    draw = Random(f"values {chain}{kind}{i}")
+    draw = Random(f"values {chain}{kind.name}{i}")
     point = {name: draw.randint(2, 10**8) for name in chain.parameters}
     for name, level in found.levels.items():
         if level is not Level.NOT:

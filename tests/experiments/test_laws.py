@@ -12,12 +12,13 @@ from disting.behaviour.sample import Representation
 from disting.experiments import MeasuredChain
 from disting.experiments.stacked_profiles import profile
 from disting.model.settings import Settings
-from tests.experiments.plain_stack import S, has_equivalent, transfer
+from tests.experiments.plain_stack import S, has_equivalent, keywords, transfer
 from tests.laws.strategies import chains
 
 ENGINE = Engine()
 COMPLEX = Query(View.EXACT, inclusion=False)
 few = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+SIZED = ("inertias", "springs", "brakes")
 SMALL = [c for n in (2, 3) for damped in (False, True) for c in Family(n, damped)]
 
 
@@ -30,11 +31,9 @@ def relation(left, right, experiments):
 def experiments(draw, n):
     """One that leaves the ports of the chain alone or moves one of them, on n masses."""
     at = st.integers(1, n)
-    kind = draw(st.sampled_from(["sensor", "force", "locked", "inertias", "springs"]))
+    kind = draw(st.sampled_from(["sensor", "force", "locked", *SIZED]))
     number = st.sampled_from([1, "1/3"])
-    return Experiment(
-        **{kind: {draw(at): draw(number)} if kind in ("inertias", "springs") else draw(at)}
-    )
+    return Experiment(**{kind: {draw(at): draw(number)} if kind in SIZED else draw(at)})
 
 
 @st.composite
@@ -172,11 +171,6 @@ def agrees_with_groebner_bases(damped, data):
     left, right = data.draw(st.sampled_from(family)), data.draw(st.sampled_from(family))
     further = data.draw(experiments(2)), data.draw(experiments(2))
     wanted = relation(left, right, [Experiment(), further])
-
-    def keywords(experiment):
-        known = {"inertias": dict(experiment.inertias), "springs": dict(experiment.springs)}
-        ports = {"force": experiment.force, "sensor": experiment.sensor}
-        return {**ports, **known, "locked": experiment.locked}
 
     ways = []
     for one, other, pair in ((left, right, further), (right, left, further[::-1])):

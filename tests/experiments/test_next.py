@@ -13,8 +13,9 @@ from disting.behaviour.sample import Representation
 from disting.catalogs.next_files import next_catalog
 from disting.cli.run import main
 from disting.errors import InputError
-from disting.experiments.menu import Costs, Gain, Item, Kind, gain, kinds, measured
+from disting.experiments.menu import Costs, Gain, Item, gain, measured
 from disting.experiments.stacked_profiles import profile
+from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.model.names import chain_of
 from disting.verdict import Engine, Relation
 from disting.verdict.everywhere import Answer
@@ -24,10 +25,9 @@ from tests.experiments.plain_stack import has_equivalent
 from tests.experiments.test_truth import SAME
 
 A = Family(3, damped=True)
-TABLE = dict(
-    zip(("sensor", "locked", "inertia"), (Kind.SENSOR, Kind.LOCK, Kind.INERTIA), strict=True)
-)
+TABLE = dict(zip(("sensor", "locked", "inertia"), (SENSOR, LOCK, INERTIA), strict=True))
 EXACT = Query(View.EXACT)
+EVERY = Costs.read("spring=2,brake=2")
 
 
 @pytest.fixture(scope="module")
@@ -54,10 +54,10 @@ def test_the_truth_as_told_by_next(pair, engine):
 
 def test_any_second_sensor_settles_the_dual_pair(engine):
     found = further(named(A, 1, 11), engine)
-    assert all(found.anywhere(kind) for kind in Kind)
+    assert all(found.anywhere(kind) for kind in Costs().kinds(3))
     assert {item.kind for option in found.least(0) for item in option.items} == {
-        Kind.SENSOR,
-        Kind.FORCE,
+        SENSOR,
+        FORCE,
     }
 
 
@@ -72,23 +72,23 @@ def test_the_group_of_five_undamped(engine):
             if a < b
             and found.tables[kind].look_up((a, i), (b, j))[0] is not Relation.DISTINGUISHABLE
         }
-        for kind in Kind
+        for kind in Costs().kinds(3)
     }
     both = {(1, 1, 4, 2), (8, 1, 11, 2), (8, 3, 11, 3)}
-    assert left[Kind.SENSOR] == left[Kind.FORCE] == left[Kind.INERTIA] == both
-    assert left[Kind.LOCK] == both | {(8, 2, 11, 1)}
-    assert [found.whole(3, Item(Kind.SENSOR, i)) for i in (1, 2, 3)] == [
+    assert left[SENSOR] == left[FORCE] == left[INERTIA] == both
+    assert left[LOCK] == both | {(8, 2, 11, 1)}
+    assert [found.whole(3, Item(SENSOR, i)) for i in (1, 2, 3)] == [
         Answer.DEPENDS,
         Answer.SURELY,
         Answer.DEPENDS,
     ]
 
 
-@pytest.mark.parametrize("kind", Kind)
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_tables_say_what_compare_says(kind, engine):
     """Every pair of places of a group, one by one, without classes and buckets."""
     family, group = Family(3), (8, 11)
-    found = further(named(family, *group), engine)
+    found = further(named(family, *group), engine, costs=EVERY)
     for i, j in product((1, 2, 3), repeat=2):
         pairs = [tuple(Item(kind, at).experiment for at in (i, j))]
         chains = (family[m] for m in group)
@@ -103,7 +103,7 @@ def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
     """
     chain, settings = Family(3, damped)[number], Engine().settings
     as_it_is = profile(measured(chain), Representation.TF, 0, settings).rank
-    for kind, at in product(Kind, (1, 2, 3)):
+    for kind, at in product(KINDS, (1, 2, 3)):
         known = gain(chain, Item(kind, at))
         assert known is not None
         if known is not Gain.NEW:
@@ -112,14 +112,14 @@ def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
 
 
 def test_the_force_moved_is_the_sensor_moved_where_both_are_at_one_place():
-    assert measured(A[1], Item(Kind.FORCE, 2)) == measured(A[1], Item(Kind.SENSOR, 2))
-    assert measured(A[2], Item(Kind.FORCE, 2)) != measured(A[2], Item(Kind.SENSOR, 2))
+    assert measured(A[1], Item(FORCE, 2)) == measured(A[1], Item(SENSOR, 2))
+    assert measured(A[2], Item(FORCE, 2)) != measured(A[2], Item(SENSOR, 2))
 
 
 def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
     """Sensor at 2 leaves mass 1 of the other, inertia at 2 leaves mass 2: together nothing is."""
     found = further(named(A, 9, 10), engine)
-    items = Item(Kind.SENSOR, 2), Item(Kind.INERTIA, 2)
+    items = Item(SENSOR, 2), Item(INERTIA, 2)
     assert [found.option(0, (item,)).left for item in items] == [(1,), (1,)]
     assert found.option(0, items).left == ()
     for j in (1, 2, 3):
@@ -130,7 +130,7 @@ def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
 
 def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
     whole = further(named(A, 2, 5), engine)
-    tables = {k: whole.tables[k] for k in (Kind.LOCK, Kind.INERTIA)}
+    tables = {k: whole.tables[k] for k in (LOCK, INERTIA)}
     found = Further(whole.names, whole.chains, tables)
     assert found.least(0) == found.least(1) == ()
     assert "by symmetry" in conclusion(found, 0)
@@ -144,7 +144,7 @@ def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
 
 def test_costs_change_what_is_least(engine):
     found = further(named(A, 1, 11), engine, costs=Costs.read("sensor=5,move=4,lock=0.5"))
-    assert found.kinds == (Kind.LOCK, Kind.INERTIA, Kind.SENSOR, Kind.FORCE)
+    assert found.kinds == (LOCK, INERTIA, SENSOR, FORCE)
     assert {o.cost for o in found.least(0)} == {0.5}
 
 
@@ -155,7 +155,7 @@ def test_bad_costs(text):
 
 
 def test_a_single_mass_is_not_locked():
-    assert Kind.LOCK not in kinds(1)
+    assert LOCK not in Costs().kinds(1)
 
 
 def test_rows_are_all_pairs_of_places(engine):
@@ -181,7 +181,7 @@ def test_command(capsys, monkeypatch):
 DAMPERS = [
     (names, kind, i, j)
     for names in (("3:1+b1", "3:4+b2"), ("3:8+b1", "3:11+b2"))
-    for kind in (Kind.SENSOR, Kind.LOCK)
+    for kind in (SENSOR, LOCK)
     for i, j in product((1, 2, 3), repeat=2)
 ]
 
@@ -195,7 +195,7 @@ def agrees_with_other_code(names, kind, i, j):
         for name, chain in zip(names, chains, strict=True)
     ]
     said = stored.further(numbers).tables[kind].look_up((0, i), (1, j))[0]
-    further = [{"sensor": (at, 0)} if kind is Kind.SENSOR else {"locked": (at,)} for at in (i, j)]
+    further = [{"sensor": (at, 0)} if kind == SENSOR else {"locked": (at,)} for at in (i, j)]
     point = {p: Rational(11 + 3 * k * k, 7 + 2 * k) for k, p in enumerate(chains[0].parameters)}
     sides = [(chain, [{}, one]) for chain, one in zip(chains, further, strict=True)]
     same = has_equivalent(sides[0], point, sides[1])
@@ -250,11 +250,11 @@ def test_nothing_to_do_and_bad_input(arguments, status, says, capsys, monkeypatc
 def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engine):
     """A1 carries force and sensor at mass 1: G/(1 + J s^2 R) there, which no A11 shows."""
     found = further(named(A, 1, 11), engine)
-    item = Item(Kind.INERTIA, 1)
-    assert found.tables[Kind.INERTIA].gain((0, 1)) is Gain.REPEATS
+    item = Item(INERTIA, 1)
+    assert found.tables[INERTIA].gain((0, 1)) is Gain.REPEATS
     assert item in set(found.items(0)) and found.whole(0, item) is Answer.SURELY
     for j in (1, 2, 3):
-        pairs = [(item.experiment, Item(Kind.INERTIA, j).experiment)]
+        pairs = [(item.experiment, Item(INERTIA, j).experiment)]
         said = compare(A[1], A[11], experiments=[Experiment(), *pairs], query=EXACT)
         assert said.relation is Relation.DISTINGUISHABLE
 
@@ -264,10 +264,10 @@ def test_what_is_said_of_any_mass_holds_of_every_mass(damped, engine):
     """Two structures whose effects are both foretold are alike there: no "any mass" then."""
     for group in next_catalog(3, damped=damped).groups:
         found = further(named(Family(3, damped), *group), engine)
-        table = found.tables[Kind.INERTIA]
+        table = found.tables[INERTIA]
         every = [
             table.look_up((a, i), (b, j))[0]
             for a, b in combinations(range(len(group)), 2)
             for i, j in product((1, 2, 3), repeat=2)
         ]
-        assert found.anywhere(Kind.INERTIA) == (set(every) == {Relation.DISTINGUISHABLE})
+        assert found.anywhere(INERTIA) == (set(every) == {Relation.DISTINGUISHABLE})

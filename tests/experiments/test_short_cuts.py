@@ -16,29 +16,20 @@ from disting.experiments.equal_machines import standard
 from disting.experiments.exact_under import LIMITS, by_ideals
 from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
-from disting.experiments.menu import Item, Kind, measured
+from disting.experiments.menu import Costs, Item, measured
 from disting.experiments.part_ranks import by_parts
 from disting.experiments.same_rows import same_by_rows
+from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.verdict import Relation
-from tests.experiments.plain_stack import transfer
+from tests.experiments.plain_stack import keywords, transfer
 from tests.experiments.test_truth import SAME
 
 AS_IT_IS, U, A = Experiment(), Family(3), Family(3, damped=True)
-INERTIA = [
+INERTIAS = [
     (pair, i, j, f"{i}/{j}" in SAME[pair][2].split())
     for pair in ((2, 5), (9, 10))
     for i, j in product((1, 2, 3), repeat=2)
 ]
-
-
-def keywords(experiment):
-    """As the plain twin names them; an inertia of a size that does not matter."""
-    return {
-        "force": experiment.force,
-        "sensor": experiment.sensor,
-        "locked": experiment.locked,
-        "inertias": {i: Rational(2, 3) for i, _ in experiment.inertias},
-    }
 
 
 def shows_the_same(one, other, values, there):
@@ -65,7 +56,7 @@ def reflected(chain, values):
     return {name(p) if int(p[1]) > chain.gap else p: x for p, x in values.items()}
 
 
-@pytest.mark.parametrize(("number", "kind"), list(product((2, 4, 5, 8, 9, 10), Kind)))
+@pytest.mark.parametrize(("number", "kind"), list(product((2, 4, 5, 8, 9, 10), KINDS)))
 def test_the_standard_form_shows_the_same(number, kind):
     chain = U[number]
     values = {p: Rational(7 * k + 3, 5 + k) for k, p in enumerate(chain.parameters)}
@@ -78,10 +69,10 @@ def test_the_standard_form_shows_the_same(number, kind):
 
 
 def test_a_force_moved_is_a_sensor_moved_in_the_exchanged_machine():
-    there = standard(measured(A[2], Item(Kind.FORCE, 3)))
-    assert there == standard(measured(A[5], Item(Kind.SENSOR, 1)))
+    there = standard(measured(A[2], Item(FORCE, 3)))
+    assert there == standard(measured(A[5], Item(SENSOR, 1)))
     assert [e.force for e in there.experiments] == [None, None]
-    assert standard(measured(A[2], Item(Kind.FORCE, 2))) != there
+    assert standard(measured(A[2], Item(FORCE, 2))) != there
 
 
 def test_reciprocity_of_one_row_alone_is_none_of_the_machine():
@@ -97,7 +88,7 @@ def spots(numbers, kind):
             yield (a, i), (b, j), [measured(U[m], Item(kind, at)) for m, at in ((a, i), (b, j))]
 
 
-@pytest.mark.parametrize("kind", Kind)
+@pytest.mark.parametrize("kind", Costs().kinds(3))
 def test_rows_and_parts_never_contradict_the_tables(kind):
     for group in next_catalog(3).groups:
         table = next_catalog(3).further(group).tables[kind]
@@ -111,7 +102,7 @@ def test_rows_and_parts_never_contradict_the_tables(kind):
 
 @pytest.mark.parametrize(
     ("kind", "i", "j"),
-    [(Kind.SENSOR, 1, 2), (Kind.SENSOR, 3, 3), (Kind.INERTIA, 1, 2), (Kind.LOCK, 3, 3)],
+    [(SENSOR, 1, 2), (SENSOR, 3, 3), (INERTIA, 1, 2), (LOCK, 3, 3)],
 )
 def test_rows_say_what_ideals_say(kind, i, j):
     """Two ports of a full grounded row, and what is done in the free row that both share."""
@@ -122,7 +113,7 @@ def test_rows_say_what_ideals_say(kind, i, j):
     assert not same_by_rows(pair[0], elsewhere)
 
 
-@pytest.mark.parametrize(("pair", "i", "j", "same"), INERTIA)
+@pytest.mark.parametrize(("pair", "i", "j", "same"), INERTIAS)
 def test_an_inertia_in_the_coordinates_of_its_mass(pair, i, j, same):
     both = [
         MeasuredChain(A[m], (AS_IT_IS, Experiment(inertias={at: 1})))
@@ -148,7 +139,7 @@ def test_inertias_of_two_sizes_are_not_compared_by_their_masses():
 def test_five_damped_masses_have_bounds():
     """Without the coordinates of the mass, primes of 64 bits gave none, and nothing decided."""
     chain = Family(5, damped=True)[44]
-    one, two, four = (measured(chain, Item(Kind.INERTIA, at)) for at in (1, 2, 4))
+    one, two, four = (measured(chain, Item(INERTIA, at)) for at in (1, 2, 4))
     found = by_ideals(one, two, Settings(), LIMITS)
     assert isinstance(found.evidence, Refuted) and found.safety >= LEAST_SAFETY
     by_ranks = by_parts(one, four, Settings())
@@ -157,7 +148,7 @@ def test_five_damped_masses_have_bounds():
 
 def test_a_shared_list_says_what_a_list_of_its_own_says():
     for i, j in product((1, 2, 3), repeat=2):
-        pair = [measured(A[m], Item(Kind.INERTIA, at)) for m, at in ((2, i), (5, j))]
+        pair = [measured(A[m], Item(INERTIA, at)) for m, at in ((2, i), (5, j))]
         shared, own = by_list(*pair, Settings(), shared=True), by_list(*pair, Settings())
         assert (shared is None) == (own is None)
         if shared is not None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disting.equivalence import equivalents
-from disting.experiments.menu import Item, Kind
+from disting.experiments.menu import Item
 from disting.fit.export import predicted
 from disting.fit.foretold import MOVES, STILL, Bench, bench_of, foretold, shown, step
 from disting.fit.named import named_by
@@ -16,6 +16,7 @@ from disting.fit.selection_json import _named
 from disting.fit.standing import Standing, stood
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.kinds import FORCE, INERTIA, LOCK, SENSOR
 from disting.verdict import Engine
 from tests.fit.drives import dense_response, truth
 
@@ -83,8 +84,8 @@ def test_values_of_a_twin_go_to_the_masses_of_a_chain_that_is_counted_from_the_o
 @pytest.mark.parametrize(
     ("item", "twin"),
     [
-        (Item(Kind.SENSOR, 3), Chain(3, meas_plus=3, damped=True)),
-        (Item(Kind.FORCE, 2), Chain(3, act_plus=2, damped=True)),
+        (Item(SENSOR, 3), Chain(3, meas_plus=3, damped=True)),
+        (Item(FORCE, 2), Chain(3, act_plus=2, damped=True)),
     ],
 )
 def test_what_is_moved_shows_what_the_moved_chain_shows(item, twin):
@@ -96,14 +97,10 @@ def test_what_is_moved_shows_what_the_moved_chain_shows(item, twin):
 def test_a_locked_mass_and_an_added_inertia_are_limits_and_sums_of_masses():
     heavier = VALUES | {"m2": VALUES["m2"] + BENCH.inertia}
     slow = [dense_response(FREE, heavier, 1j * w) for w in BENCH.omega]
-    assert shown(FREE, VALUES, Item(Kind.INERTIA, 2), BENCH) == pytest.approx(
-        np.array(slow), rel=1e-9
-    )
+    assert shown(FREE, VALUES, Item(INERTIA, 2), BENCH) == pytest.approx(np.array(slow), rel=1e-9)
     still = [dense_response(FREE, VALUES | {"m2": 1e14}, 1j * w) for w in BENCH.omega]
-    assert shown(FREE, VALUES, Item(Kind.LOCK, 2), BENCH) == pytest.approx(
-        np.array(still), rel=1e-6
-    )
-    assert shown(FREE, VALUES, Item(Kind.LOCK, 1), BENCH) is None
+    assert shown(FREE, VALUES, Item(LOCK, 2), BENCH) == pytest.approx(np.array(still), rel=1e-6)
+    assert shown(FREE, VALUES, Item(LOCK, 1), BENCH) is None
 
 
 def test_a_step_is_measured_in_units_of_the_scatter():
@@ -118,7 +115,7 @@ def test_twins_show_the_same_now_and_differ_under_what_surely_tells_them_apart(l
     seen = foretold(left, BENCH)
     now = [predicted(one.chain, one.values[0], BENCH.omega) for one in (left[0], left[2])]
     assert step(*now, BENCH).largest < 1e-6
-    assert Item(Kind.SENSOR, 1) not in seen.items(0) and Item(Kind.LOCK, 1) not in seen.items(0)
+    assert Item(SENSOR, 1) not in seen.items(0) and Item(LOCK, 1) not in seen.items(0)
     for item in seen.items(0):
         found, place = seen.least(0, item, 2)
         every = [seen.at(item.kind, (0, item.at), (2, j)) for j in (1, 2, 3)]
@@ -131,8 +128,8 @@ def test_other_values_of_a_structure_bring_it_nearer(left):
     values = dict.fromkeys(VALUES, 1.0)
     more = type(first)(first.chain, True, (VALUES, values))
     other = type(first)(first.chain, True, (values,))
-    assert foretold([first, other], BENCH).at(Kind.SENSOR, (0, 2), (1, 2)).largest > 1
-    assert foretold([more, other], BENCH).at(Kind.SENSOR, (0, 2), (1, 2)).largest < 1e-9
+    assert foretold([first, other], BENCH).at(SENSOR, (0, 2), (1, 2)).largest > 1
+    assert foretold([more, other], BENCH).at(SENSOR, (0, 2), (1, 2)).largest < 1e-9
 
 
 def test_what_noise_leaves_is_no_twin(left):

@@ -44,6 +44,8 @@ SETUPS = [
     Setup(sensor="1:2", delay="Td2"),
     Setup(locked=("last",), inertias=(("1", 0.25), ("2", 0.7))),
     Setup(sensor="1", locked=("2",), sign=-1),
+    Setup(sensor="2", inertias=(("2", 0.5),), springs=(("1", 30.0),), brakes=(("2", 0.4),)),
+    Setup(brakes=(("last", 1.5), ("1", 0.25))),
 ]
 
 
@@ -58,9 +60,12 @@ def dense(chain, values, setup, quantity, s):
         power = {"m": 2, "k": 0, "d": 1, "b": 1}[element.kind]
         whole += values[element.parameter] * s**power * np.outer(v, v)
     number = {"last": n} | {str(i): i for i in range(n + 1)}
-    for at, size in setup.inertias:
-        whole[number[at], number[at]] += size * s * s
-    moving = [i for i in range(1, n + 1) if i not in [number[at] for at in setup.locked]]
+    for change in setup.changes:
+        power = {"inertia": 2, "brake": 1, "spring": 0, "lock": None}[change.kind.name]
+        if power is not None:
+            whole[(number[change.place],) * 2] += float(change.size) * s**power
+    held = [number[change.place] for change in setup.changes if change.size is None]
+    moving = [i for i in range(1, n + 1) if i not in held]
     force, x = np.zeros(n + 1), np.zeros(n + 1, dtype=complex)
     force[chain.act_plus] += 1.0
     force[chain.act_minus] -= 1.0
@@ -415,7 +420,7 @@ def test_a_response_that_is_zero_teaches_nothing_and_is_named():
 
 
 WRONG = [
-    (lambda: Setup(inertias=(("1", -1.0),)), "a known inertia is a positive number, not -1"),
+    (lambda: Setup(inertias=(("1", -1.0),)), "a known inertia is positive, not '-1.0'"),
     (lambda: Setup(locked=("0",)), "a mass is a number or the word last, not '0'"),
 ]
 

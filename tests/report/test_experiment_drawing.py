@@ -5,9 +5,10 @@ from itertools import product
 
 from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
-from disting.experiments.menu import Item, Kind, kinds
+from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.kinds import FORCE, LOCK, SENSOR
 from disting.report import model_page
 from disting.report.drawing import draw
 from disting.report.experiment_drawing import added, definitions, sketch, with_items
@@ -24,7 +25,9 @@ DAMPED = catalog(3, damped=True)
 
 
 def items(chain):
-    return [Item(k, at) for k in kinds(chain.n_masses) for at in range(1, chain.n_masses + 1)]
+    return [
+        Item(k, at) for k in Costs().kinds(chain.n_masses) for at in range(1, chain.n_masses + 1)
+    ]
 
 
 def test_nothing_leaves_the_picture_and_no_letters_overlap():
@@ -49,7 +52,7 @@ def test_every_experiment_is_drawn_differently_and_said():
         assert len({added(chain, item) for item in items(chain)}) == len(scenes)
         for item, scene in zip(items(chain), scenes, strict=True):
             assert item.text in scene.title and added(chain, item) in scene.layers
-            moved = item.kind is Kind.FORCE
+            moved = item.kind == FORCE
             assert [layer.name for layer in scene.layers].count("force") == 1 - moved
 
 
@@ -65,19 +68,19 @@ def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
 def test_what_an_experiment_adds_covers_no_name_and_no_sign():
     for chain in CHAINS:
         for item in items(chain):
-            if item.kind is Kind.FORCE:
+            if item.kind == FORCE:
                 continue  # stands in the place of the first one
-            shapes = draw(chain, item.kind is Kind.SENSOR).shapes
+            shapes = draw(chain, item.kind == SENSOR).shapes
             signs = [s for s in shapes if isinstance(s, Text) and s.text[0] != "m"]
             for shape in added(chain, item).shapes:
                 assert not any(meet(sign, shape) for sign in signs), (chain, item, shape)
 
 
 def test_two_things_at_once_are_one_drawing():
-    found = sketch(5, Chain(3), (Item(Kind.FORCE, 3), Item(Kind.LOCK, 2)))
+    found = sketch(5, Chain(3), (Item(FORCE, 3), Item(LOCK, 2)))
     assert found.parts == ("rest-5", "more-force-3", "more-lock-2")
     assert found.label == "A5: the force moved to mass 3 and mass 2 locked"
-    assert sketch(5, Chain(3), (Item(Kind.LOCK, 2),)).parts == ("chain-5", "more-lock-2")
+    assert sketch(5, Chain(3), (Item(LOCK, 2),)).parts == ("chain-5", "more-lock-2")
 
 
 def test_what_a_page_shows_it_holds_once():
@@ -109,5 +112,5 @@ def test_a_pair_shows_the_sets_that_are_enough():
 
 
 def test_definitions_are_in_one_order():
-    used = [(Chain(2), Item(Kind.LOCK, 2)), (Chain(2), Item(Kind.FORCE, 2))]
+    used = [(Chain(2), Item(LOCK, 2)), (Chain(2), Item(FORCE, 2))]
     assert definitions(used) == definitions(used[::-1]) == definitions(used * 2)

@@ -7,7 +7,7 @@ from typing import Any
 
 from disting.experiments.menu import Costs, Item
 from disting.fit.candidates import as_listed, reference
-from disting.fit.foretold import Bench, Foretold, Step
+from disting.fit.foretold import Foretold, Step
 from disting.fit.named import Left, Named
 from disting.fit.plan import LEVEL, POWER, joined
 from disting.fit.standing import Standing, Stood
@@ -99,7 +99,7 @@ def measured_in_words(found: Onward) -> Iterator[str]:
         f"differences and powers are {BEFORE}: one that refits comes closer, one that contains the"
         " true structure all the way"
     )
-    yield bench_in_words(seen.bench)
+    yield bench_in_words(seen)
     yield f"how much more measuring tells apart what noise leaves: disting plan {found.source}"
     yield ""
     yield from (sentence(found, a, b) for a, b in found.pairs())
@@ -128,13 +128,16 @@ def sentence(found: Onward, a: int, b: int) -> str:
     return f"{said}; {shown}" if shown else said
 
 
-def bench_in_words(bench: Bench) -> str:
-    """Lines, scatter and inertia."""
+def bench_in_words(seen: Foretold) -> str:
+    """Lines, scatter, inertia, and what else is added."""
+    bench = seen.bench
     hertz = bench.hertz
+    more = [f"a {name} is {readable(size)}" for name, size in seen.sizes.items()][1:]
+    beside = f"; {', '.join(more)}, times 2 pi f in the middle of the lines" if more else ""
     return (
         f"at {len(hertz)} lines from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, a line scatters by"
         f" {percent(float(bench.rho[0]))} (of the fitted data); the inertia"
-        f" that is added is {readable(bench.inertia)}, the mean of the masses"
+        f" that is added is {readable(bench.inertia)}, the mean of the masses{beside}"
     )
 
 
@@ -147,7 +150,7 @@ def left_rows(found: Onward) -> Iterator[tuple[str, ...]]:
         plain = dict(zip(CSV_COLUMNS, row, strict=True))
         here = index[plain["left"]], int(plain["at_left"])
         there = index[plain["right"]], int(plain["at_right"])
-        kind = next(k for k in found.costs.cheapest_first if k == plain["experiment"])
+        kind = next(k for k in found.costs.cheapest_first if k.name == plain["experiment"])
         step = found.seen.at(kind, here, there) if found.seen else None
         yield (*row, *_numbers(found, here[0], there[0], step))
 
@@ -187,7 +190,7 @@ def _measured(found: Onward, seen: Foretold) -> dict[str, Any]:
         "high": float(hertz[-1]),
         "lines": len(hertz),
         "scatter": float(seen.bench.rho[0]),
-        "inertia": seen.bench.inertia,
+        **seen.sizes,
         "level": LEVEL,
         "least": list(_least(found, seen)),
     }
@@ -202,7 +205,7 @@ def _least(found: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
                 step, at = nearest
                 yield {
                     "structure": found.left[a].name,
-                    "experiment": item.kind.value,
+                    "experiment": item.kind.name,
                     "mass": item.at,
                     "other": found.left[b].name,
                     "at": at,
@@ -232,7 +235,7 @@ def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
             for i in range(1, found.left[a].chain.n_masses + 1):
                 for j in range(1, found.left[b].chain.n_masses + 1):
                     names = found.left[a].name, str(i), found.left[b].name, str(j)
-                    yield kind.value, *names, relation.value, rule, "", ""
+                    yield kind.name, *names, relation.value, rule, "", ""
 
 
 def cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:

@@ -114,8 +114,7 @@ def seen_alone(chain: Chain, selection: Selection, one: Response) -> Scene:
     """A chain as it is in one response."""
     n, place = chain.n_masses, _port(chain, one.setup)
     read = {sign: at for sign, at in _signs(chain, selection).items() if at == place}
-    added = [at for at, _ in one.setup.added(n)]
-    scene = state(chain, read, one.setup.still(n), added)
+    scene = state(chain, read, one.setup.experiment(n).changes)
     said = f"{draw(chain).title.removesuffix('.')}; measured here: {one.setup.text}."
     return replace(scene, title=said)
 
@@ -146,4 +145,4 @@ def _named(place: Port) -> str:
 
 
 def _is_changed(setup: Setup) -> bool:
-    return bool(setup.locked or setup.inertias)
+    return bool(setup.changes)
