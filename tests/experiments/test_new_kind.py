@@ -148,5 +148,5 @@ print(added(Chain(2), Item(MAGNET, 1)).name)
 
 def test_what_no_equation_of_motion_has_is_refused(tmp_path):
     """The theorems know powers 0 to 2 of s: another one is no row of this table."""
-    said = called(copied(tmp_path, 3), "import disting", status=1)
+    said = called(copied(tmp_path, 3), "import disting.model.kinds", status=1)
     assert "magnet: A(s) has the powers 0 to 2 of s only" in said
