@@ -171,7 +171,7 @@ class Catalog(Shown):
         """The pairs that are indistinguishable for some parameters only; over complex parameters
         there are none.
 
-        >>> catalog(4).depending()
+        >>> catalog(4, damped=False).depending()
         ((2, 6),)
         """
         pairs = self.records[1 + len(self.family) :]
@@ -297,11 +297,11 @@ class Catalog(Shown):
         return self.records[1 + n + before + high - low - 1]
 
 
-def catalog(n_masses: int, *, damped: bool = False, folder: Path | None = None) -> Catalog:
+def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -> Catalog:
     """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder); no
     computation.
 
-    >>> len(catalog(3).family), catalog(3).verdict(1, 2).relation.value
+    >>> len(catalog(3, damped=False).family), catalog(3, damped=False).verdict(1, 2).relation.value
     (11, 'distinguishable')
     """
     if folder is None and n_masses not in SHIPPED_SIZES:

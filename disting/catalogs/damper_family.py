@@ -86,7 +86,7 @@ class DamperFamily:
 def damper_family(
     n_masses: int,
     *,
-    damped: bool = False,
+    damped: bool = True,
     which: DamperSets = DamperSets.ALL,
     patient: bool = False,
     engine: Engine | None = None,

@@ -40,7 +40,7 @@ def name_of(n_masses: int, damped: bool) -> str:
 
 
 @cache
-def damper_catalog(n_masses: int, *, damped: bool = False) -> DamperFamily:
+def damper_catalog(n_masses: int, *, damped: bool = True) -> DamperFamily:
     """The shipped classes of a family with all sets of ground dampers; raises CatalogError where
     there are none.
 

@@ -120,7 +120,7 @@ class NextCatalog:
 
 
 @cache
-def next_catalog(n_masses: int, *, damped: bool = False, dampers: bool = False) -> NextCatalog:
+def next_catalog(n_masses: int, *, damped: bool = True, dampers: bool = False) -> NextCatalog:
     """What is shipped, of structures with `dampers` to the ground or of those without; raises
     CatalogError where there is nothing.
 

@@ -166,7 +166,7 @@ class SizesCatalog(Shown):
 
 
 def sizes_catalog(
-    *, damped: bool = False, folder: Path | None = None, known: Sequence[Catalog] = ()
+    *, damped: bool = True, folder: Path | None = None, known: Sequence[Catalog] = ()
 ) -> SizesCatalog:
     """The shipped verdicts on all models of 1 to 5 masses (or those of another folder); no
     computation.
@@ -194,7 +194,7 @@ def sizes_catalog(
 
 def pairs_across() -> Iterator[tuple[str, str]]:
     """Names of all pairs of two sizes, the smaller model first, in the order of the file."""
-    named = combined_family(SHIPPED_SIZES)
+    named = combined_family(SHIPPED_SIZES, damped=False)
     for (left, one), (right, other) in combinations(named, 2):
         if one.n_masses != other.n_masses:
             yield left, right

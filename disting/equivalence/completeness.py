@@ -51,7 +51,7 @@ def among(chains: Sequence[Chain]) -> str:
     """What was looked at, in words: how many structures, of which size and kind.
 
     >>> among([Chain(2, dead_time=True), Chain(2, 1, 1, 2, 1, 2, dead_time=True)])
-    'the 2 structures of 2 masses, undamped, with a dead time, looked at'
+    'the 2 structures of 2 masses, damped, with a dead time, looked at'
     """
     first = chains[0]
     count = "the structure" if len(chains) == 1 else f"the {len(chains)} structures"

@@ -34,7 +34,7 @@ def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
 
     Raises InputError.
 
-    >>> [chain.dead_time for chain in chains_of("2", Chain(2, dead_time=True))]
+    >>> [chain.dead_time for chain in chains_of("2", Chain(2, dead_time=True, damped=False))]
     [True, True, True]
     """
     if isinstance(to, Chain):
@@ -71,7 +71,7 @@ def point_of(chain: Chain, values: Mapping[str, Value]) -> dict[str, fmpq]:
 
     Raises InputError for missing and unknown names and for values that are not positive numbers.
 
-    >>> point_of(Chain(1), {"m1": 0.1})
+    >>> point_of(Chain(1, damped=False), {"m1": 0.1})
     {'m1': 1/10}
     """
     names = ", ".join(chain.parameters)

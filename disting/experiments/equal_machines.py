@@ -28,7 +28,7 @@ def standard(measured: MeasuredChain) -> MeasuredChain:
     """The form of the machine with the fewest moved forces and the smallest numbers.
 
     >>> from disting.experiments.experiment import Experiment
-    >>> last = MeasuredChain(Chain(3), (Experiment(), Experiment(force=3)))
+    >>> last = MeasuredChain(Chain(3, damped=False), (Experiment(), Experiment(force=3)))
     >>> standard(last).text
     ('as it is', 'sensor 3')
     """

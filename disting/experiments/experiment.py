@@ -225,7 +225,7 @@ class Entry:
 class MeasuredChain:
     """A chain under several experiments, with one parameter vector for all; raises InputError.
 
-    >>> MeasuredChain(Chain(2), (Experiment(), Experiment(sensor=2))).text
+    >>> MeasuredChain(Chain(2, damped=False), (Experiment(), Experiment(sensor=2))).text
     ('as it is', 'sensor 2')
     """
 

@@ -46,7 +46,7 @@ def identifiability_under(measured: MeasuredChain, settings: Settings) -> Parame
     >>> from disting.experiments.experiment import Experiment
     >>> from disting.model.chain import Chain
     >>> one, two = Experiment(), Experiment(sensor=1)
-    >>> seen = (MeasuredChain(Chain(2, meas_plus=2), e) for e in ((one,), (one, two)))
+    >>> seen = (MeasuredChain(Chain(2, meas_plus=2, damped=False), e) for e in ((one,), (one, two)))
     >>> for m in seen:
     ...     print(identifiability_under(m, Settings()).sentence)
     3 parameters, only 2 determinable; not: m1, m2, k12; 1 can be chosen freely.

@@ -46,7 +46,7 @@ class StateSpace:
 def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:
     """State space (20) to (23) with numbers, one input, one output; the torque lag adds a state.
 
-    >>> ss = state_space(Chain(1), {"m1": 2.0})
+    >>> ss = state_space(Chain(1, damped=False), {"m1": 2.0})
     >>> ss.A.tolist(), ss.B.tolist(), ss.D.tolist()
     ([[0.0, 1.0], [-0.0, -0.0]], [[0.0], [0.5]], [[0.5]])
     """

@@ -108,7 +108,7 @@ class Model(Shown):
         """The model of a chain in its own parameters, sorted; raises InputError for a dead time,
         which is no rational function.
 
-        >>> str(Model.from_chain(Chain(1)))
+        >>> str(Model.from_chain(Chain(1, damped=False)))
         'G(s) = 1/m1'
         """
         if chain.dead_time:

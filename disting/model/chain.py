@@ -38,12 +38,13 @@ class Chain(Drawn):
     """One chain model; immutable and hashable, its content is its identity.
 
     Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1
-    (0 = ground); the sensor quantity; `damped` = a damper beside every spring; `ground_dampers` =
-    the masses with a damper to the ground; `lag` = a first-order torque lag 1/(1 + T1 s) [T1 in
-    s]; `dead_time` = a factor exp(-Td s) [Td in s]. Raises ConstraintViolation where (36) or (37)
-    is broken, InputError for other bad values.
+    (0 = ground); the sensor quantity; `damped` = a damper beside every spring, as every name of a
+    model means it too unless undamped is said; `ground_dampers` = the masses with a damper to the
+    ground; `lag` = a first-order torque lag 1/(1 + T1 s) [T1 in s]; `dead_time` = a factor
+    exp(-Td s) [Td in s]. Raises ConstraintViolation where (36) or (37) is broken, InputError for
+    other bad values.
 
-    >>> Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2, damped=True).parameters
+    >>> Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2).parameters
     ('m1', 'm2', 'k01', 'd01')
     """
 
@@ -54,7 +55,7 @@ class Chain(Drawn):
     meas_minus: int = 0
     meas_plus: int = 1
     sensor: Sensor = Sensor.ACCELERATION
-    damped: bool = False
+    damped: bool = True
     ground_dampers: tuple[int, ...] = ()
     lag: bool = False
     dead_time: bool = False
@@ -67,6 +68,9 @@ class Chain(Drawn):
             raise InputError(
                 "the size, the indices and the ground dampers of a chain are whole numbers"
             )
+        for name in ("damped", "lag", "dead_time"):
+            if not isinstance(getattr(self, name), bool):
+                raise InputError(f"{name} is True or False, not {shown(getattr(self, name))}")
         if self.n_masses < 1:
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violated(self.indices, (36, 37)):
@@ -77,8 +81,7 @@ class Chain(Drawn):
     def __repr__(self) -> str:
         ports = self.indices[1:] if self.indices[1:] != PORTS else ()
         given = [repr(i) for i in (self.n_masses, *ports)]
-        given += [f"sensor={self.sensor.value!r}"] * (self.sensor is not Sensor.ACCELERATION)
-        given += ["damped=True"] * self.damped
+        given += [f"damped={self.damped}", f"sensor={self.sensor.value!r}"]
         given += [f"ground_dampers={self.ground_dampers}"] * bool(self.ground_dampers)
         given += ["lag=True"] * self.lag + ["dead_time=True"] * self.dead_time
         return f"Chain({', '.join(given)})"
@@ -87,7 +90,7 @@ class Chain(Drawn):
         """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
         parameters [kg, N/m, N s/m, s]; equation (24), with lag and dead time.
 
-        >>> Chain(1, ground_dampers=(1,)).transfer_function()
+        >>> Chain(1, ground_dampers=(1,), damped=False).transfer_function()
         s/(b1 + m1*s)
         """
         return self._presenter.transfer_function(self)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from disting.errors import InputError, shown
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.constraints import violated
 from disting.model.numbering import after, before, count
 from disting.model.shown import Shown
@@ -20,13 +20,14 @@ class Family(Shown):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
 
     The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation).
+    As where a model is named, springs have dampers beside them unless `damped` is False.
 
-    >>> len(Family(3)), Family(3, damped=True)[4].indices[1:]
-    (11, (0, 0, 2, 0, 2))
+    >>> len(Family(3)), Family(3)[4].parameters
+    (11, ('m1', 'm2', 'm3', 'k12', 'k23', 'd12', 'd23'))
     """
 
     n_masses: int
-    damped: bool = False
+    damped: bool = True
     sensor: Sensor = Sensor.ACCELERATION
 
     def __post_init__(self) -> None:
@@ -36,11 +37,12 @@ class Family(Shown):
             or self.n_masses < 1
         ):
             raise InputError(f"a family has at least one mass, not {shown(self.n_masses)}")
+        if not isinstance(self.damped, bool):
+            raise InputError(f"damped is True or False, not {shown(self.damped)}")
+        object.__setattr__(self, "sensor", as_sensor(self.sensor))
 
     def __repr__(self) -> str:
-        damped = ", damped=True" * self.damped
-        sensor = "" if self.sensor is Sensor.ACCELERATION else f", sensor={str(self.sensor)!r}"
-        return f"Family({self.n_masses}{damped}{sensor})"
+        return f"Family({self.n_masses}, damped={self.damped}, sensor={self.sensor.value!r})"
 
     @cached_property
     def models(self) -> tuple[Chain, ...]:

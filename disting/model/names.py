@@ -68,7 +68,7 @@ def chain_of(model: Chain | str, family: Family, *, masses: int = 0) -> Chain:
 
     A11 is model 11 of `masses` masses; 0: it is not known of how many. Raises InputError.
 
-    >>> chain_of("3:1+b1+b3+lag", Family(3)).parameters
+    >>> chain_of("3:1+b1+b3+lag", Family(3, damped=False)).parameters
     ('m1', 'm2', 'm3', 'k12', 'k23', 'b1', 'b3', 'T1')
     """
     if isinstance(model, Chain):
@@ -93,7 +93,7 @@ def chains_named(
 
     >>> [name_of(chain) for chain in chains_named(["3:1", "A4+b2"])]
     ['3:1', '3:4+b2']
-    >>> chains_named([Family(3)[1], "A4"])[1].damped
+    >>> chains_named([Family(3, damped=False)[1], "A4"])[1].damped
     False
     """
     given = next((m for m in models if isinstance(m, Chain)), Chain(1, damped=DAMPED))
@@ -112,7 +112,7 @@ def name_of(chain: Chain) -> str:
     """The name of a chain, wholly; its indices instead of a number for chains without one: those
     of another numbering (38), and of more masses than names have.
 
-    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,)))
+    >>> name_of(Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1,), damped=False))
     '3:4+b1'
     >>> name_of(Chain(40))
     '40:1'

@@ -147,7 +147,7 @@ def rows_of(structure: Structure) -> tuple[Row, ...]:
     dampers beside some of a row's springs only.
 
     >>> from disting.model.chain import Chain
-    >>> print(*rows_of(Chain(3, 1, 1, 2, 1, 3).structure), sep="; ")
+    >>> print(*rows_of(Chain(3, 1, 1, 2, 1, 3, damped=False).structure), sep="; ")
     1 masses at a wall, ports 1 and 1, undamped; 2 masses free, ports 1 and 2, undamped
     """
     return tuple(_rows(structure))
@@ -163,7 +163,8 @@ def canonical_rows(structure: Structure) -> dict[str, Row]:
     """The rows by name, each in its canonical form; the free one first, which every chain has.
 
     >>> from disting.model.chain import Chain
-    >>> [str(row) for row in canonical_rows(Chain(5, 2, 1, 4, 2, 5).structure).values()]
+    >>> chain = Chain(5, 2, 1, 4, 2, 5, damped=False)
+    >>> [str(row) for row in canonical_rows(chain.structure).values()]
     ['3 masses free, ports 1 and 2, undamped', '2 masses at a wall, ports 1 and 2, undamped']
     """
     return {row.name: row.canonical for row in reversed(rows_of(structure))}

@@ -33,7 +33,7 @@ def condition_9_holds(findings: Findings) -> Found:
 
 def _condition_9(findings: Findings, n_masses: int) -> dict[Pair, Holding]:
     """Outcomes for the pairs to which it is applicable: those with the same force and sensor."""
-    subjects = [findings.engine.subject("", chain) for chain in Family(n_masses)]
+    subjects = [findings.engine.subject("", chain) for chain in Family(n_masses, damped=False)]
     found = {
         (i, j): condition_9(left, right).outcome
         for (i, left), (j, right) in combinations(enumerate(subjects, 1), 2)
@@ -43,7 +43,7 @@ def _condition_9(findings: Findings, n_masses: int) -> dict[Pair, Holding]:
 
 def figure_13(findings: Findings) -> Found:
     """Undamped 4-mass models, all conditions."""
-    catalog = findings.catalog(4)
+    catalog = findings.catalog(4, damped=False)
     found = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
     left = sum(v.relation is Relation.UNDECIDED for *_, v in catalog.pairs(View.EXACT))
     return Found(f"{told(found)}; the exact decision leaves {left}", found == FIG_13, families(4))
@@ -51,7 +51,7 @@ def figure_13(findings: Findings) -> Found:
 
 def eight_cases(findings: Findings) -> Found:
     """Undamped 4-mass pairs that Markov parameters decide and coefficients do not."""
-    catalog = findings.catalog(4)
+    catalog = findings.catalog(4, damped=False)
     gained = {
         (i, j): v.relation
         for i, j, v in catalog.pairs(View.COMBINED)
@@ -66,8 +66,8 @@ def eight_cases(findings: Findings) -> Found:
 
 def eleven_and_thirteen(findings: Findings) -> Found:
     """4-mass models 11 and 13."""
-    left, right = (findings.engine.subject(f"A{i}", Family(4)[i]) for i in (11, 13))
-    by = findings.catalog(4).verdict(11, 13, View.COMBINED).decided_by
+    left, right = (findings.engine.subject(f"A{i}", Family(4, damped=False)[i]) for i in (11, 13))
+    by = findings.catalog(4, damped=False).verdict(11, 13, View.COMBINED).decided_by
     return Found(
         f"equivalent by condition {by}; condition 9 has {condition_9(left, right).note}",
         by == "9",

@@ -54,7 +54,7 @@ class Findings:
             )
         return self._pictures[key]
 
-    def catalog(self, n_masses: int, *, damped: bool = False) -> Catalog:
+    def catalog(self, n_masses: int, *, damped: bool) -> Catalog:
         """The shipped catalogue."""
         return catalog(n_masses, damped=damped)
 

@@ -80,7 +80,7 @@ def no_additional_information(findings: Findings) -> Found:
 
 def determinable(findings: Findings) -> Found:
     """Determinable parameters of the undamped 3-mass models."""
-    ranks = [row.rank for row in findings.catalog(3).rows]
+    ranks = [row.rank for row in findings.catalog(3, damped=False).rows]
     return Found(
         f"5 parameters, of which {min(ranks)} to {max(ranks)} are determinable",
         set(ranks) == {5},
@@ -90,7 +90,7 @@ def determinable(findings: Findings) -> Found:
 
 def more_markov_than_parameters(findings: Findings) -> Found:
     """Whether condition 7 decides anything from all 12 Markov parameters, undamped."""
-    profiles = findings.engine.profiles_of(Family(3), markov=12)
+    profiles = findings.engine.profiles_of(Family(3, damped=False), markov=12)
     more = [len(p.form) > p.rank for p in profiles]
     holds = [condition_7(*pair).outcome is Holding.HOLDS for pair in combinations(profiles, 2)]
     said = (

@@ -113,7 +113,7 @@ def mirror(chain: Chain) -> int:
     """Mass m of the free row may be taken for mass (this number) - m, because force and sensor
     are at its centre; else 0.
 
-    >>> mirror(Chain(3, 0, 0, 2, 0, 2)), mirror(Chain(3))
+    >>> mirror(Chain(3, 0, 0, 2, 0, 2, damped=False)), mirror(Chain(3, damped=False))
     (4, 0)
     """
     fold = chain.gap + 1 + chain.n_masses

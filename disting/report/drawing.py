@@ -115,7 +115,7 @@ def draw(chain: Chain, more: int = 0) -> Scene:
 def describe(chain: Chain) -> str:
     """The chain in words.
 
-    >>> describe(Chain(2, 1, 1, 2, 1, 2)).split("; ")[1:3]
+    >>> describe(Chain(2, 1, 1, 2, 1, 2, damped=False)).split("; ")[1:3]
     ['no spring between mass 1 and mass 2', 'force from mass 1 on mass 2']
     """
     row = "1 mass" if chain.n_masses == 1 else f"{chain.n_masses} masses in a row"

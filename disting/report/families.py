@@ -24,7 +24,7 @@ def families(
     sizes.
 
     >>> from disting.catalogs import catalog
-    >>> families([catalog(3)])
+    >>> families([catalog(3, damped=False)])
     {'chains-3-undamped': {'models': 11, 'folder': 'models/3-undamped'}}
     """
     found: dict[str, dict[str, object]] = {

@@ -78,7 +78,7 @@ class Correspondence:
 def written(chain: Chain) -> TransferFunction:
     r"""The transfer function of a chain, in k and d up to 3 masses, in κ above.
 
-    >>> print(written(Chain(1)).latex)
+    >>> print(written(Chain(1, damped=False)).latex)
     \begin{align}
       G(s) &= \frac{b_{0}}{a_{0}} \\
       b_{0} &= 1 \\

@@ -92,7 +92,7 @@ def slide_name(catalog: Catalog, view: View) -> str:
     """Name of the file of a slide.
 
     >>> from disting.catalogs import catalog
-    >>> slide_name(catalog(5), View.POSITIVE)
+    >>> slide_name(catalog(5, damped=False), View.POSITIVE)
     'chains-5-undamped-matrix-positive.png'
     """
     return f"{catalog.name}-matrix-{view}.png"

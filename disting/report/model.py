@@ -112,7 +112,7 @@ def motion_of(catalog: Catalog) -> str:
     of a catalogue of one model.
 
     >>> from disting.catalogs import catalog
-    >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1))
+    >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1, damped=False))
     ('motion-3-damped.html', '')
     """
     if len(catalog.family) < 2:

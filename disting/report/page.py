@@ -145,7 +145,7 @@ def summary(catalog: Catalog, view: View) -> str:
     """Counts in the paper's words.
 
     >>> from disting.catalogs import catalog
-    >>> summary(catalog(3), View.TF)
+    >>> summary(catalog(3, damped=False), View.TF)
     '26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided.'
     """
     found = {name: n for name, n in catalog.counts(view).items() if n}

@@ -84,7 +84,7 @@ def _drawn(layer: Layer) -> str:
 def shared(chains: Mapping[int, Chain]) -> tuple[tuple[Part, ...], tuple[SharedDrawing, ...]]:
     """The parts of some models' drawings, each once, and the drawings, by the models' numbers.
 
-    >>> parts, drawings = shared({1: Chain(2), 2: Chain(2, 0, 0, 1, 0, 2)})
+    >>> parts, drawings = shared({k: Chain(2, meas_plus=k, damped=False) for k in (1, 2)})
     >>> len(parts), [len(d.parts) for d in drawings]
     (8, [7, 7])
     """
@@ -116,7 +116,7 @@ def height_with_dampers(n_masses: int) -> float:
 
 def all_dampers(n_masses: int) -> Chain:
     """A chain with a damper to the ground at every mass."""
-    return replace(Chain(n_masses), ground_dampers=tuple(range(1, n_masses + 1)))
+    return replace(Chain(n_masses, damped=False), ground_dampers=tuple(range(1, n_masses + 1)))
 
 
 def definitions(parts: Iterable[Part]) -> Markup:

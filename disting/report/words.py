@@ -38,7 +38,7 @@ def headline(catalog: Catalog) -> str:
     """Models, pairs and relations over positive parameters in one sentence.
 
     >>> from disting.catalogs import catalog
-    >>> domain, counts = headline(catalog(3)).split(": ")
+    >>> domain, counts = headline(catalog(3, damped=False)).split(": ")
     >>> domain
     '11 models, 55 pairs, over positive parameters'
     >>> counts

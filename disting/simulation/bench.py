@@ -79,7 +79,7 @@ def simulate(
     an undamped resonance.
 
     >>> truth = {"m1": 0.01}
-    >>> G = simulate(Chain(1), truth).response().G
+    >>> G = simulate(Chain(1, damped=False), truth).response().G
     >>> bool(abs(G - 100).max() < 1e-6)
     True
     """

@@ -51,7 +51,7 @@ def checked(model: Chain | Structure, values: Mapping[str, float]) -> dict[str, 
 def matrices(model: Chain | Structure, values: Mapping[str, float]) -> Matrices:
     """M, D, K: every element adds value * v v' with v the masses that it joins.
 
-    >>> matrices(Chain(2), {"m1": 1.0, "m2": 2.0, "k12": 4.0}).K.tolist()
+    >>> matrices(Chain(2, damped=False), {"m1": 1.0, "m2": 2.0, "k12": 4.0}).K.tolist()
     [[4.0, -4.0], [-4.0, 4.0]]
     """
     structure, numbers = structure_of(model), checked(model, values)

@@ -74,7 +74,7 @@ def findings(
     """What every condition finds in every representation, in order, whether it decides or not; of
     models as `compare` takes them.
 
-    >>> steps = findings(Chain(2, 0, 0, 1, 0, 1), Chain(2, 0, 0, 1, 0, 2))
+    >>> steps = findings(Chain(2), Chain(2, meas_plus=2))
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """

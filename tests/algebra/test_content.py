@@ -25,7 +25,7 @@ def test_a_chain_is_written_as_the_shipped_catalogues_saw_it():
 
 
 def test_what_is_inside_is_written_too():
-    measured = MeasuredChain(Chain(1), (Experiment(inertias={1: "1/2"}),))
+    measured = MeasuredChain(Chain(1, damped=False), (Experiment(inertias={1: "1/2"}),))
     text = written([{"a": (measured, 1.5)}])
     assert text.startswith("[{'a': (MeasuredChain(chain=Chain(n_masses=1, ")
     assert "inertias=((1, Fraction(1, 2)),)" in text and text.endswith(", 1.5)}]")
@@ -43,6 +43,6 @@ def test_models_that_look_alike_have_texts_and_keys_of_their_own():
 
 
 def test_all_chains_of_a_size_differ_in_text():
-    chains = [*Family(4), *Family(4, damped=True)]
+    chains = [*Family(4, damped=False), *Family(4, damped=True)]
     assert all(written(a) != written(b) for a, b in combinations(chains, 2))
     assert written(Query()) != written(Query(View.EXACT))

@@ -122,13 +122,13 @@ def test_other_candidates_are_computed():
 def test_pairs_that_are_not_there_are_refused():
     for pair in (
         (FIRST, FIRST),
-        (FIRST, Chain(2)),
+        (FIRST, Chain(2, damped=False)),
         (FIRST, Chain(3, damped=True, sensor="position")),
     ):
         with pytest.raises(InputError, match="two of its models"):
             stored.shipped().relation(*pair)
     with pytest.raises(InputError, match="one sensor"):
-        stored.matrix([FIRST, Chain(2, sensor="velocity")])
+        stored.matrix([FIRST, Chain(2, sensor="velocity", damped=False)])
 
 
 @pytest.mark.parametrize(

@@ -27,14 +27,14 @@ def test_a_damaged_file_is_named_with_a_remedy(tmp_path):
         with pytest.raises(
             CatalogError, match=r"chains-3-undamped.jsonl is damaged: .*; install disting anew"
         ):
-            catalog(3, folder=tmp_path)
+            catalog(3, folder=tmp_path, damped=False)
 
 
 def test_an_intact_file_is_read_and_a_folder_without_provenance_too(tmp_path):
     shutil.copy(shipped_folder() / "chains-3-undamped.jsonl", tmp_path)
-    assert catalog(3, folder=tmp_path) == catalog(3)
+    assert catalog(3, folder=tmp_path, damped=False) == catalog(3, damped=False)
     shutil.copy(shipped_folder() / "provenance.json", tmp_path)
-    assert catalog(3, folder=tmp_path) == catalog(3)
+    assert catalog(3, folder=tmp_path, damped=False) == catalog(3, damped=False)
 
 
 def test_a_growing_file_may_grow_but_not_change(tmp_path):
@@ -54,4 +54,4 @@ def test_a_damaged_provenance_is_an_error_too(tmp_path, text):
     shutil.copy(shipped_folder() / "chains-3-undamped.jsonl", tmp_path)
     (tmp_path / "provenance.json").write_text(text)
     with pytest.raises(CatalogError, match=r"provenance.json is damaged"):
-        catalog(3, folder=tmp_path)
+        catalog(3, folder=tmp_path, damped=False)

@@ -163,16 +163,20 @@ def test_what_is_damaged_is_refused(
     both: dict[bool, SizesCatalog], tmp_path: Path, changes: dict[str, object]
 ) -> None:
     with pytest.raises(CatalogError, match="disting catalog sizes"):
-        sizes_catalog(folder=_copied(both[False], tmp_path, **changes), known=both[False].catalogs)
+        sizes_catalog(
+            folder=_copied(both[False], tmp_path, **changes),
+            known=both[False].catalogs,
+            damped=False,
+        )
 
 
 def test_another_schema_and_no_file_are_said(
     both: dict[bool, SizesCatalog], tmp_path: Path
 ) -> None:
     with pytest.raises(CatalogError, match="make it with 'disting catalog sizes'"):
-        sizes_catalog(folder=tmp_path)
+        sizes_catalog(folder=tmp_path, damped=False)
     with pytest.raises(CatalogError, match="another schema"):
-        sizes_catalog(folder=_copied(both[False], tmp_path, size=0, schema=0))
+        sizes_catalog(folder=_copied(both[False], tmp_path, size=0, schema=0), damped=False)
 
 
 @pytest.mark.slow

@@ -43,7 +43,7 @@ class SensorEffect:
 def sensor_effects(chain: Chain, engine: Engine | None = None) -> tuple[SensorEffect, ...]:
     """The three sensor quantities side by side.
 
-    >>> effects = sensor_effects(Chain(2))
+    >>> effects = sensor_effects(Chain(2, damped=False))
     >>> [(e.numerator_degree, e.denominator_degree, e.free, e.rank) for e in effects]
     [(2, 4, 3, 3), (2, 3, 3, 3), (2, 2, 3, 3)]
     """
@@ -54,7 +54,7 @@ def sensor_effects(chain: Chain, engine: Engine | None = None) -> tuple[SensorEf
 def sensor_sentence(chain: Chain, engine: Engine | None = None) -> str:
     """What the sensor quantity changes for a chain, and what it does not.
 
-    >>> degrees, unchanged = sensor_sentence(Chain(1)).split("; ")
+    >>> degrees, unchanged = sensor_sentence(Chain(1, damped=False)).split("; ")
     >>> degrees
     'position 0/2 with a0, a1 zero, velocity 0/1 with a0 zero, acceleration 0/0'
     >>> unchanged

@@ -98,7 +98,7 @@ def test_included_models_without_positive_equivalents(n, small_model, large_mode
 
 @pytest.mark.parametrize(("n", "i", "j"), [(4, 2, 6), (5, 3, 8)])
 def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
-    a, b = Family(n)[i], Family(n)[j]
+    a, b = Family(n, damped=False)[i], Family(n, damped=False)[j]
     v = compare(a, b, query=POSITIVE)
     assert (v.relation, v.certainty, shares(v)) == (
         Relation.SOMETIMES,
@@ -200,7 +200,7 @@ def test_altered_shares_are_found_out(small):
 
 
 def test_altered_evidence_of_a_verdict_is_refused():
-    two, six = Family(4)[2], Family(4)[6]
+    two, six = Family(4, damped=False)[2], Family(4, damped=False)[6]
     true = compare(two, six, query=POSITIVE).evidence
     nothing = PositiveFinding(Share.UNKNOWN, reason="forgotten")
     points = true.right.evidence
@@ -229,7 +229,7 @@ def test_a_smaller_error_than_the_bound_is_refused():
 
 
 def test_shares_to_findings():
-    two, six = Family(4)[2], Family(4)[6]
+    two, six = Family(4, damped=False)[2], Family(4, damped=False)[6]
     always, sometimes = positive_finding(two, six), positive_finding(six, two)
     damped = Family(3, damped=True)
     never, unknown = (
@@ -258,7 +258,9 @@ def test_shares_to_findings():
 
 
 def test_chains_of_two_kinds_are_not_compared():
-    found = positive_share(Chain(3), Chain(3, dead_time=True), Settings())
+    found = positive_share(
+        Chain(3, damped=False), Chain(3, dead_time=True, damped=False), Settings()
+    )
     assert found.share is Share.UNKNOWN and "one size" in found.reason
 
 
@@ -273,7 +275,7 @@ def test_over_real_parameters(small):
     """Rational maps; real factors both ways; an open set without real equivalents beside one
     with positive ones.
     """
-    family = Family(3)
+    family = Family(3, damped=False)
     rational, factors, some = (
         compare(family[i], family[j], query=REAL) for i, j in ((2, 5), (1, 11), (1, 4))
     )
@@ -301,7 +303,7 @@ def test_the_page_says_which_positive_models_have_equivalents(small):
 @pytest.mark.parametrize(("n", "i", "j"), [(3, 1, 11), (4, 1, 5), (4, 5, 29)])
 def test_real_parameters_of_either_sign_have_real_equivalents(n, i, j):
     """Independent: the fibre in ball arithmetic at real points with negative elements."""
-    family, seen = Family(n), 0
+    family, seen = Family(n, damped=False), 0
     for one, other in ((family[i], family[j]), (family[j], family[i])):
         for k in range(8):
             point = {
@@ -317,7 +319,7 @@ def test_real_parameters_of_either_sign_have_real_equivalents(n, i, j):
 
 def test_odd_fibres_rest_on_the_finding_over_complex_parameters():
     """Undamped chains have a stronger reason; counts serve where there is none."""
-    family = Family(3)
+    family = Family(3, damped=False)
     finding = by_counts(*(identifiability(family[k]) for k in (1, 11)))
     assert (finding.outcome, finding.evidence) == (Outcome.HOLDS, OddFibres(1, 1))
     over = (

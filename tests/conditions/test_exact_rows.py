@@ -81,7 +81,7 @@ def test_an_installed_program_changes_no_verdict(name, monkeypatch, tmp_path):
     script.chmod(script.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     monkeypatch.setattr(exact, "LIMITS", Limits(seconds=60, entries=1, safety=100))
-    pair = (Chain(4, 0, 0, 1, 0, 2, ground_dampers=(m,)) for m in (1, 2))
+    pair = (Chain(4, 0, 0, 1, 0, 2, ground_dampers=(m,), damped=False) for m in (1, 2))
     assert exact_finding(*pair, Settings()).outcome is Outcome.ABANDONED
 
 

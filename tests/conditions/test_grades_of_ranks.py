@@ -33,7 +33,8 @@ def test_equal_closures_of_chains_count_both_ranks():
     """
     engine = Engine()
     left, right = (
-        engine.subject(str(c), c) for c in (Chain(5, 4, 1, 5, 2, 5), Chain(5, 4, 2, 5, 3, 5))
+        engine.subject(str(c), c)
+        for c in (Chain(5, 4, 1, 5, 2, 5, damped=False), Chain(5, 4, 2, 5, 3, 5, damped=False))
     )
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
     assert not any(p.rank_proven for p in profiles)

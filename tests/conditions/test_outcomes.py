@@ -235,14 +235,14 @@ def test_a_small_limit_leaves_pairs_undecided_and_never_decides_wrongly(limit, l
 
 
 def test_condition_6_by_symmetry_is_a_theorem():
-    finding = condition_6(*subjects(Family(3)[2], Family(3)[5]), True)
+    finding = condition_6(*subjects(Family(3, damped=False)[2], Family(3, damped=False)[5]), True)
     assert (finding.outcome, finding.certainty) == (HOLDS, Certainty.THEOREM)
     assert finding.evidence.symmetries
 
 
 def test_condition_6_finds_renamings_that_are_no_symmetry():
     """A free mass with a ground damper is the same with and without springs that are not there."""
-    finding = condition_6(*subjects(Chain(1, damped=True), Chain(1)), True)
+    finding = condition_6(*subjects(Chain(1, damped=True), Chain(1, damped=False)), True)
     assert (finding.outcome, finding.certainty, finding.evidence.symmetries) == (
         HOLDS,
         Certainty.PROVEN,
@@ -252,23 +252,37 @@ def test_condition_6_finds_renamings_that_are_no_symmetry():
 
 
 def test_condition_6_fails_where_no_renaming_exists():
-    assert condition_6(*subjects(Family(3)[1], Family(3)[4]), True).outcome is FAILS
+    assert (
+        condition_6(*subjects(Family(3, damped=False)[1], Family(3, damped=False)[4]), True).outcome
+        is FAILS
+    )
 
 
 def test_condition_6_needs_exhaustive_summaries():
-    assert condition_6(*subjects(Family(3)[2], Family(3)[5]), False).outcome is INAPPLICABLE
+    assert (
+        condition_6(
+            *subjects(Family(3, damped=False)[2], Family(3, damped=False)[5]), False
+        ).outcome
+        is INAPPLICABLE
+    )
 
 
 def test_condition_6_is_abandoned_after_too_many_candidates(monkeypatch):
     monkeypatch.setattr(sufficient, "CANDIDATES", 0)
-    assert condition_6(*subjects(Chain(1, damped=True), Chain(1)), True).outcome is ABANDONED
+    assert (
+        condition_6(*subjects(Chain(1, damped=True), Chain(1, damped=False)), True).outcome
+        is ABANDONED
+    )
 
 
 @pytest.mark.parametrize(("count", "outcome"), [(11, INAPPLICABLE), (12, HOLDS), (13, HOLDS)])
 def test_condition_6_on_markov_parameters_counts_the_states(count, outcome):
     """N_S1 + N_S2 = 12 for two 3-mass models."""
     relation = compare(
-        Family(3)[2], Family(3)[5], query=Query(View.MARKOV, (6,), count), engine=ENGINE
+        Family(3, damped=False)[2],
+        Family(3, damped=False)[5],
+        query=Query(View.MARKOV, (6,), count),
+        engine=ENGINE,
     ).relation
     assert (relation is Relation.INDISTINGUISHABLE) == (outcome is HOLDS)
 
@@ -362,7 +376,7 @@ def test_condition_8_fails_where_a_damper_adds_a_determinable_parameter():
     [
         (ground(1), ground(2)),  # equally many elements
         (ground(1), ground(2, chain=Chain(3, damped=True))),  # no ground damper at mass 1
-        (Chain(2), Chain(3, meas_plus=3)),  # other ports
+        (Chain(2, damped=False), Chain(3, meas_plus=3, damped=False)),  # other ports
         (ground(1), ground(1, 2, chain=Chain(2, damped=True, sensor="velocity"))),
         (ground(1), ground(1, 2, chain=Chain(2, damped=True, dead_time=True))),
     ],
@@ -373,7 +387,7 @@ def test_condition_8_does_not_apply(left, right):
 
 
 def test_condition_8_compares_chains_of_different_sizes():
-    finding = condition_8(*subjects(Chain(2), Chain(3)))
+    finding = condition_8(*subjects(Chain(2, damped=False), Chain(3, damped=False)))
     assert (finding.outcome, finding.note) == (FAILS, "3 and 5 determinable parameters")
 
 
@@ -397,8 +411,8 @@ def test_condition_9_fails_where_the_third_model_has_more_to_determine():
 @pytest.mark.parametrize(
     ("left", "right"),
     [
-        (Family(3)[1], Family(3)[2]),  # other sensor place
-        (Family(3)[1], replace(Family(3)[1], sensor="position")),
+        (Family(3, damped=False)[1], Family(3, damped=False)[2]),  # other sensor place
+        (Family(3, damped=False)[1], replace(Family(3, damped=False)[1], sensor="position")),
         (ground(1), replace(ground(2), dead_time=True)),
         (ground(1), ground(1, 2)),  # a submodel: condition 8
         (ground(1), ground(1)),
@@ -437,7 +451,7 @@ def test_the_table_is_in_the_order_of_the_paper():
 
 
 def test_every_condition_reports_under_its_own_number():
-    tf, chains = handmade(INDEPENDENT), subjects(Chain(2), Chain(2))
+    tf, chains = handmade(INDEPENDENT), subjects(Chain(2, damped=False), Chain(2, damped=False))
     necessary = [
         c(tf, tf) for c in (condition_1, condition_2, condition_3, condition_4, condition_5)
     ]

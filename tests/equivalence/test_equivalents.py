@@ -77,7 +77,7 @@ def test_planted_equivalent_with_split_roots_is_found_again():
     leads there.
     """
     planted = {"m1": 1, "m2": 2, "m3": 3, "k01": 5, "k23": 7}
-    six, one = Family(3)[6], Family(3)[1]
+    six, one = Family(3, damped=False)[6], Family(3, damped=False)[1]
     image = explicit_map(six, one).at(planted)
     found = list(equivalents(one, image, six))
     assert len(found) == 2 and all(m.signs is Signs.POSITIVE for m in found)
@@ -147,19 +147,22 @@ def test_equal_ratios_are_named_and_proportional_members_given():
 
 def test_other_sizes_dampers_and_extras():
     undamped = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70}
-    smaller = equivalents("3:1", undamped, Family(2)).listings
+    smaller = equivalents("3:1", undamped, Family(2, damped=False)).listings
     assert all(li.status is Status.EMPTY and li.complete for li in smaller)
     larger = equivalents("3:1", undamped, "4:1", damped=False).listings[0]
     assert larger.status is Status.NOT_COVERED and "more masses" in larger.sentence
-    without = equivalents(Family(3, True)[1], DAMPED, Family(3)[1]).listings[0]
+    without = equivalents(Family(3, True)[1], DAMPED, Family(3, damped=False)[1]).listings[0]
     assert without.status is Status.EMPTY
-    friction = Chain(3, 0, 0, 1, 0, 2, ground_dampers=(1,))
-    mirrored = Chain(3, 0, 0, 3, 0, 2, ground_dampers=(3,))
+    friction = Chain(3, 0, 0, 1, 0, 2, ground_dampers=(1,), damped=False)
+    mirrored = Chain(3, 0, 0, 3, 0, 2, ground_dampers=(3,), damped=False)
     listing = equivalents(friction, undamped | {"b1": 2}, mirrored).listings[0]
     assert [m.origin for m in listing.members] == [Origin.RENAMING] and not listing.complete
     assert agree(friction, undamped | {"b1": 2}, listing.members[0])
-    late = Chain(3, dead_time=True)
-    assert equivalents(late, undamped | {"Td": "1e-3"}, Chain(3)).listings[0].status is Status.EMPTY
+    late = Chain(3, dead_time=True, damped=False)
+    assert (
+        equivalents(late, undamped | {"Td": "1e-3"}, Chain(3, damped=False)).listings[0].status
+        is Status.EMPTY
+    )
     assert len(equivalents(late, undamped | {"Td": "1e-3"}, late)) == 1
 
 
@@ -195,12 +198,17 @@ def test_bad_references(model, to):
 
 def test_sensors_have_to_agree():
     with pytest.raises(InputError, match="sensors differ"):
-        equivalents(Chain(2), {"m1": 1, "m2": 1, "k12": 1}, Chain(2, sensor=Sensor.VELOCITY))
+        equivalents(
+            Chain(2, damped=False),
+            {"m1": 1, "m2": 1, "k12": 1},
+            Chain(2, sensor=Sensor.VELOCITY, damped=False),
+        )
 
 
 def test_values_are_taken_exactly():
     exact = point_of(
-        Chain(3), {"m1": 0.1, "m2": np.float32(0.1), "m3": np.int64(3), "k12": "3/4", "k23": "1e-3"}
+        Chain(3, damped=False),
+        {"m1": 0.1, "m2": np.float32(0.1), "m3": np.int64(3), "k12": "3/4", "k23": "1e-3"},
     )
     assert [str(v) for v in exact.values()] == ["1/10", "1/10", "3", "3/4", "1/1000"]
 
@@ -272,14 +280,15 @@ def test_lag_and_dead_time_are_inherited(extra, name):
     (member,) = named.members
     assert (member.signs, member.text["m1"], member.text["k01"]) == (Signs.POSITIVE, "1.5", "225")
     assert [
-        c.name for c in equivalents(f"2:1+{extra}", values, Family(2), damped=False).listings
+        c.name
+        for c in equivalents(f"2:1+{extra}", values, Family(2, damped=False), damped=False).listings
     ] == [f"2:{i}+{extra}" for i in (1, 2, 3)]
 
 
 def test_a_chain_is_taken_as_it_is():
     """Asked of a chain without a dead time, the answer is about that chain."""
     (listing,) = equivalents(
-        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2)[3]
+        "2:1+delay", {"m1": 1, "m2": 2, "k12": 100, "Td": "0.01"}, Family(2, damped=False)[3]
     ).listings
     assert (
         listing.members == ()

@@ -111,7 +111,7 @@ def test_in_its_own_structure_places_are_known():
 
 
 def test_another_experiment_lists_what_the_first_leaves_open():
-    chain = Chain(2, meas_plus=2)
+    chain = Chain(2, meas_plus=2, damped=False)
     values = {"m1": 1, "m2": 2, "k12": 3}
     alone = equivalents(chain, values, chain)
     assert not alone.listings[0].complete
@@ -120,7 +120,9 @@ def test_another_experiment_lists_what_the_first_leaves_open():
 
 
 def test_where_every_experiment_leaves_a_family_that_is_said():
-    found = equivalents(Chain(2, meas_plus=2), {"m1": 1, "m2": 2, "k12": 3}, "2:2", also=["lock=2"])
+    found = equivalents(
+        Chain(2, meas_plus=2, damped=False), {"m1": 1, "m2": 2, "k12": 3}, "2:2", also=["lock=2"]
+    )
     (listing,) = found.listings
     assert not listing.complete and listing.sentence.startswith("infinitely many fit each")
     assert Origin.GIVEN in {m.origin for m in listing.members}
@@ -137,7 +139,7 @@ def test_every_place_is_tried_where_none_is_named():
 
 
 def test_a_dead_time_and_a_lag_stay():
-    chain = Chain(2, act_plus=1, meas_plus=1, lag=True, dead_time=True)
+    chain = Chain(2, act_plus=1, meas_plus=1, lag=True, dead_time=True, damped=False)
     values = {"m1": 1, "m2": 2, "k12": 3, "T1": "0.1", "Td": "0.2"}
     found = equivalents(chain, values, chain, also=["sensor=2"])
     (member,) = found

@@ -15,7 +15,7 @@ from disting.experiments.listing import by_list
 from disting.experiments.positive import positive_finding
 
 A = Family(3, damped=True)
-U = Family(3)
+U = Family(3, damped=False)
 AS_IT_IS = Experiment()
 
 

@@ -24,7 +24,7 @@ AS_IT_IS, SENSOR, LOCKED, INERTIA = (
     (Experiment(inertias={2: "3/2"}), {"inertias": {2: "3/2"}}),
 )
 TWO = [AS_IT_IS, SENSOR]
-PLAIN = Chain(3, meas_plus=2)
+PLAIN = Chain(3, meas_plus=2, damped=False)
 
 
 def with_dampers(*masses, damped=False, chain=PLAIN):
@@ -103,7 +103,7 @@ def test_a_shorter_chain_is_a_limit_of_a_longer_one():
 def test_one_experiment_that_determines_more_excludes():
     """Alone the left model has the larger rank in one experiment, together the smaller one."""
     seen = 0
-    family = list(Family(3))
+    family = list(Family(3, damped=False))
     used = (Experiment(), Experiment(locked=1))
     for left, right in permutations(family, 2):
         sides = [MeasuredChain(c, used) for c in (left, right)]
@@ -132,7 +132,7 @@ def test_what_holds_of_all_holds_of_each():
 
 def test_condition_8_under_experiments():
     """Equal rank and a part: the same behaviour, and so say the other conditions."""
-    chain = Chain(3, act_plus=1, meas_plus=3)
+    chain = Chain(3, act_plus=1, meas_plus=3, damped=False)
     part, whole = with_dampers(1, chain=chain), with_dampers(1, 2, chain=chain)
     used = [AS_IT_IS, (Experiment(quantity="position"), {})]
     experiments = [e for e, _ in used]
@@ -149,7 +149,7 @@ def test_condition_8_under_experiments():
 
 
 def test_condition_9_is_not_asked_under_experiments():
-    a, b = Family(3)[6], Family(3)[8]
+    a, b = Family(3, damped=False)[6], Family(3, damped=False)[8]
     query = Query(View.COMBINED, ("9",))
     found = compare(a, b, experiments=[Experiment(), Experiment(sensor=3)], query=query)
     assert found.relation.value == "undecided"

@@ -134,9 +134,9 @@ from disting.experiments.menu import Item
 
 setup = Setup(magnets=(("last", 0.5),))
 print(setup.text, setup.added(2))
-shapes = [s for layer in state(Chain(2), {}, setup.experiment(2).changes).layers for s in layer.shapes]
+shapes = [s for layer in state(Chain(2, damped=False), {}, setup.experiment(2).changes).layers for s in layer.shapes]
 print([s.text for s in shapes if getattr(s, "text", "").startswith("+")])
-print(added(Chain(2), Item(MAGNET, 1)).name)
+print(added(Chain(2, damped=False), Item(MAGNET, 1)).name)
 """,
     )
     assert said.splitlines() == [

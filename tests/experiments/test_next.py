@@ -63,7 +63,7 @@ def test_any_second_sensor_settles_the_dual_pair(engine):
 
 def test_the_group_of_five_undamped(engine):
     group = (1, 4, 6, 8, 11)
-    found = further(named(Family(3), *group), engine)
+    found = further(named(Family(3, damped=False), *group), engine)
     left = {
         kind: {
             (group[a], i, group[b], j)
@@ -87,7 +87,7 @@ def test_the_group_of_five_undamped(engine):
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_tables_say_what_compare_says(kind, engine):
     """Every pair of places of a group, one by one, without classes and buckets."""
-    family, group = Family(3), (8, 11)
+    family, group = Family(3, damped=False), (8, 11)
     found = further(named(family, *group), engine, costs=EVERY)
     for i, j in product((1, 2, 3), repeat=2):
         pairs = [tuple(Item(kind, at).experiment for at in (i, j))]
@@ -188,8 +188,8 @@ DAMPERS = [
 
 def agrees_with_other_code(names, kind, i, j):
     """Tables of structures with dampers to the ground, against one fibre by plain SymPy."""
-    chains = [chain_of(name, Family(3)) for name in names]
-    stored = next_catalog(3, dampers=True)
+    chains = [chain_of(name, Family(3, damped=False)) for name in names]
+    stored = next_catalog(3, dampers=True, damped=False)
     numbers = [
         stored.number(int(name[2:].split("+")[0]), chain.ground_dampers)
         for name, chain in zip(names, chains, strict=True)

@@ -67,7 +67,7 @@ CHAINS = [
     Chain(1, damped=True, ground_dampers=(1,)),
     Chain(2, damped=True, dead_time=True),
     Chain(3, damped=True, ground_dampers=(2,), lag=True, dead_time=True),
-    Chain(3, meas_plus=3, sensor="velocity", ground_dampers=(1, 3)),
+    Chain(3, meas_plus=3, sensor="velocity", ground_dampers=(1, 3), damped=False),
     Chain(
         3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=True, sensor="position"
     ),

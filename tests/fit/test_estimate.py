@@ -270,7 +270,7 @@ def test_the_classes_have_the_sizes_of_the_paper():
 
 
 def test_the_continued_fraction_gives_masses_and_springs_back():
-    chain = Chain(4)
+    chain = Chain(4, damped=False)
     values = truth(chain, 9)
     p = np.array([values[n] for n in chain.parameters])
     z, p_ = (
@@ -296,5 +296,5 @@ def test_smaller_candidates_lead_to_larger_ones():
     assert dampers == [(1, 2), (2,)] and all(c.lag and c.n_masses == 2 for _, c in merged(chain))
     assert {c.n_masses for c in with_smaller([chain])} == {1, 2, 3}
     assert [c.ground_dampers for c in shortened(chain)] == [(3,), (2,), (2, 3)]
-    gap = Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2)
+    gap = Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=False)
     assert [c.indices for _, c in merged(gap)] == [(2, 1, 1, 2, 1, 2)]

@@ -94,7 +94,7 @@ def test_more_candidates_do_not_explain_a_beam_either():
     ids=["reversed", "velocity"],
 )
 def test_what_would_fit_is_named_with_its_cost(data, words):
-    found = select(noisy(data), [Chain(1), ONE])
+    found = select(noisy(data), [Chain(1, damped=False), ONE])
     told(data, found)
     assert (
         found.readings[0].words == words
@@ -105,7 +105,7 @@ def test_what_would_fit_is_named_with_its_cost(data, words):
 
 
 def test_noise_is_called_noise():
-    found = select(noisy(np.ones(OMEGA.size), size=30.0), [Chain(1), ONE])
+    found = select(noisy(np.ones(OMEGA.size), size=30.0), [Chain(1, damped=False), ONE])
     told(found.test, found)
     assert "mostly noise" in first_lines(found)[0] and found.readings == ()
 
@@ -191,9 +191,11 @@ def test_what_is_missed_is_named_by_its_frequencies():
 def test_an_excluded_candidate_that_fits_better_is_named_with_its_reason():
     """A parameter at its bound excludes it; one that is given does not count."""
     data, low = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)], {"k12": (0.0, 2.9e4)}
-    found = select(data[0], [Chain(1), DRIVE], test=data[1], bounds=low, fixed={"b2": 20.0})
+    found = select(
+        data[0], [Chain(1, damped=False), DRIVE], test=data[1], bounds=low, fixed={"b2": 20.0}
+    )
     (better,) = found.better
-    assert found.selected.chain == Chain(1) and better.chain == DRIVE
+    assert found.selected.chain == Chain(1, damped=False) and better.chain == DRIVE
     assert better.at_bound == ("k12",) and "k12 is at its bound" in better.reasons
     assert better.n_parameters == 4
     assert any(
@@ -205,7 +207,10 @@ def test_an_excluded_candidate_that_fits_better_is_named_with_its_reason():
 def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
     data = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)]
     found = select(
-        data[0], [Chain(1), replace(ONE, dead_time=True)], test=data[1], fixed={"m1": 0.5}
+        data[0],
+        [Chain(1, damped=False), replace(ONE, dead_time=True)],
+        test=data[1],
+        fixed={"m1": 0.5},
     )
     lowest = min(c.j_test for c in found.candidates)
     assert not found.explanation.explains and found.described.j_test == lowest

@@ -206,13 +206,13 @@ def test_a_locked_mass_silences_what_it_carries_and_what_lies_behind_it(setup, s
 
 
 RANKS = [
-    (Chain(3), (Setup(),), 5),
-    (Chain(2, meas_plus=2), (Setup(),), 2),
-    (Chain(2, meas_plus=2), (Setup(), Setup(sensor="1")), 3),
+    (Chain(3, damped=False), (Setup(),), 5),
+    (Chain(2, meas_plus=2, damped=False), (Setup(),), 2),
+    (Chain(2, meas_plus=2, damped=False), (Setup(), Setup(sensor="1")), 3),
     (Chain(3, damped=True, lag=True), (Setup(), Setup(sensor="2")), 8),
-    (Chain(2, meas_plus=2), (Setup(), Setup(inertias=(("1", 0.5),))), 3),
-    (Chain(2, meas_plus=2), (Setup(), Setup(sensor="1", locked=("2",))), 3),
-    (Chain(3), (Setup(), Setup(sensor="1", locked=("2",))), 5),
+    (Chain(2, meas_plus=2, damped=False), (Setup(), Setup(inertias=(("1", 0.5),))), 3),
+    (Chain(2, meas_plus=2, damped=False), (Setup(), Setup(sensor="1", locked=("2",))), 3),
+    (Chain(3, damped=False), (Setup(), Setup(sensor="1", locked=("2",))), 5),
 ]
 
 

@@ -54,14 +54,16 @@ def test_a_reversed_sensor_changes_the_sign_and_no_derivative():
 
 
 def test_a_free_mass_by_hand():
-    response, gradient = Plant(Chain(1).structure, OMEGA).logarithmic_gradient(np.array([4.0]))
+    response, gradient = Plant(Chain(1, damped=False).structure, OMEGA).logarithmic_gradient(
+        np.array([4.0])
+    )
     np.testing.assert_allclose(response, 0.25)
     np.testing.assert_allclose(gradient, -0.25 * np.ones((1, OMEGA.size)))
 
 
 def test_a_line_on_an_antiresonance_without_damping_is_no_division_by_zero():
     """k = m2 w^2: the force meets a mass that does not move."""
-    response, gradient = Plant(Chain(2).structure, np.array([2.0])).logarithmic_gradient(
-        np.array([1.0, 1.0, 4.0])
-    )
+    response, gradient = Plant(
+        Chain(2, damped=False).structure, np.array([2.0])
+    ).logarithmic_gradient(np.array([1.0, 1.0, 4.0]))
     assert np.all(np.abs(response) < 1e-12) and np.all(np.isfinite(gradient))

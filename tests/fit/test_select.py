@@ -241,11 +241,11 @@ def test_input_that_does_not_fit_together_is_refused():
     with pytest.raises(InputError, match="at least one candidate"):
         select(planted(1), [])
     with pytest.raises(InputError, match="the data shows acceleration, a candidate velocity"):
-        select(planted(1), [Chain(1, sensor="velocity")])
+        select(planted(1), [Chain(1, sensor="velocity", damped=False)])
     with pytest.raises(InputError, match="training shows acceleration, test velocity"):
-        select(planted(1), [Chain(1)], test=planted(2).to_quantity("velocity"))
+        select(planted(1), [Chain(1, damped=False)], test=planted(2).to_quantity("velocity"))
     with pytest.raises(InputError, match="choose other weights"):
-        select(planted(1), [Chain(1)], lines=lines_by_deviation)
+        select(planted(1), [Chain(1, damped=False)], lines=lines_by_deviation)
 
 
 def test_repeatability_comes_from_common_lines_then_deviations_then_residuals():

@@ -98,7 +98,7 @@ def test_chains_as_state_spaces_have_the_verdicts_of_the_catalogue(damped, view)
 def test_a_plain_state_space_is_the_chain():
     for chain in (
         Chain(3, 1, 1, 3, 1, 2, damped=True, ground_dampers=(1, 3)),
-        Chain(4, 2, 1, 3, 2, 4),
-        Chain(1),
+        Chain(4, 2, 1, 3, 2, 4, damped=False),
+        Chain(1, damped=False),
     ):
         assert Model.from_state_space(*plain_state_space(chain)) == Model.from_chain(chain)

@@ -192,8 +192,8 @@ def test_models_are_values():
     "chain",
     [
         *Family(2, damped=True),
-        Chain(2, ground_dampers=(1, 2), lag=True),
-        Chain(3, sensor="position"),
+        Chain(2, ground_dampers=(1, 2), lag=True, damped=False),
+        Chain(3, sensor="position", damped=False),
     ],
 )
 def test_chains_become_models(chain):
@@ -266,4 +266,4 @@ def test_bad_frequency_variables(s):
 
 def test_dead_time_is_refused():
     with pytest.raises(InputError, match="dead time"):
-        Model.from_chain(Chain(1, dead_time=True))
+        Model.from_chain(Chain(1, dead_time=True, damped=False))

@@ -40,9 +40,9 @@ from disting.questions.same.limited import quick_finding
 from disting.model.settings import Settings
 
 build(2, damped=True, engine=Engine(store=Store.none()))
-compare(Family(2)[1], Family(2)[2])
-catalog(3).classes()
-quick_finding(Family(3)[1], Family(3)[2], Settings())
+compare(Family(2, damped=False)[1], Family(2, damped=False)[2])
+catalog(3, damped=False).classes()
+quick_finding(Family(3, damped=False)[1], Family(3, damped=False)[2], Settings())
 """
 
 

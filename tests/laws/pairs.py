@@ -53,18 +53,18 @@ def damper_pairs(draw):
 
 any_pair = st.one_of(st.tuples(chains(), chains()), similar_pairs(), damper_pairs())
 EXAMPLES = [
-    (Chain(2), Chain(3, meas_plus=3)),  # condition 2
-    (Family(3)[9], Family(3)[10]),  # 6
-    (Chain(1), Chain(1, damped=True)),  # 6, no symmetry
-    (Family(4)[11], Family(4)[13]),  # 7
+    (Chain(2, damped=False), Chain(3, meas_plus=3, damped=False)),  # condition 2
+    (Family(3, damped=False)[9], Family(3, damped=False)[10]),  # 6
+    (Chain(1, damped=False), Chain(1, damped=True)),  # 6, no symmetry
+    (Family(4, damped=False)[11], Family(4, damped=False)[13]),  # 7
     # 8
     (
-        Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,)),
+        Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,), damped=False),
         Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,), damped=True),
     ),
     tuple(Chain(3, 2, 1, 3, 2, 3, damped=True, ground_dampers=(i,)) for i in (1, 2)),  # 9
     (Family(3, damped=True)[1], Family(3, damped=True)[4]),  # 5 on Markov parameters
-    (Chain(1), Chain(1, dead_time=True)),  # 3
+    (Chain(1, damped=False), Chain(1, dead_time=True, damped=False)),  # 3
     # undecided
     (Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, ground_dampers=(2,))),
 ]

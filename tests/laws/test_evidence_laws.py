@@ -66,10 +66,10 @@ def swapped(pairs):
 def evidence_of(kind):
     pair = {
         Counts: (Family(3, damped=True)[1], Family(3, damped=True)[2]),
-        Forms: (Chain(1), Chain(1, dead_time=True)),
+        Forms: (Chain(1, damped=False), Chain(1, dead_time=True, damped=False)),
         Ranks: (Family(3, damped=True)[1], Family(3, damped=True)[4]),
-        Renaming: (Family(3)[2], Family(3)[5]),
-        FreeChoice: (Family(4)[11], Family(4)[13]),
+        Renaming: (Family(3, damped=False)[2], Family(3, damped=False)[5]),
+        FreeChoice: (Family(4, damped=False)[11], Family(4, damped=False)[13]),
         Embedding: EXAMPLES[4],
         Supermodel: EXAMPLES[5],
     }[kind]
@@ -133,7 +133,7 @@ def test_evidence_of_another_pair_is_refused(kind):
 
 def test_a_supermodel_of_larger_rank_is_refused():
     """The chain without gap has rank 8, its two rows have 7."""
-    left, right = Family(4)[11], Family(4)[13]
+    left, right = Family(4, damped=False)[11], Family(4, damped=False)[13]
     names = left.structure.united(right.structure).parameters
     assert not any(
         WITNESS.confirms(Supermodel(names, rank), "structure", left, right) for rank in (6, 7, 8)

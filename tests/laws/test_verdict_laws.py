@@ -56,7 +56,7 @@ def test_a_verdict_tells_its_relation_and_its_proof(pair):
 
 def test_a_verdict_is_neither_true_nor_false():
     with pytest.raises(TypeError, match="relation"):
-        bool(verdict(Chain(1), Chain(2)))
+        bool(verdict(Chain(1, damped=False), Chain(2, damped=False)))
 
 
 DECIDED = {
@@ -85,9 +85,9 @@ def test_an_undecided_verdict_has_no_proof():
 
 
 def test_verdicts_are_values():
-    found = verdict(Chain(1), Chain(2))
-    assert found == verdict(Chain(1), Chain(2), engine=Engine())
-    assert len({found, verdict(Chain(1), Chain(2))}) == 1
+    found = verdict(Chain(1, damped=False), Chain(2, damped=False))
+    assert found == verdict(Chain(1, damped=False), Chain(2, damped=False), engine=Engine())
+    assert len({found, verdict(Chain(1, damped=False), Chain(2, damped=False))}) == 1
     with pytest.raises(AttributeError):
         found.relation = Relation.UNDECIDED
     assert [f.name for f in fields(found)][:4] == ["left", "right", "relation", "decided_by"]

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from disting import (
     Family,
     InputError,
+    catalog,
     compare,
     compare_everywhere,
     equivalents,
@@ -14,6 +15,10 @@ from disting import (
     prove,
     transfer_function,
 )
+from disting.catalogs.combined import combined_family
+from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.next_files import next_catalog
+from disting.catalogs.sizes_files import sizes_catalog
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chain_of, chains_named, name_of, read
 from disting.questions.identifiability import identifiability
@@ -44,14 +49,19 @@ def test_what_is_written_is_read_as_the_same_chain(
 
 @pytest.mark.parametrize("extras", EXTRAS)
 def test_the_order_of_what_stands_behind_a_number_does_not_matter(extras: tuple[str, ...]) -> None:
-    one = chain_of("3:4" + "".join(extras), Family(1))
-    assert one == chain_of("3:4" + "".join(reversed(extras)), Family(1))
-    assert chain_of(" 3 : 4 " + " + ".join(["", *(e[1:] for e in extras)])[1:], Family(1)) == one
+    one = chain_of("3:4" + "".join(extras), Family(1, damped=False))
+    assert one == chain_of("3:4" + "".join(reversed(extras)), Family(1, damped=False))
+    assert (
+        chain_of(
+            " 3 : 4 " + " + ".join(["", *(e[1:] for e in extras)])[1:], Family(1, damped=False)
+        )
+        == one
+    )
 
 
 def test_a4_is_of_the_size_that_is_known() -> None:
     assert [name_of(c) for c in chains_named(["A4", "3:1", "a2+b1"])] == ["3:4", "3:1", "3:2+b1"]
-    assert name_of(chains_named([Family(5)[1], "A73"])[1]) == "5:73"
+    assert name_of(chains_named([Family(5, damped=False)[1], "A73"])[1]) == "5:73"
     for unknown in (["A4"], ["A4", "A1"], ["A4", "3:1", "4:1"]):
         with pytest.raises(InputError, match="A4: the number of masses is not known here; write"):
             chains_named(unknown)
@@ -109,8 +119,34 @@ def test_public_functions_take_names() -> None:
     )
     assert here == there
     assert transfer_function("3:4") == transfer_function(family[4])
-    assert identifiability("3:4", damped=False) == identifiability(Family(3)[4])
+    assert identifiability("3:4", damped=False) == identifiability(Family(3, damped=False)[4])
     assert explicit_map("3:1", "A11") == explicit_map(family[1], family[11])
     values = {"m1": 1, "m2": 2, "k12": 3}
     to = equivalents("2:1", values, "A2", damped=False)
     assert [listing.name for listing in to.listings] == ["2:2"]
+
+
+def test_what_is_built_means_what_is_named():
+    """Where nothing is said, a name, a chain, a family and every shipped table are damped."""
+    assert chains_named(["3:4"]) == [Family(3)[4]] == [Chain(3, 0, 0, 2, 0, 2)]
+    assert Chain(3).damped and Family(3).damped and catalog(3).damped
+    assert damper_catalog(3).family.damped and sizes_catalog().damped
+    assert next_catalog(3).further((1, 11)).chains[0].damped
+    assert {chain.damped for _, chain in combined_family((1, 2))} == {True}
+    assert compare("3:1", "3:4").relation is compare(Family(3)[1], Family(3)[4]).relation
+
+
+@pytest.mark.parametrize("family", [Family(3), Family(2, False, Sensor.POSITION)], ids=repr)
+def test_a_family_and_its_chains_print_as_what_can_be_typed_in_again(family):
+    names = {"Family": Family, "Chain": Chain}
+    assert eval(repr(family), names) == family
+    assert [eval(repr(chain), names) for chain in family] == list(family)
+    for shown in (repr(family), repr(family[1])):
+        assert f"damped={family.damped}" in shown and f"sensor='{family.sensor}'" in shown
+
+
+@pytest.mark.parametrize("kind", [Family, Chain])
+@pytest.mark.parametrize("wrong", [{"damped": "no"}, {"damped": 1}, {"sensor": 3}], ids=str)
+def test_damping_and_sensor_of_another_type_are_refused(kind, wrong):
+    with pytest.raises(InputError, match=r"True or False|sensor is position"):
+        kind(3, **wrong)

@@ -115,7 +115,7 @@ def test_structures_that_are_no_rows_with_two_ports_are_refused():
 
 
 def test_rows_without_a_port_are_left_out():
-    chain = Chain(3, ground_dampers=(3,)).structure
+    chain = Chain(3, ground_dampers=(3,), damped=False).structure
     split = replace(chain, elements=tuple(e for e in chain.elements if e != Spring(2)))
     assert GroundDamper(3) in split.elements
     assert rows_of(split) == (Row(2, False, 1, 1),)

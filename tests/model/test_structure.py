@@ -33,7 +33,7 @@ def without(structure, *elements):
 def test_a_derivative_whose_transfer_function_is_not_proper_is_refused(order):
     """Its Markov parameters were those of the proper part alone, and verdicts rested on them."""
     with pytest.raises(InputError, match="is not proper"):
-        replace(Chain(2).structure, sensor_order=order)
+        replace(Chain(2, damped=False).structure, sensor_order=order)
 
 
 # --- embeddings
@@ -59,13 +59,13 @@ def test_a_structure_without_an_element_is_a_part_and_not_the_other_way_round(ch
 
 
 def test_a_shorter_chain_is_a_part_of_a_longer_one():
-    assert embeddings(Chain(2), Chain(3)) == [{0: 0, 1: 1, 2: 2}]
-    assert embeddings(Chain(3), Chain(2)) == []
+    assert embeddings(Chain(2, damped=False), Chain(3, damped=False)) == [{0: 0, 1: 1, 2: 2}]
+    assert embeddings(Chain(3, damped=False), Chain(2, damped=False)) == []
 
 
 def test_a_shifted_run_in_the_middle():
     """Force and sensor at mass 2 of 3: the pair to its left and the pair to its right."""
-    found = embeddings(Chain(2), Chain(3, act_plus=2, meas_plus=2))
+    found = embeddings(Chain(2, damped=False), Chain(3, act_plus=2, meas_plus=2, damped=False))
     assert sorted(sorted(m.items()) for m in found) == [
         [(0, 0), (1, 2), (2, 1)],
         [(0, 0), (1, 2), (2, 3)],
@@ -73,33 +73,35 @@ def test_a_shifted_run_in_the_middle():
 
 
 def test_a_grounded_part_stays_at_the_ground():
-    part = Chain(2, 1, 1, 2, 1, 2)
-    assert embeddings(part, Chain(3, 1, 1, 2, 1, 2)) == [{0: 0, 1: 1, 2: 2}]
-    assert embeddings(part, Chain(3, 2, 2, 3, 2, 3)) == []  # mass 2 is not joined to the ground
+    part = Chain(2, 1, 1, 2, 1, 2, damped=False)
+    assert embeddings(part, Chain(3, 1, 1, 2, 1, 2, damped=False)) == [{0: 0, 1: 1, 2: 2}]
+    assert (
+        embeddings(part, Chain(3, 2, 2, 3, 2, 3, damped=False)) == []
+    )  # mass 2 is not joined to the ground
 
 
 def test_undamped_is_a_part_of_damped():
-    assert embeddings(Chain(3), Chain(3, damped=True)) == [{0: 0, 1: 1, 2: 2, 3: 3}]
-    assert embeddings(Chain(3, damped=True), Chain(3)) == []
+    assert embeddings(Chain(3, damped=False), Chain(3, damped=True)) == [{0: 0, 1: 1, 2: 2, 3: 3}]
+    assert embeddings(Chain(3, damped=True), Chain(3, damped=False)) == []
 
 
 def test_without_lag_is_a_part_of_with_lag():
-    assert len(embeddings(Chain(2), Chain(2, lag=True))) == 1
-    assert embeddings(Chain(2, lag=True), Chain(2)) == []
+    assert len(embeddings(Chain(2, damped=False), Chain(2, lag=True, damped=False))) == 1
+    assert embeddings(Chain(2, lag=True, damped=False), Chain(2, damped=False)) == []
 
 
 @pytest.mark.parametrize(
     "other",
     [
-        Chain(3, meas_plus=2),
-        Chain(3, sensor="position"),
-        Chain(3, dead_time=True),
-        Chain(4, 1, 1, 2, 1, 2),
+        Chain(3, meas_plus=2, damped=False),
+        Chain(3, sensor="position", damped=False),
+        Chain(3, dead_time=True, damped=False),
+        Chain(4, 1, 1, 2, 1, 2, damped=False),
     ],
     ids=str,
 )
 def test_other_ports_sensors_and_dead_times_are_no_whole(other):
-    assert embeddings(Chain(3), other) == []
+    assert embeddings(Chain(3, damped=False), other) == []
 
 
 @pytest.mark.parametrize(
@@ -113,7 +115,9 @@ def test_other_ports_sensors_and_dead_times_are_no_whole(other):
     ],
 )
 def test_ground_dampers_must_be_there(mine, theirs, fits):
-    left, right = (Chain(3, meas_plus=3, ground_dampers=masses) for masses in (mine, theirs))
+    left, right = (
+        Chain(3, meas_plus=3, ground_dampers=masses, damped=False) for masses in (mine, theirs)
+    )
     assert bool(embeddings(left, right)) == fits
 
 
@@ -164,8 +168,8 @@ def test_united_gaps_have_none():
 
 def test_united_sizes_and_extras():
     left, right = (
-        Chain(2, lag=True).structure,
-        Chain(3, ground_dampers=(3,), dead_time=True).structure,
+        Chain(2, lag=True, damped=False).structure,
+        Chain(3, ground_dampers=(3,), dead_time=True, damped=False).structure,
     )
     whole = left.united(right)
     assert right.united(left).parameters == whole.parameters
@@ -185,7 +189,7 @@ def test_a_gap_makes_two_rows(chain):
 
 
 def test_rows_of_a_structure_with_few_springs():
-    chain = Chain(4).structure
+    chain = Chain(4, damped=False).structure
     assert without(chain, Spring(2)).row_ends == ((1, 2), (3, 4))
     assert without(chain, Spring(1), Spring(3)).row_ends == ((1, 1), (2, 3), (4, 4))
     assert without(chain, GroundDamper(1)).row_ends == ((1, 4),)
@@ -209,9 +213,9 @@ def test_drawings_of_a_family_are_distinct(n_masses, damped):
 @pytest.mark.parametrize(
     ("chain", "drawing"),
     [
-        (Chain(1), "[1FS]"),
+        (Chain(1, damped=False), "[1FS]"),
         (Chain(2, damped=True, ground_dampers=(2,)), "[1FS]=[2],"),
-        (Chain(3, 2, 1, 3, 2, 3), "#~[1f]~[2s]   [3FS]"),
+        (Chain(3, 2, 1, 3, 2, 3, damped=False), "#~[1f]~[2s]   [3FS]"),
         (Chain(3, 1, 1, 3, 1, 2, damped=True, ground_dampers=(1, 3)), "#=[1fs],   [2S]=[3F],"),
     ],
 )

@@ -75,7 +75,7 @@ def with_dampers(chain):
     [(1, 1), (2, 3), (3, 11), (4, 29), (5, 73), (6, 157), (7, 314), (8, 574), (9, 993), (10, 1623)],
 )
 def test_table_2_and_its_continuation(n_masses, models):
-    assert len(Family(n_masses)) == models
+    assert len(Family(n_masses, damped=False)) == models
 
 
 # --- Figs. 10, 11 and 13: pairs by deciding condition
@@ -199,7 +199,7 @@ def test_a3_alone_has_seven_coefficients_and_a3_and_a7_rank_six():
 
 
 def test_four_mass_models_11_and_13_differ_in_the_gap_alone():
-    left, right = Family(4)[11], Family(4)[13]
+    left, right = Family(4, damped=False)[11], Family(4, damped=False)[13]
     assert left.indices == (4, 1, 1, 3, 1, 3)
     assert replace(left, gap=2) == right
 
@@ -208,7 +208,7 @@ def test_condition_7_decides_11_and_13_and_condition_9_does_not():
     """Printed: condition 9. The chain without gap has 8 determinable parameters, its two
     submodels 7.
     """
-    left, right = (ENGINE.subject(str(i), Family(4)[i]) for i in (11, 13))
+    left, right = (ENGINE.subject(str(i), Family(4, damped=False)[i]) for i in (11, 13))
     assert condition_7(*profiles((left.chain, right.chain))).outcome is Outcome.HOLDS
     finding = condition_9(left, right)
     assert (finding.outcome, finding.note) == (Outcome.FAILS, "7, 7 and 8 determinable parameters")
@@ -219,7 +219,7 @@ def test_condition_7_decides_11_and_13_and_condition_9_does_not():
     ("n_masses", "pairs"), [(3, 0), (4, 2), pytest.param(5, 11, marks=pytest.mark.slow)]
 )
 def test_condition_9_never_holds_in_a_family(n_masses, pairs):
-    subjects = [ENGINE.subject("", chain) for chain in Family(n_masses)]
+    subjects = [ENGINE.subject("", chain) for chain in Family(n_masses, damped=False)]
     outcomes = Counter(condition_9(*pair).outcome for pair in combinations(subjects, 2))
     assert outcomes[Outcome.FAILS] == pairs
     assert outcomes[Outcome.HOLDS] == 0
@@ -246,12 +246,12 @@ def test_condition_2_is_pivotal_between_undamped_sizes_only():
     """Printed for one size: never. A mass more can move two coefficients from the numerator to
     the denominator.
     """
-    assert pivotal_for_condition_2(*(Family(n) for n in (1, 2, 3, 4))) == 20
+    assert pivotal_for_condition_2(*(Family(n, damped=False) for n in (1, 2, 3, 4))) == 20
     assert pivotal_for_condition_2(*(Family(n, damped=True) for n in (1, 2, 3, 4))) == 0
 
 
 def test_a_collocated_two_mass_and_a_three_mass_model_differ_by_condition_2():
-    found = verdict(Chain(2), Chain(3, meas_plus=3))
+    found = verdict(Chain(2, damped=False), Chain(3, meas_plus=3, damped=False))
     assert (found.relation, found.decided_by, found.evidence.left, found.evidence.right) == (
         Relation.DISTINGUISHABLE,
         "2",
@@ -396,7 +396,7 @@ def test_eight_and_nine_are_pivotal_with_ground_dampers():
     """Printed for one family: condition 8 never. Dampers that only add to what is there decide
     by structure.
     """
-    free = Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,))
+    free = Chain(2, 1, 1, 2, 1, 2, ground_dampers=(1,), damped=False)
     assert verdict(free, replace(free, damped=True)).decided_by == "8"
     long = Chain(3, 2, 1, 3, 2, 3, damped=True, ground_dampers=(1,))
     assert verdict(long, replace(long, ground_dampers=(2,))).decided_by == "9"

@@ -109,15 +109,15 @@ def test_a_lag_is_distinguishable_from_none(damped: bool) -> None:
 
 
 EXAMPLES = [
-    *Family(2),
+    *Family(2, damped=False),
     *Family(2, damped=True),
-    *Family(3),
+    *Family(3, damped=False),
     Family(3, damped=True)[1],
     Family(3, damped=True)[9],
     Chain(2, damped=True, lag=True),
-    Chain(2, 1, 1, 2, 1, 2, sensor="velocity", lag=True),
+    Chain(2, 1, 1, 2, 1, 2, sensor="velocity", lag=True, damped=False),
     Chain(2, 0, 0, 1, 0, 2, sensor="position", damped=True, ground_dampers=(1,)),
-    Chain(2, 0, 0, 1, 0, 2, ground_dampers=(1, 2)),
+    Chain(2, 0, 0, 1, 0, 2, ground_dampers=(1, 2), damped=False),
 ]
 
 

@@ -38,7 +38,7 @@ def small() -> DamperFamily:
 
 @pytest.fixture(scope="module")
 def undamped() -> DamperFamily:
-    return damper_catalog(3)
+    return damper_catalog(3, damped=False)
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def large() -> DamperFamily:
     """2336 models in made-up classes, in which every rule occurs, unknown buckets and open
     pairs.
     """
-    family, sets, random = Family(5), DamperSets.ALL.of(5), np.random.default_rng(5)
+    family, sets, random = Family(5, damped=False), DamperSets.ALL.of(5), np.random.default_rng(5)
     chains = tuple(replace(chain, ground_dampers=masses) for chain in family for masses in sets)
     structure = np.repeat(np.arange(len(family)), len(sets))
     group = (structure // 2 * 9 + random.integers(0, 9, len(chains))).astype(np.int32)

@@ -108,17 +108,17 @@ def test_upright_lines_keep_clear_of_the_signs(chain: Chain) -> None:
 
 
 def test_a_force_between_masses_has_two_arrows_and_one_against_ground_has_one() -> None:
-    assert _arrow_tips(Chain(3, 1, 1, 3, 1, 2)) == [("left", 1), ("right", 3)]
-    assert _arrow_tips(Chain(3, 0, 0, 2, 0, 1)) == [("right", 2)]
+    assert _arrow_tips(Chain(3, 1, 1, 3, 1, 2, damped=False)) == [("left", 1), ("right", 3)]
+    assert _arrow_tips(Chain(3, 0, 0, 2, 0, 1, damped=False)) == [("right", 2)]
 
 
 def test_the_sensor_marks_mass_and_reference() -> None:
-    relative = _dots(Chain(3, 1, 1, 3, 1, 2))
+    relative = _dots(Chain(3, 1, 1, 3, 1, 2, damped=False))
     assert [(dot.x, dot.fill) for dot in relative] == [
-        (_middle(Chain(3), 1), Ink.PAPER),
-        (_middle(Chain(3), 2), Ink.SENSOR),
+        (_middle(Chain(3, damped=False), 1), Ink.PAPER),
+        (_middle(Chain(3, damped=False), 2), Ink.SENSOR),
     ]
-    assert [dot.fill for dot in _dots(Chain(3, 0, 0, 1, 0, 3))] == [Ink.SENSOR]
+    assert [dot.fill for dot in _dots(Chain(3, 0, 0, 1, 0, 3, damped=False))] == [Ink.SENSOR]
 
 
 def test_there_is_no_spring_in_the_gap() -> None:
@@ -128,7 +128,10 @@ def test_there_is_no_spring_in_the_gap() -> None:
 
 
 def test_the_wall_is_as_high_as_what_is_fixed_to_it() -> None:
-    walls = [_wall(chain) for chain in (Chain(2, 1, 1, 2, 1, 2), Chain(2, 0, 0, 1, 0, 1))]
+    walls = [
+        _wall(chain)
+        for chain in (Chain(2, 1, 1, 2, 1, 2, damped=False), Chain(2, 0, 0, 1, 0, 1, damped=False))
+    ]
     assert walls[0][0] > walls[1][0] and walls[0][1] < walls[1][1]
 
 

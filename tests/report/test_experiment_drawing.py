@@ -77,10 +77,10 @@ def test_what_an_experiment_adds_covers_no_name_and_no_sign():
 
 
 def test_two_things_at_once_are_one_drawing():
-    found = sketch(5, Chain(3), (Item(FORCE, 3), Item(LOCK, 2)))
+    found = sketch(5, Chain(3, damped=False), (Item(FORCE, 3), Item(LOCK, 2)))
     assert found.parts == ("rest-5", "more-force-3", "more-lock-2")
     assert found.label == "A5: the force moved to mass 3 and mass 2 locked"
-    assert sketch(5, Chain(3), (Item(LOCK, 2),)).parts == ("chain-5", "more-lock-2")
+    assert sketch(5, Chain(3, damped=False), (Item(LOCK, 2),)).parts == ("chain-5", "more-lock-2")
 
 
 def test_what_a_page_shows_it_holds_once():
@@ -112,5 +112,5 @@ def test_a_pair_shows_the_sets_that_are_enough():
 
 
 def test_definitions_are_in_one_order():
-    used = [(Chain(2), Item(LOCK, 2)), (Chain(2), Item(FORCE, 2))]
+    used = [(Chain(2, damped=False), Item(LOCK, 2)), (Chain(2, damped=False), Item(FORCE, 2))]
     assert definitions(used) == definitions(used[::-1]) == definitions(used * 2)

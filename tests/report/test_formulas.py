@@ -104,7 +104,9 @@ def plain(latex: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "chain", [Chain(3, damped=True), Chain(4, damped=True), Chain(4, 1, 1, 3, 1, 2)], ids=str
+    "chain",
+    [Chain(3, damped=True), Chain(4, damped=True), Chain(4, 1, 1, 3, 1, 2, damped=False)],
+    ids=str,
 )
 def test_the_latex_is_what_is_typeset(chain: Chain) -> None:
     found = written(chain)
@@ -126,11 +128,11 @@ def test_a_map_is_typeset_as_its_formulas() -> None:
 
 
 def test_long_maps_are_left_to_the_command_line() -> None:
-    undamped = catalog(4)
+    undamped = catalog(4, damped=False)
     a, b = undamped.classes()[0][:2]
     found = [
         correspondence(undamped.family[a], undamped.family[b]),
-        correspondence(Chain(1), Chain(2)),
+        correspondence(Chain(1, damped=False), Chain(2, damped=False)),
     ]
     assert all(f is None or len(f.latex) < 2000 for f in found) and found[1] is None
 

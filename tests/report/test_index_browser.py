@@ -119,13 +119,15 @@ def test_the_drawing_is_that_of_the_chain(visit) -> None:  # type: ignore[no-unt
         [
             *descriptions(3, damped=True),
             *list(descriptions(5, damped=False))[::5],
-            Chain(5, 4, 4, 5, 4, 5),
+            Chain(5, 4, 4, 5, 4, 5, damped=False),
         ],
     ):
         assert found["uses"] == [f"#{part_name(chain, layer)}" for layer in draw(chain).layers]
         assert found["missing"] == []
     box = tab.get_attribute("#machine svg", "viewBox")
-    assert box == f"0 0 {draw(Chain(5)).width:g} {draw(Chain(5)).height:g}"
+    assert (
+        box == f"0 0 {draw(Chain(5, damped=False)).width:g} {draw(Chain(5, damped=False)).height:g}"
+    )
     assert (
         found["label"]
         == "5 masses, undamped; gap: between mass 4 and mass 5; force on mass 5, against mass 4;"
@@ -169,7 +171,7 @@ def test_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
 def test_the_address_holds_the_description(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html#machine=5,undamped,2,2,5,1,3")
     assert [tab.input_value(f'[name="{name}"]') for name in CHOICES] == _asked(
-        Chain(5, 2, 2, 5, 1, 3)
+        Chain(5, 2, 2, 5, 1, 3, damped=False)
     )
     assert tab.inner_text('[data-slot="remark"]')
     tab.select_option('[name="gap"]', "1")
@@ -198,7 +200,9 @@ def test_undecided_pairs_are_said(visit, site: Path) -> None:  # type: ignore[no
 
 
 def test_a_size_with_one_kind_offers_that_kind(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
-    (site / "few.html").write_text(index([catalog(2), catalog(3, damped=True)]), encoding="utf-8")
+    (site / "few.html").write_text(
+        index([catalog(2, damped=False), catalog(3, damped=True)]), encoding="utf-8"
+    )
     tab = visit("few.html")
     assert tab.locator('[name="dampers"] option').all_inner_texts() == ["at each spring"]
     tab.select_option('[name="masses"]', "2")

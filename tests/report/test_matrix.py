@@ -52,8 +52,13 @@ def test_files_are_readable_and_reproducible(shipped: Catalog) -> None:
 
 
 def test_a_wide_figure_has_a_slide_for_each_view() -> None:
-    assert [has_slides(catalog(n)) for n in (1, 2, 3, 4, 5)] == [False] * 3 + [True] * 2
-    for shipped, view in ((catalog(5, damped=True), View.POSITIVE), (catalog(4), View.TF)):
+    assert [has_slides(catalog(n, damped=False)) for n in (1, 2, 3, 4, 5)] == [False] * 3 + [
+        True
+    ] * 2
+    for shipped, view in (
+        (catalog(5, damped=True), View.POSITIVE),
+        (catalog(4, damped=False), View.TF),
+    ):
         scene = slide(shipped, view)
         letters = [shape for shape in scene.shapes if isinstance(shape, Text)]
         assert min(shape.size for shape in letters) >= 12  # pixels of a projector
@@ -70,7 +75,7 @@ def test_a_wide_figure_has_a_slide_for_each_view() -> None:
         fields = [s for s in scene.shapes if isinstance(s, Rect)]
         heads = next(layer.shapes for layer in scene.layers if layer.name == "head")
         assert not any(meet(head, field) for head in heads for field in fields)
-    image = Image.open(io.BytesIO(slide_png(catalog(4), View.POSITIVE)))
+    image = Image.open(io.BytesIO(slide_png(catalog(4, damped=False), View.POSITIVE)))
     assert image.size == (1920, 1080)
 
 

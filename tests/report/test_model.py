@@ -52,7 +52,7 @@ def test_what_depends_on_the_values_is_named_too(number: int, sometimes: tuple[i
     """2 and 6 of four masses without dampers see each other; 16 and 18, of a smaller rank, may
     behave like either.
     """
-    shipped = catalog(4)
+    shipped = catalog(4, damped=False)
     assert_names(shipped, number, Outline(model_page(shipped, number)), sometimes)
 
 
@@ -85,7 +85,7 @@ def test_no_page_says_that_no_experiment_tells_what_some_values_do_tell_apart() 
     """A6 of four masses without dampers: A2 does the same for some of its positive parameters
     only.
     """
-    text = Outline(model_page(catalog(4), 6)).text
+    text = Outline(model_page(catalog(4, damped=False), 6)).text
     assert "no experiment with this force and sensor tells it from" not in text.lower()
     assert "It depends on the positive parameters whether an experiment tells it from A2." in text
     assert (
@@ -93,7 +93,7 @@ def test_no_page_says_that_no_experiment_tells_what_some_values_do_tell_apart() 
         " for all." in text
     )
     assert "Over complex parameters, as in the paper\nIndistinguishable from A2." in text
-    back = Outline(model_page(catalog(4), 2)).text
+    back = Outline(model_page(catalog(4, damped=False), 2)).text
     assert (
         "for all positive parameters here, A6 has positive ones that do the same; the reverse for"
         " some only." in back
@@ -120,7 +120,7 @@ def test_a_limit_case_says_what_follows() -> None:
     """A4 of four masses without dampers is distinguishable from all others, and a limit of
     thirteen of them.
     """
-    text = " ".join(Outline(model_page(catalog(4), 4)).text.split())
+    text = " ".join(Outline(model_page(catalog(4, damped=False), 4)).text.split())
     assert "its behaviour is that of none of the other models of this catalogue" in text
     assert (
         "But over complex parameters it is a limit case of 13: noise may hide the difference."
@@ -137,7 +137,7 @@ def test_a_distinguishable_pair_may_be_one_sided() -> None:
     """Some positive models of the smaller rank behave like a larger one: then no experiment
     rules the larger one out.
     """
-    shipped = catalog(4)
+    shipped = catalog(4, damped=False)
     sides = list(one_sided(shipped))
     assert len(sides) == 4 and {x.share for x in sides} == {Share.SOMETIMES}
     for x in sides:
@@ -152,7 +152,7 @@ def test_a_distinguishable_pair_may_be_one_sided() -> None:
 
 
 def test_limits_look_the_same_from_both_sides() -> None:
-    shipped = catalog(3)
+    shipped = catalog(3, damped=False)
     found = {row.number: limits(row.number, _verdicts(shipped, row.number)) for row in shipped.rows}  # type: ignore[arg-type]
     for number, of in found.items():
         assert all(number in found[other].holds for other in of.inside)
@@ -166,7 +166,7 @@ def test_limits_look_the_same_from_both_sides() -> None:
 
 
 def test_a_smaller_rank_lies_inside_a_larger_one() -> None:
-    shipped = catalog(3)
+    shipped = catalog(3, damped=False)
     rank = {row.number: row.rank for row in shipped.rows}
     for number in rank:
         inside = limits(number, _verdicts(shipped, number)).inside  # type: ignore[arg-type]

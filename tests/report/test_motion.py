@@ -37,7 +37,7 @@ PATIENT = 120_000  # ms: the machine that tests may be busy
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
     write_report([catalog(3, damped=True)], folder)
-    (folder / LARGER).write_text(motion_page(catalog(4)), encoding="utf-8")
+    (folder / LARGER).write_text(motion_page(catalog(4, damped=False)), encoding="utf-8")
     return folder
 
 
@@ -113,7 +113,7 @@ def test_mapped_values_are_those_of_the_formulas(visit, masses: int, expected: l
     the page exactly where it is to Python.
     """
     tab, rng, counts = visit(SMALL), np.random.default_rng(2), []
-    for family in (Family(masses), Family(masses, damped=True)):
+    for family in (Family(masses, damped=False), Family(masses, damped=True)):
         counts.append(0)
         for given, other, values, found in _mapped(tab, family, rng):
             if masses > 3 and other not in _renamed_or_dual(given):
@@ -134,7 +134,7 @@ def _renamed_or_dual(given: Chain) -> frozenset[Chain]:
 @pytest.mark.parametrize("masses", [4, pytest.param(5, marks=pytest.mark.slow)])
 def test_mapped_values_give_the_same_response(visit, masses: int) -> None:  # type: ignore[no-untyped-def]
     tab, rng, omega = visit(SMALL), np.random.default_rng(3), np.geomspace(0.5, 60, 9)
-    for family in (Family(masses), Family(masses, damped=True)):
+    for family in (Family(masses, damped=False), Family(masses, damped=True)):
         for given, other, values, found in _mapped(tab, family, rng):
             if found is not None:
                 assert min(found) > 0
@@ -144,7 +144,9 @@ def test_mapped_values_give_the_same_response(visit, masses: int) -> None:  # ty
 
 @pytest.mark.slow
 def test_mapped_values_are_those_of_continued_fractions_of_four_masses(visit) -> None:  # type: ignore[no-untyped-def]
-    for given, other, values, found in _mapped(visit(SMALL), Family(4), np.random.default_rng(4)):
+    for given, other, values, found in _mapped(
+        visit(SMALL), Family(4, damped=False), np.random.default_rng(4)
+    ):
         exact = _exact(given, other, values)
         assert (exact is None) == (found is None), (given, other)
         if exact is not None:
@@ -185,7 +187,7 @@ def _state_space(chain: Chain, values: np.ndarray) -> tuple[np.ndarray, ...]:
     "chain",
     [
         Chain(3, 0, 0, 1, 0, 2, damped=True),
-        Chain(4, 2, 1, 3, 2, 4),
+        Chain(4, 2, 1, 3, 2, 4, damped=False),
         Chain(5, 1, 1, 2, 1, 5, damped=True),
     ],
 )
@@ -290,11 +292,11 @@ def _data(text: str) -> dict[str, list[object]]:
 
 
 def test_the_page_knows_every_verdict() -> None:
-    data = _data(motion_page(catalog(4)))
-    assert data["groups"] == [list(group) for group in catalog(4).classes()]
+    data = _data(motion_page(catalog(4, damped=False)))
+    assert data["groups"] == [list(group) for group in catalog(4, damped=False).classes()]
     assert [2, 6, "always"] in data["able"] and [6, 2, "sometimes"] in data["able"]
     assert len(data["able"]) == 6 and data["open"] == []
-    assert data["models"] == [list(chain.indices[1:]) for chain in Family(4).models]
+    assert data["models"] == [list(chain.indices[1:]) for chain in Family(4, damped=False).models]
 
 
 def test_first_values_are_not_special() -> None:
@@ -306,7 +308,10 @@ def test_first_values_are_not_special() -> None:
 
 
 def test_a_catalogue_of_one_model_has_no_page(tmp_path: Path) -> None:
-    names = {path.name for path in write_report([catalog(1), catalog(2)], tmp_path)}
+    names = {
+        path.name
+        for path in write_report([catalog(1, damped=False), catalog(2, damped=False)], tmp_path)
+    }
     assert "motion-2-undamped.html" in names and "motion-1-undamped.html" not in names
 
 

@@ -65,13 +65,13 @@ def test_everything_with_a_table_is_well_formed_and_short(found):
     ones = dict.fromkeys(family[2].parameters, 1)
     for one in (
         catalog(5, damped=True),
-        catalog(1),
+        catalog(1, damped=False),
         *(catalog(3, damped=True).verdict(2, other) for other in (1, 5, 9)),
         compare(POLES, POLES),
         found,
         DATA,
         family,
-        Family(5),
+        Family(5, damped=False),
         identifiability(family[3]),
         global_identifiability(POLES),
         POLES,
@@ -87,7 +87,7 @@ def test_everything_with_a_table_is_well_formed_and_short(found):
 
 
 def test_a_chain_shows_the_drawing_of_the_pages_on_its_own_paper():
-    chain = Family(3)[4]
+    chain = Family(3, damped=False)[4]
     picture = chain._repr_svg_()
     assert picture == chain_svg(chain)
     tree = ElementTree.fromstring(picture)
@@ -107,16 +107,16 @@ def test_a_verdict_says_domain_certainty_and_what_it_rests_on():
 
 
 def test_a_large_catalogue_shows_its_first_models_and_where_the_rest_is():
-    said = text(catalog(5)._repr_html_())
+    said = text(catalog(5, damped=False)._repr_html_())
     assert "A12" in said and "A13" not in said
     assert "The first 12 of 73 models. catalog.matrix() has them all" in said
-    assert "The first" not in text(catalog(3)._repr_html_())
+    assert "The first" not in text(catalog(3, damped=False)._repr_html_())
 
 
 def test_the_matrix_of_a_catalogue_is_that_of_its_data_frame():
-    rows = parsed(catalog(3)._repr_html_()).findall(".//tbody/tr")
+    rows = parsed(catalog(3, damped=False)._repr_html_()).findall(".//tbody/tr")
     signs = {"distinguishable": "≠", "indistinguishable": "=", "": None}
-    wanted = [[signs[name] for name in row] for row in catalog(3).matrix().to_numpy()]
+    wanted = [[signs[name] for name in row] for row in catalog(3, damped=False).matrix().to_numpy()]
     assert [[cell.text for cell in row[1:]] for row in rows] == wanted
 
 
@@ -137,7 +137,7 @@ def test_what_users_write_is_escaped():
 
 
 def test_a_map_is_shown_as_a_formula():
-    found = explicit_map(Chain(2), Chain(2, 1, 1, 2, 1, 2))
+    found = explicit_map(Chain(2, damped=False), Chain(2, 1, 1, 2, 1, 2, damped=False))
     assert found is not None
     assert found._repr_latex_().startswith("\\begin{align}")
 
@@ -176,23 +176,23 @@ def test_a_selection_is_drawn_as_data_and_the_structures_not_excluded(found):
 
 
 def test_a_matrix_has_a_field_a_pair_in_the_place_of_its_models():
-    axes = catalog(4).plot()
+    axes = catalog(4, damped=False).plot()
     fields = axes.get_images()[0].get_array()
     assert fields.shape == (29, 29) and fields.mask.diagonal().all()
     names = [entry.get_text() for entry in axes.get_legend().get_texts()]
     assert names == ["distinguishable", "indistinguishable", "sometimes indistinguishable"]
-    matrix = catalog(4).matrix().to_numpy()
+    matrix = catalog(4, damped=False).matrix().to_numpy()
     assert ((fields == 1).filled(False) == (matrix == "indistinguishable")).all()
     given = mpl.figure.Figure().subplots()
-    assert catalog(2).plot(given) is given
+    assert catalog(2, damped=False).plot(given) is given
 
 
 def test_without_matplotlib_a_plot_names_the_remedy():
     code = (
         "import sys; sys.modules['matplotlib'] = None\n"
         "import disting\n"
-        "assert len(disting.catalog(3)._repr_html_()) > 1000\n"
-        "disting.catalog(3).plot()"
+        "assert len(disting.catalog(3, damped=False)._repr_html_()) > 1000\n"
+        "disting.catalog(3, damped=False).plot()"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.stderr.splitlines()[-1] == (

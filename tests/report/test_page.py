@@ -114,7 +114,7 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
 
 
 def test_counts_are_printed_as_in_the_paper() -> None:
-    text = page(catalog(3))
+    text = page(catalog(3, damped=False))
     assert (
         "26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided." in text
     )
@@ -124,14 +124,14 @@ def test_counts_are_printed_as_in_the_paper() -> None:
 
 
 def test_hostile_text_stays_text() -> None:
-    records = json.loads(json.dumps(catalog(3).records))
+    records = json.loads(json.dumps(catalog(3, damped=False).records))
     records[0]["note"] = HOSTILE
     pair = next(
         r for r in records[12:] if "markov" in r and r["markov"]["evidence"]["kind"] == "forms"
     )
     pair["markov"]["evidence"]["only_left"] = [HOSTILE]
     text = page(Catalog.from_records(records))
-    outline, before = Outline(text), Outline(page(catalog(3)))
+    outline, before = Outline(text), Outline(page(catalog(3, damped=False)))
     assert (
         outline.count("script") == before.count("script")
         and outline.count("img") == before.count("img") == 1
@@ -168,7 +168,7 @@ def test_the_same_bytes_again(shipped: Catalog, text: str) -> None:
 
 
 def test_the_headline_speaks_of_positive_parameters_and_names_the_domain_of_every_count() -> None:
-    text = " ".join(Outline(page(catalog(4))).text.split())
+    text = " ".join(Outline(page(catalog(4, damped=False))).text.split())
     assert (
         "Over positive parameters: of 406 pairs of the 29 models, 357 are distinguishable" in text
     )
@@ -185,7 +185,7 @@ def test_the_headline_speaks_of_positive_parameters_and_names_the_domain_of_ever
 def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_its_own_sentence() -> (
     None
 ):
-    outline = Outline(page(catalog(4)))
+    outline = Outline(page(catalog(4, damped=False)))
     ids = {str(a["id"]) for _, a in outline.elements if "id" in a}
     assert sum(re.fullmatch(r"group-\d+", i) is not None for i in ids) == 8
     assert sum(re.fullmatch(r"complex-group-\d+", i) is not None for i in ids) == 9
@@ -199,15 +199,17 @@ def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_
 
 def test_the_order_by_groups_puts_what_is_related_side_by_side() -> None:
     """A2 and A6 are no group over positive parameters; over complex ones they are."""
-    data = _data(page(catalog(4)))
+    data = _data(page(catalog(4, damped=False)))
     positive, exact = (data["blocks"][view] for view in ("positive", "exact"))  # type: ignore[index]
     assert [2, 6] in exact and positive.index([6]) == positive.index([2]) + 1
     assert sorted(m for of in positive for m in of) == sorted(m for of in exact for m in of)
-    assert data["groups"]["positive"] == [list(group) for group in catalog(4).classes()]  # type: ignore[index]
+    assert data["groups"]["positive"] == [
+        list(group) for group in catalog(4, damped=False).classes()
+    ]  # type: ignore[index]
 
 
 def test_the_first_view_is_that_of_positive_parameters() -> None:
-    outline = Outline(page(catalog(4)))
+    outline = Outline(page(catalog(4, damped=False)))
     chosen = [a["value"] for t, a in outline.elements if t == "option" and "selected" in a]
     assert chosen == ["exact", "positive"]  # above and below the diagonal
     checked = [

@@ -28,7 +28,7 @@ PAGE = "sizes-undamped.html"
 
 @pytest.fixture(scope="module")
 def whole() -> SizesCatalog:
-    return sizes_catalog()
+    return sizes_catalog(damped=False)
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +123,7 @@ def site(
     found: SizesCatalog, opened: SizesCatalog, tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
     folder = tmp_path_factory.mktemp("sizes")
-    write_report([catalog(3)], folder, across=[found])
+    write_report([catalog(3, damped=False)], folder, across=[found])
     beside = families(found.catalogs[2:])
     (folder / "opened.html").write_text(sizes_page(opened, beside=beside), encoding="utf-8")
     return folder

@@ -13,7 +13,7 @@ ENDINGS = (".html", "-matrix.svg", "-matrix.png", ".csv", ".json")
 
 
 def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
-    catalogs = [catalog(1), catalog(2, damped=True)]
+    catalogs = [catalog(1, damped=False), catalog(2, damped=True)]
     paths = write_report(catalogs, tmp_path / "new" / "folder")
     folder = tmp_path / "new" / "folder"
     ours = [page.link[0] for page in PAGES if page.always]
@@ -35,7 +35,7 @@ def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
 
 
 def test_data_are_the_catalogues_own(tmp_path: Path) -> None:
-    source = catalog(2)
+    source = catalog(2, damped=False)
     write_report([source], tmp_path)
     assert (tmp_path / "chains-2-undamped.csv").read_text(encoding="utf-8") == source.to_csv()
     assert json.loads((tmp_path / "chains-2-undamped.json").read_text(encoding="utf-8"))["verdicts"]
@@ -44,12 +44,12 @@ def test_data_are_the_catalogues_own(tmp_path: Path) -> None:
 def test_the_index_leads_to_pages_of_other_commands_where_they_are(tmp_path: Path) -> None:
     (tmp_path / "paper").mkdir()
     (tmp_path / "paper" / "index.html").write_text("", encoding="utf-8")
-    start = write_report([catalog(2)], tmp_path)[-1].read_text(encoding="utf-8")
+    start = write_report([catalog(2, damped=False)], tmp_path)[-1].read_text(encoding="utf-8")
     assert 'href="paper/index.html"' in start and 'href="fit.html"' not in start
 
 
 def test_families_with_ground_dampers_have_a_page_and_are_linked_both_ways(tmp_path: Path) -> None:
-    found = [damper_family(2, damped=True), damper_family(1)]
+    found = [damper_family(2, damped=True), damper_family(1, damped=False)]
     paths = write_report([catalog(2, damped=True)], tmp_path, found)
     assert {p.name for p in paths if p.name.startswith("dampers-")} == {
         "dampers-1-undamped.html",
@@ -84,14 +84,14 @@ def test_the_index_keeps_pages_of_ground_dampers(tmp_path: Path) -> None:
 
 
 def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
-    first, second = (write_report([catalog(2)], tmp_path / name) for name in "ab")
+    first, second = (write_report([catalog(2, damped=False)], tmp_path / name) for name in "ab")
     assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]
 
 
 def test_the_index_keeps_the_pages_that_are_there(tmp_path: Path) -> None:
     for page in ("chains-3-undamped.html", "chains-1-damped.html"):
         (tmp_path / page).touch()
-    start = write_report([catalog(2)], tmp_path)[-1].read_text(encoding="utf-8")
+    start = write_report([catalog(2, damped=False)], tmp_path)[-1].read_text(encoding="utf-8")
     places = [
         start.index(f'href="chains-{name}.html"')
         for name in ("2-undamped", "3-undamped", "1-damped")

@@ -134,14 +134,14 @@ def test_names_and_places(four):
 def test_chains_that_do_not_belong_together_are_refused():
     for chains in (
         [],
-        [Chain(2), Chain(3)],
-        [Chain(2), Chain(2, damped=True)],
-        [Chain(2), Chain(2, sensor="position")],
+        [Chain(2, damped=False), Chain(3, damped=False)],
+        [Chain(2, damped=False), Chain(2, damped=True)],
+        [Chain(2, damped=False), Chain(2, sensor="position", damped=False)],
     ):
         with pytest.raises(InputError, match="one size"):
             classes(chains, ENGINE)
     with pytest.raises(InputError, match="dead time"):
-        classes([Chain(2), Chain(2, dead_time=True)], ENGINE)
+        classes([Chain(2, damped=False), Chain(2, dead_time=True, damped=False)], ENGINE)
 
 
 def test_a_run_resumes_from_the_store(tmp_path):

@@ -50,14 +50,14 @@ def test_a_profile_counts_once_for_all_its_pairs():
 
 
 def test_what_is_proven_costs_nothing():
-    assert family_safety(decided([Chain(1), Chain(2)])) == 0
+    assert family_safety(decided([Chain(1, damped=False), Chain(2, damped=False)])) == 0
 
 
 def test_classes_count_their_statements():
     """Two models of one class and one apart from both by the first column: nine profiles and a
     link.
     """
-    chains = tuple(Chain(3, meas_plus=m) for m in (1, 2, 3))
+    chains = tuple(Chain(3, meas_plus=m, damped=False) for m in (1, 2, 3))
     numbers = np.zeros(3, np.int32)
     same = Classes(
         chains,

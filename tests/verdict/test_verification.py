@@ -91,7 +91,7 @@ def test_a_bound_of_an_inclusion_that_was_raised_is_found(left: str, right: str)
 def test_a_fibre_of_models_of_unequal_rank_does_not_make_them_the_same() -> None:
     """3:7 lies in 3:1, so a fibre of 3:1 over a point of 3:7 is not empty; the reverse is."""
     data = plain("3:1", "3:7", View.EXACT, damped=False)
-    sides = [canonical(Family(3)[n]).chain for n in (1, 7)]
+    sides = [canonical(Family(3, damped=False)[n]).chain for n in (1, 7)]
     first, second = sorted(sides, key=lambda c: (c.indices, c.ground_dampers, c.lag))
     found = by_synthesis(first, second, Settings())
     assert found is not None
@@ -124,7 +124,9 @@ def test_models_are_named_wholly_with_damping_and_sensor() -> None:
     first = data["models"][0]
     assert (first["name"], first["damped"], first["sensor"]) == ("3:1+b2+lag", False, "velocity")
     assert first["ground_dampers"] == [2] and first["lag"] and not first["dead_time"]
-    mixed = json.loads(json.dumps(verdict_file(Chain(2), Chain(2, damped=True), engine=ENGINE)))
+    mixed = json.loads(
+        json.dumps(verdict_file(Chain(2, damped=False), Chain(2, damped=True), engine=ENGINE))
+    )
     assert [m["damped"] for m in mixed["models"]] == [False, True]
     assert verify(mixed).sentence == "holds"
 

@@ -24,7 +24,7 @@ from disting.verdict.verification import Standing
 from tests.cli.process import called
 from tests.verdict.lies import ENGINE, found_out, missed, plain, put, told_again
 
-A, U = Family(3, damped=True), Family(3)
+A, U = Family(3, damped=True), Family(3, damped=False)
 FIRST = Experiment()
 FEW = ("1", "2")  # conditions, so that ideals and lists have to decide
 

@@ -25,7 +25,7 @@ def test_an_undamped_receptance_is_a_special_one_of_a_damped_chain(chain: Chain)
     """It is the limit of vanishing dampers: neither a member, nor refuted, and no balls are
     needed to see that.
     """
-    undamped = Chain(*chain.indices)
+    undamped = Chain(*chain.indices, damped=False)
     found = fibre(chain, target(undamped.structure, rational_point(undamped, "edge")))
     assert (found.status, found.precision_bits) == (Status.DEGENERATE, 0)
     assert found.reason == "multiple or missing poles or zeros"
@@ -35,14 +35,14 @@ def test_multiple_poles_are_seen_before_any_ball() -> None:
     """Grounded mass 1 (k01/m1 = 2) and the free pair (k23 (1/m2 + 1/m3) = 2) share their
     frequency.
     """
-    chain = Chain(3, 1, 1, 2, 1, 2)
+    chain = Chain(3, 1, 1, 2, 1, 2, damped=False)
     point = {"m1": fmpq(1), "m2": fmpq(1), "m3": fmpq(1), "k01": fmpq(2), "k23": fmpq(1)}
     found = fibre(chain, target(chain.structure, point))
     assert (found.status, found.precision_bits) == (Status.DEGENERATE, 0)
 
 
 def test_degrees_alone_refute_without_a_branch() -> None:
-    given, searched = Chain(3), Chain(3, meas_plus=2)
+    given, searched = Chain(3, damped=False), Chain(3, meas_plus=2, damped=False)
     found = fibre(searched, target(given.structure, rational_point(given, "edge")))
     assert (found.status, found.tests) == (Status.EMPTY, Exclusions(0, 0, 0))
     assert found.precision_bits == 0

@@ -64,7 +64,12 @@ def test_coefficients_of_one_mass_on_two_others() -> None:
 
 
 @pytest.mark.parametrize(
-    "chain", [Chain(3, damped=True), Chain(4, 2, 1, 3, 2, 4, damped=True), Chain(3, 1, 1, 2, 1, 3)]
+    "chain",
+    [
+        Chain(3, damped=True),
+        Chain(4, 2, 1, 3, 2, 4, damped=True),
+        Chain(3, 1, 1, 2, 1, 3, damped=False),
+    ],
 )
 def test_jacobian_is_the_derivative(chain: Chain) -> None:
     draw = np.random.default_rng(1)

@@ -74,7 +74,7 @@ def one_value(
 
     >>> from disting.fibres.ideals.system import coefficient_map
     >>> from disting.model.chain import Chain
-    >>> chain = Chain(3, act_plus=2, meas_plus=2)
+    >>> chain = Chain(3, act_plus=2, meas_plus=2, damped=False)
     >>> found = one_value(coefficient_map(chain.structure), chain.parameters, seed="doc")
     >>> found.one, found.several
     (('m2',), ('m1', 'm3', 'k12', 'k23'))

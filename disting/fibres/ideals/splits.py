@@ -92,7 +92,7 @@ def receptances(structure: Structure) -> Receptances:
     """The receptances of the rows of a plain chain.
 
     >>> from disting.model.chain import Chain
-    >>> p = receptances(Chain(2, 1, 1, 2, 1, 2).structure)
+    >>> p = receptances(Chain(2, 1, 1, 2, 1, 2, damped=False).structure)
     >>> [[str(a) for a in m.denominator] for _, m in p.named]
     [['u0', '0', '1'], ['0', '0', '1']]
     """

@@ -42,7 +42,7 @@ def identifiability(
     "3:1+b2": `damped` and `sensor` say then how it is meant. Raises ContradictionError for
     a defect of the program.
 
-    >>> identifiability(Chain(2, meas_plus=2)).sentence
+    >>> identifiability(Chain(2, meas_plus=2, damped=False)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'
     """
     (chain,) = chains_named([chain], damped=damped, sensor=sensor)

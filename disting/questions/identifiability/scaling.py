@@ -19,7 +19,7 @@ def scalings(structure: Structure, seed: str = "disting") -> tuple[Scaling, ...]
     """A basis of the scaling symmetries, few parameters first.
 
     >>> from disting.model.chain import Chain
-    >>> [s.text for s in scalings(Chain(3, 2, 1, 3, 2, 3).structure)]
+    >>> [s.text for s in scalings(Chain(3, 2, 1, 3, 2, 3, damped=False).structure)]
     []
     """
     if not maybe_scaled(list(search_tangents(structure, seed, POINTS))):

@@ -130,7 +130,7 @@ def _listing(chain: Chain, invariants: int, point: Mapping[str, fmpq], found: Fi
 def renamings(chain: Chain) -> tuple[Renaming, ...]:
     """Symmetries of the class that lead from the chain to itself and move a parameter.
 
-    >>> [r.text for r in renamings(Chain(3, act_plus=2, meas_plus=2))]
+    >>> [r.text for r in renamings(Chain(3, act_plus=2, meas_plus=2, damped=False))]
     ['k12 ↔ k23, m1 ↔ m3']
     """
     found: dict[tuple[tuple[str, str], ...], Renaming] = {}
@@ -224,8 +224,8 @@ def foster_count(chain: Chain) -> int | None:
 
     All of them are real and positive (R. Foster, A reactance theorem, 1924). None for other chains.
 
-    >>> foster_count(Chain(4, 2, 1, 3, 1, 3)), foster_count(Chain(2, meas_plus=2))
-    (3, None)
+    >>> [foster_count(Chain(*i, damped=False)) for i in ((4, 2, 1, 3, 1, 3), (2, 0, 0, 1, 0, 2))]
+    [3, None]
     """
     grounded, free = grounded_and_free(chain.structure)
     if (

@@ -59,7 +59,7 @@ def tangent(where: Drawn) -> Tangent:
     """The tangent at a point that was drawn.
 
     >>> from disting.model.chain import Chain
-    >>> found = tangent(drawn(Chain(2, meas_plus=2).structure, "doc"))
+    >>> found = tangent(drawn(Chain(2, meas_plus=2, damped=False).structure, "doc"))
     >>> found.rank, len(found.kernel)
     (2, 1)
     """

@@ -67,7 +67,7 @@ def always_real(given: Chain, other: Chain) -> bool:
     """Whether each generic real model of `given` has a real equivalent in `other`, by real
     factors; False says nothing.
 
-    >>> middle, end = Chain(3, 0, 0, 2, 0, 2), Chain(3)
+    >>> middle, end = Chain(3, 0, 0, 2, 0, 2, damped=False), Chain(3, damped=False)
     >>> always_real(middle, end), always_real(end, middle)
     (True, False)
     """

@@ -123,11 +123,11 @@ def error_in_percent(share: float) -> str:
 def name(chain: Chain) -> str:
     """A candidate in a few words; ports are named unless force and sensor sit at mass 1.
 
-    >>> name(Chain(2, damped=True, ground_dampers=(2,), dead_time=True)), name(Chain(1))
+    >>> name(Chain(2, ground_dampers=(2,), dead_time=True)), name(Chain(1))
     ('2 masses, damper b2, dead time', '1 mass')
     """
     said = [plural(chain.n_masses, "mass", "masses")]
-    if chain.indices[1:] != Chain(chain.n_masses).indices[1:]:
+    if chain.indices[1:] != Chain(chain.n_masses, damped=False).indices[1:]:
         said += [f"gap {chain.gap}–{chain.gap + 1}"] * bool(chain.gap)
         said.append(f"force {_port(chain.act_minus, chain.act_plus)}")
         said.append(f"sensor {_port(chain.meas_minus, chain.meas_plus)}")

@@ -92,7 +92,7 @@ def _figure_12(findings: Findings) -> Picture:
 def _of_larger_sets(findings: Findings) -> Iterator[Picture]:
     caption = "The 29 4-mass models without damping, by conditions 1 to 9 on both representations."
     panel = of_catalog(
-        "Transfer function and Markov parameters", findings.catalog(4), View.COMBINED
+        "Transfer function and Markov parameters", findings.catalog(4, damped=False), View.COMBINED
     )
     yield of_scene(
         "figure-13", "Fig. 13", caption, triangles(f"Fig. 13: {caption}", (panel,), 1, 20.0)

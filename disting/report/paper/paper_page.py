@@ -151,7 +151,7 @@ def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Containe
         pictures=pictures,
         figure=lambda place: figure_of(place, pictures),
         sizes=[
-            (n, PRINTED[n - 1] if n <= len(PRINTED) else "", len(Family(n)))
+            (n, PRINTED[n - 1] if n <= len(PRINTED) else "", len(Family(n, damped=False)))
             for n in range(1, LARGEST + 1)
         ],
         models=model_rows(findings),
@@ -173,7 +173,9 @@ def model_rows(findings: Findings) -> list[tuple[ModelRow, int]]:
     """Table 3: the 3-mass models without damping, and how many parameters of each are
     determinable with damping.
     """
-    rows = zip(findings.catalog(3).rows, findings.catalog(3, damped=True).rows, strict=True)
+    rows = zip(
+        findings.catalog(3, damped=False).rows, findings.catalog(3, damped=True).rows, strict=True
+    )
     return [(row, damped.rank) for row, damped in rows]
 
 

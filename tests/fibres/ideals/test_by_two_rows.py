@@ -75,13 +75,19 @@ def test_the_number_of_splits():
         and names(middle, 3) == []
     )
     assert (
-        names(Chain(3, 0, 0, 1, 0, 3), 2) == ["rigid"] and names(Chain(3, 0, 0, 1, 0, 3), 1) == []
+        names(Chain(3, 0, 0, 1, 0, 3, damped=False), 2) == ["rigid"]
+        and names(Chain(3, 0, 0, 1, 0, 3, damped=False), 1) == []
     )
-    assert names(Chain(3, 2, 1, 3, 1, 3), 2) == ["same"]
+    assert names(Chain(3, 2, 1, 3, 1, 3, damped=False), 2) == ["same"]
 
 
 @pytest.mark.parametrize(
-    "chain", [Chain(3, 0, 0, 1, 0, 2, damped=True), Chain(3, 2, 1, 3, 2, 3, damped=True), Chain(4)]
+    "chain",
+    [
+        Chain(3, 0, 0, 1, 0, 2, damped=True),
+        Chain(3, 2, 1, 3, 2, 3, damped=True),
+        Chain(4, damped=False),
+    ],
 )
 def test_groups_agree_with_sympy(chain):
     """The group at a point over the integers lies in the generic one, which was found doubly
@@ -101,7 +107,7 @@ def test_groups_agree_with_sympy(chain):
 
 def test_roots_in_pairs_are_not_inseparable():
     """An undamped chain in s: with z also -z is a pole, so the group is imprimitive."""
-    model = receptances(Chain(4).structure).free
+    model = receptances(Chain(4, damped=False).structure).free
     assert _is_inseparable(model, 2, "test") and not _is_inseparable(model, 1, "test")
 
 
@@ -206,13 +212,13 @@ def test_what_is_not_covered_is_unknown():
         Chain(3, 0, 0, 1, 0, 2, damped=True),
         replace(plain, lag=True),
         replace(plain, ground_dampers=(1,)),
-        Chain(3),
+        Chain(3, damped=False),
     )
     for other in others:
         found = decide_by_rows(plain.structure, other.structure, "test", LIMITS)
         assert found.membership is Membership.UNKNOWN and found.reason and found.evidence is None
         assert refuted_by_rows(plain.structure, other.structure, "test") is None
-    both = Chain(3, 1, 1, 2, 1, 2)
+    both = Chain(3, 1, 1, 2, 1, 2, damped=False)
     assert "one place" in decide_by_rows(both.structure, both.structure, "test", LIMITS).reason
     with pytest.raises(TypeError):
         bool(found)

@@ -97,6 +97,6 @@ def test_the_point_makes_a_finding_repeatable() -> None:
 
 def test_refuses_unequal_sizes_and_truth_values() -> None:
     with pytest.raises(InputError):
-        decide(Family(2)[1], Family(3)[1])
+        decide(Family(2, damped=False)[1], Family(3, damped=False)[1])
     with pytest.raises(TypeError):
-        bool(decide(Family(2)[1], Family(2)[2]))
+        bool(decide(Family(2, damped=False)[1], Family(2, damped=False)[2]))

@@ -136,7 +136,7 @@ def test_what_is_covered() -> None:
     "chain",
     [
         Chain(2, damped=True, ground_dampers=(1, 2)),
-        Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1, 3), lag=True),
+        Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1, 3), lag=True, damped=False),
         Chain(3, 1, 1, 2, 1, 2, damped=True, ground_dampers=(1, 3)),
         Chain(3, 0, 0, 1, 0, 2, damped=True, ground_dampers=(1, 2, 3)),
     ],
@@ -164,8 +164,8 @@ def test_solutions_have_the_receptance_judged_by_plain_determinants(chain: Chain
         (Chain(3, damped=True, ground_dampers=(1, 2, 3)), 12),
         (Chain(3, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1, 2, 3)), 24),
         (Chain(3, 0, 0, 1, 0, 2, damped=True, ground_dampers=(2, 3)), 18),
-        (Chain(3, 0, 0, 2, 0, 2, ground_dampers=(2,)), 2),
-        (Chain(3, ground_dampers=(1, 2, 3)), 1),
+        (Chain(3, 0, 0, 2, 0, 2, ground_dampers=(2,), damped=False), 2),
+        (Chain(3, ground_dampers=(1, 2, 3), damped=False), 1),
     ],
 )
 def test_numbers_of_solutions(chain: Chain, count: int) -> None:
@@ -183,8 +183,8 @@ def test_numbers_of_solutions(chain: Chain, count: int) -> None:
         Chain(2, damped=True, ground_dampers=(1, 2)),
         Chain(2, meas_plus=2, damped=True, ground_dampers=(1,)),
         Chain(2, 1, 1, 2, 1, 2, damped=True, ground_dampers=(2,)),
-        Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1, 3)),
-        Chain(3, 0, 0, 2, 0, 3, ground_dampers=(1, 2)),
+        Chain(3, 0, 0, 2, 0, 2, ground_dampers=(1, 3), damped=False),
+        Chain(3, 0, 0, 2, 0, 3, ground_dampers=(1, 2), damped=False),
         Chain(3, 0, 0, 2, 0, 2, damped=True, ground_dampers=(2,)),
     ],
 )
@@ -202,7 +202,7 @@ def test_parallel_dampers_are_a_family_of_halves() -> None:
 
 
 def test_an_undamped_lag_is_found_exactly() -> None:
-    chain = Chain(3, 0, 0, 2, 0, 2, lag=True)
+    chain = Chain(3, 0, 0, 2, 0, 2, lag=True, damped=False)
     point, found = own_fibre(chain)
     assert len(found.solutions) == 2 and all(
         s.values["T1"].overlaps(acb(point["T1"])) for s in found.solutions
@@ -255,7 +255,7 @@ def test_dampers_of_opposite_sign_are_found_where_their_sum_is_zero() -> None:
     [
         Chain(3, 0, 0, 2, 0, 3, damped=True, ground_dampers=(1, 2)),
         Chain(3, 1, 1, 2, 1, 3, damped=True, ground_dampers=(2, 3)),
-        Chain(3, 0, 0, 2, 0, 3, ground_dampers=(1, 2)),
+        Chain(3, 0, 0, 2, 0, 3, ground_dampers=(1, 2), damped=False),
         Chain(3, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1, 2)),
         # the first with a mass more
         pytest.param(
@@ -299,9 +299,9 @@ def test_special_values_are_told() -> None:
 
 def test_a_single_mass() -> None:
     for chain in (
-        Chain(1, ground_dampers=(1,)),
+        Chain(1, ground_dampers=(1,), damped=False),
         Chain(1, damped=True, ground_dampers=(1,), lag=True),
-        Chain(1, lag=True),
+        Chain(1, lag=True, damped=False),
     ):
         point, found = own_fibre(chain)
         assert found.status is Status.COMPLETE and hits(found, point) == 1
@@ -317,14 +317,14 @@ def test_an_element_near_zero_is_no_proof_of_emptiness() -> None:
 
 def test_friction_is_never_untested() -> None:
     assert (
-        is_untested(Chain(3))
-        and not is_untested(Chain(3, ground_dampers=(1,)))
-        and not is_untested(Chain(3, lag=True))
+        is_untested(Chain(3, damped=False))
+        and not is_untested(Chain(3, ground_dampers=(1,), damped=False))
+        and not is_untested(Chain(3, lag=True, damped=False))
     )
 
 
 def test_a_dead_time_is_left_out() -> None:
-    chain = Chain(2, ground_dampers=(1,))
+    chain = Chain(2, ground_dampers=(1,), damped=False)
     t = target(chain.structure, rational_point(chain, "x"))
     assert fibre(replace(chain, dead_time=True), t).status is Status.NOT_COVERED
     assert isinstance(t, Target)

@@ -18,7 +18,7 @@ SMALL = [
     (n, damped, number)
     for n in (2, 3)
     for damped in (False, True)
-    for number in range(1, len(Family(n)) + 1)
+    for number in range(1, len(Family(n, damped=False)) + 1)
 ]
 # seconds to minutes for a Groebner basis
 LONG = {(3, True, number) for number in range(1, 12) if number not in (1, 4, 7)}
@@ -46,7 +46,7 @@ def test_number_of_solutions_over_the_rationals(n_masses, damped, number):
 @pytest.mark.parametrize("number", [1, 5, 21, 25, 29])
 def test_number_of_solutions_of_four_masses(number):
     """Models 8, 11, 13 and 19 take SymPy more than half a minute each."""
-    chain = Family(4)[number]
+    chain = Family(4, damped=False)[number]
     assert solutions(chain, PRIME) == identifiability(chain).most
 
 

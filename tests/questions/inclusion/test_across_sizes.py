@@ -105,7 +105,7 @@ def test_one_mass_is_a_limit_of_every_model():
 
 def test_a_chain_grows_by_its_last_mass():
     """The ports stay where they are, the new mass is let go."""
-    small, large = (canonical(Chain(n, 1, 1, 2, 1, 3)).chain for n in (3, 4))
+    small, large = (canonical(Chain(n, 1, 1, 2, 1, 3, damped=False)).chain for n in (3, 4))
     parts = {p.given: p for p in included(small, large, False).parts}
     assert parts["grounded"] == RowLimit("grounded", "grounded", ())
     assert parts["free"].steps in ((("k23", "0"),), (("k12", "0"),), (("k23", "∞"),))
@@ -226,7 +226,10 @@ def test_larger_ranks_refute():
     """Four masses with force and sensor together have 7 parameters, five with ports 1 and 2
     apart in the rows only 6.
     """
-    small, large = ENGINE.subject("4:1", Chain(4)), ENGINE.subject("5", Chain(5, 2, 1, 3, 2, 5))
+    small, large = (
+        ENGINE.subject("4:1", Chain(4, damped=False)),
+        ENGINE.subject("5", Chain(5, 2, 1, 3, 2, 5, damped=False)),
+    )
     finding = limits(small, large)
     assert (finding.inclusion, finding.evidence) == (Inclusion.NEITHER, TooLarge(7, 6))
     assert finding.safety >= 100 and confirms(finding.evidence, small, large)
@@ -238,7 +241,7 @@ def test_as_many_poles_are_left_open():
     """A damper to the ground and a lag give the smaller chain as many poles: nothing is said
     against the larger one in it.
     """
-    small = ENGINE.subject("small", Chain(2, ground_dampers=(1,), lag=True))
+    small = ENGINE.subject("small", Chain(2, ground_dampers=(1,), lag=True, damped=False))
     large = ENGINE.subject("large", Chain(3, meas_plus=3, damped=True))
     assert not exceeds(small.chain, small.chain)
     finding = by_sizes(small, large)
@@ -247,7 +250,7 @@ def test_as_many_poles_are_left_open():
 
 def test_a_large_common_factor_is_refuted_too():
     """Three masses fewer, but the grounded mass can share one pole only."""
-    small, large = subject(3, 1), ENGINE.subject("6", Chain(6, 1, 1, 2, 1, 6))
+    small, large = subject(3, 1), ENGINE.subject("6", Chain(6, 1, 1, 2, 1, 6, damped=False))
     finding = limits(small, large)
     assert (
         finding.inclusion is Inclusion.NEITHER
@@ -273,7 +276,7 @@ def test_twins():
         Chain(2, damped=True),
         Chain(2, 1, 1, 2, 1, 2, damped=True),
     )
-    lagging = Chain(2, lag=True)
+    lagging = Chain(2, lag=True, damped=False)
     assert twins(lagging) == (lagging,)
 
 
@@ -310,7 +313,7 @@ def test_compare_says_the_same_as_a_matrix():
     verdict, turned = compare(small, large, engine=ENGINE), compare(large, small, engine=ENGINE)
     assert verdict.closure is Inclusion.LEFT_IN_RIGHT and turned.closure is Inclusion.RIGHT_IN_LEFT
     assert verdict.inclusions.closure == limits(subject(2, 1, True), subject(3, 4, True))
-    refused = compare(Family(3)[2], Family(4)[10], engine=ENGINE)
+    refused = compare(Family(3, damped=False)[2], Family(4, damped=False)[10], engine=ENGINE)
     assert refused.closure is Inclusion.NEITHER and isinstance(
         refused.inclusions.closure.evidence, PoleSharing
     )
@@ -325,7 +328,8 @@ def test_each_limit_is_shown_as_an_identity_when_it_is_found():
 
 
 @pytest.mark.parametrize(
-    ("chain", "is_proven"), [(Chain(3, damped=True), True), (Chain(5, 4, 1, 5, 2, 5), False)]
+    ("chain", "is_proven"),
+    [(Chain(3, damped=True), True), (Chain(5, 4, 1, 5, 2, 5, damped=False), False)],
 )
 def test_a_solution_in_the_larger_chain_alone_needs_a_rank_without_chance(chain, is_proven):
     """In the second eight of nine parameters are determined, by nine coefficients: points alone

@@ -89,7 +89,7 @@ def test_catalogues_have_no_open_pair(n, damped):
     ("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 8, 3), (5, 18, 14), (5, 64, 59), (5, 64, 69)]
 )
 def test_sometimes_one_way_always_the_other(n, i, j):
-    family = Family(n)
+    family = Family(n, damped=False)
     there = positive_finding(family[i], family[j])
     assert (
         there.share is Share.SOMETIMES
@@ -107,7 +107,7 @@ def test_sometimes_one_way_always_the_other(n, i, j):
 
 @pytest.mark.parametrize(("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 18, 14), (5, 64, 69)])
 def test_points_are_what_the_synthesis_says(n, i, j):
-    given, other = Family(n)[i], Family(n)[j]
+    given, other = Family(n, damped=False)[i], Family(n, damped=False)[j]
     evidence = positive_finding(given, other).evidence
     assert synthesised(given, read(evidence.with_one), other) is Answer.YES
     assert synthesised(given, read(evidence.without), other) is Answer.NO
@@ -164,10 +164,10 @@ def test_interlacing_at_hundreds_of_points(n):
 
 def test_each_obstacle():
     undamped = [
-        (Chain(3), Chain(3, meas_plus=2), "decay"),
-        (Chain(3, 1, 1, 2, 1, 3), Chain(3), "residues"),
-        (Chain(4, 1, 1, 2, 1, 2), Chain(4, 1, 1, 2, 1, 3), "own poles"),
-        (Chain(5, 2, 1, 3, 2, 5), Chain(5, meas_plus=2), "signs"),
+        (Chain(3, damped=False), Chain(3, meas_plus=2, damped=False), "decay"),
+        (Chain(3, 1, 1, 2, 1, 3, damped=False), Chain(3, damped=False), "residues"),
+        (Chain(4, 1, 1, 2, 1, 2, damped=False), Chain(4, 1, 1, 2, 1, 3, damped=False), "own poles"),
+        (Chain(5, 2, 1, 3, 2, 5, damped=False), Chain(5, meas_plus=2, damped=False), "signs"),
     ]
     for given, other, name in undamped:
         found = positive_finding(given, other)
@@ -183,7 +183,9 @@ def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
     """In floating point: every sum of two rows that the obstacle excludes against every row
     without a gap.
     """
-    rows = [Chain(n, act_plus=a, meas_plus=b) for a, b in combinations(range(1, n + 1), 2)]
+    rows = [
+        Chain(n, act_plus=a, meas_plus=b, damped=False) for a, b in combinations(range(1, n + 1), 2)
+    ]
     sums = [c for c in chains(n, False) if c.gap]
     least = {c: min(sign_changes(c, k) for k in range(40)) for c in sums}
     most = {c: max(sign_changes(c, k) for k in range(40)) for c in rows}
@@ -226,7 +228,7 @@ def test_whole_against_sum():
     """A sum of two rows in a chain without a gap: some have their zeros between the poles,
     some not.
     """
-    given, other = Chain(4, 2, 1, 3, 2, 4), Chain(4, meas_plus=2)
+    given, other = Chain(4, 2, 1, 3, 2, 4, damped=False), Chain(4, meas_plus=2, damped=False)
     found = positive_finding(given, other)
     assert (
         found.share is Share.SOMETIMES
@@ -250,14 +252,21 @@ def test_large_chains_stay_honest():
     """Whether 0-0-2-2-0-0 occurs with ports 3 and 5 of 7 is open: nothing is claimed that rests
     on it.
     """
-    found = positive_finding(Chain(7, 0, 0, 3, 0, 5), Chain(7, 0, 0, 2, 0, 4))
+    found = positive_finding(
+        Chain(7, 0, 0, 3, 0, 5, damped=False), Chain(7, 0, 0, 2, 0, 4, damped=False)
+    )
     assert found.share is Share.SOMETIMES
     assert (0, 0, 2, 2, 0, 0) not in found.evidence.parts[0].lacking
-    assert positive_finding(Chain(8, 7, 3, 8, 5, 8), Chain(8, 7, 3, 8, 5, 8)).share is Share.ALWAYS
+    assert (
+        positive_finding(
+            Chain(8, 7, 3, 8, 5, 8, damped=False), Chain(8, 7, 3, 8, 5, 8, damped=False)
+        ).share
+        is Share.ALWAYS
+    )
 
 
 def test_false_evidence_is_refused():
-    six, two = Family(4)[6], Family(4)[2]
+    six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
     evidence = positive_finding(six, two).evidence
     swapped = replace(evidence, with_one=evidence.without, without=evidence.with_one)
     nothing_lacking = replace(evidence, parts=tuple(replace(p, lacking=()) for p in evidence.parts))
@@ -285,13 +294,13 @@ def test_what_is_not_covered_is_unknown():
 
 def test_bad_input():
     for other in (
-        Chain(4),
+        Chain(4, damped=False),
         Chain(3, damped=True),
-        Chain(3, sensor=Sensor.POSITION),
-        Chain(3, dead_time=True),
+        Chain(3, sensor=Sensor.POSITION, damped=False),
+        Chain(3, dead_time=True, damped=False),
     ):
         with pytest.raises(InputError):
-            positive_finding(Chain(3), other)
+            positive_finding(Chain(3, damped=False), other)
 
 
 def test_findings_cannot_contradict_themselves():
@@ -305,7 +314,7 @@ def test_findings_cannot_contradict_themselves():
     with pytest.raises(ValueError, match="tries"):
         Empirical(8, 10, 3)
     with pytest.raises(TypeError):
-        bool(positive_finding(Chain(3), Chain(3)))
+        bool(positive_finding(Chain(3, damped=False), Chain(3, damped=False)))
 
 
 def test_interval_widens_with_open_points():
@@ -316,7 +325,7 @@ def test_interval_widens_with_open_points():
 
 
 def test_seed_moves_points_not_shares():
-    six, two = Family(4)[6], Family(4)[2]
+    six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
     findings = [positive_finding(six, two, Settings(seed=seed)) for seed in ("a", "b")]
     assert findings[0].evidence.with_one != findings[1].evidence.with_one
     assert findings[0].share is findings[1].share

@@ -29,9 +29,9 @@ def count(n, g, a, b):
 
 @pytest.mark.parametrize(("n", "g", "a", "b"), CASES + LARGE)
 def test_all_solutions_are_positive(n, g, a, b):
-    other = Chain(n, g, a, b, a, b)
+    other = Chain(n, g, a, b, a, b, damped=False)
     gap = Random(n * 100 + b).randrange(n)
-    given = Chain(n, gap, min(gap, 1), gap + 1, min(gap, 1), gap + 1)
+    given = Chain(n, gap, min(gap, 1), gap + 1, min(gap, 1), gap + 1, damped=False)
     found = fibre(other, target(given.structure, random_point(given, f"foster{n}{g}{a}{b}")))
     assert found.status is Status.COMPLETE and len(found.solutions) == count(n, g, a, b)
     assert all(s.real is s.positive is Answer.YES for s in found.solutions)

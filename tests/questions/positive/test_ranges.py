@@ -51,7 +51,7 @@ def test_collocated_equivalents_are_all_listed():
     """Two masses, force and sensor at 1: of the dual with the gap there is one model, mass M
     m1/m2, spring (M/m2)^2 k12.
     """
-    given, other = Chain(2), Chain(2, 1, 1, 2, 1, 2)
+    given, other = Chain(2, damped=False), Chain(2, 1, 1, 2, 1, 2, damped=False)
     point = random_point(given, "two")
     m1, m2, k = (point[name] for name in ("m1", "m2", "k12"))
     total = m1 + m2
@@ -69,7 +69,7 @@ def test_an_element_at_the_end_of_its_range_is_not_guessed():
     """The mass with force and sensor is 1/lim s^2 G, the same in both; a ball around it reaches
     over the end of the range.
     """
-    given, other = Chain(3), Chain(3, act_plus=2, meas_plus=2)
+    given, other = Chain(3, damped=False), Chain(3, act_plus=2, meas_plus=2, damped=False)
     point = random_point(given, "end")
     mass = Fraction(int(point["m1"].p), int(point["m1"].q))
     for ends in ((mass / 2, mass), (mass, 2 * mass)):
@@ -82,7 +82,7 @@ def test_an_element_at_the_end_of_its_range_is_not_guessed():
 def test_without_a_positive_equivalent_there_is_none_in_a_box():
     from disting.questions.positive import positive_finding
 
-    six, two = Family(4)[6], Family(4)[2]
+    six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
     point = read(positive_finding(six, two).evidence.without)
     assert (
         equivalent_within(six, point, two, {"m1": (Fraction(1, 10**6), Fraction(10**6))})
@@ -91,7 +91,9 @@ def test_without_a_positive_equivalent_there_is_none_in_a_box():
 
 
 def test_families_stay_open_rather_than_guessed():
-    found = within_ranges(Family(4)[2], Family(4)[6], ranges({}, {"m1": ("1e-6", "1e-5")}))
+    found = within_ranges(
+        Family(4, damped=False)[2], Family(4, damped=False)[6], ranges({}, {"m1": ("1e-6", "1e-5")})
+    )
     assert found.share is Share.UNKNOWN and found.empirical.open > 0
 
 
@@ -104,17 +106,20 @@ def test_a_fixed_value_may_be_special():
     """NEVER speaks of generic parameters; a box without width asks for special ones."""
     assert within_ranges(D3[7], D3[6], ranges({"m1": (1, 1)}, {})).share is Share.UNKNOWN
     assert (
-        within_ranges(Family(3)[1], Family(3)[2], ranges({"m1": (1, 1)}, {})).share is Share.NEVER
+        within_ranges(
+            Family(3, damped=False)[1], Family(3, damped=False)[2], ranges({"m1": (1, 1)}, {})
+        ).share
+        is Share.NEVER
     )
 
 
 def test_points_lie_in_their_ranges():
     box = ranges({"m1": ("1e-9", "2e-9"), "k12": (3, 3)}, {})
-    point = random_point(Chain(2), "box", box.given)
+    point = random_point(Chain(2, damped=False), "box", box.given)
     assert (
         Fraction(1, 10**9) <= Fraction(int(point["m1"].p), int(point["m1"].q)) <= Fraction(2, 10**9)
     )
-    assert point["k12"] == 3 and point == random_point(Chain(2), "box", box.given)
+    assert point["k12"] == 3 and point == random_point(Chain(2, damped=False), "box", box.given)
 
 
 @pytest.mark.parametrize(
@@ -137,7 +142,7 @@ def test_bad_ranges(bounds):
 
 def test_unknown_names():
     with pytest.raises(InputError, match="k99"):
-        within_ranges(Chain(2), Chain(2), ranges({"k99": (1, 2)}, {}))
+        within_ranges(Chain(2, damped=False), Chain(2, damped=False), ranges({"k99": (1, 2)}, {}))
 
 
 def test_a_short_point_is_no_witness():
@@ -166,7 +171,7 @@ def test_what_is_found_rests_on_long_points_and_says_how_surely():
         assert all(
             max(int(part).bit_length() for part in text.split("/")) >= 100 for _, text in values
         )
-    six, two = Family(4)[6], Family(4)[2]
+    six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
     exact = within_ranges(six, two, ranges({"m1": (1, 2)}, {"m1": ("1e-9", "1e9")}))
     assert (exact.share, exact.certainty) == (Share.SOMETIMES, Certainty.PROVEN)
 

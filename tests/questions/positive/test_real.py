@@ -26,7 +26,7 @@ TOWARDS_END = [(14, 20), (22, 26), (22, 28), (24, 26), (24, 28)]  # 4 masses, fa
 
 
 def pair(n, i, j):
-    return tuple(canonical(Family(n)[k]).chain for k in (i, j))
+    return tuple(canonical(Family(n, damped=False)[k]).chain for k in (i, j))
 
 
 def mixed(chain, label, pattern):
@@ -117,13 +117,16 @@ def test_no_factor_is_claimed_where_nothing_is_covered():
     assert not always_real(*damped) and not lacks_real(
         damped[0], random_point(damped[0], "x"), damped[1]
     )
-    assert not always_real(Chain(3), Chain(4))
-    far = Chain(6, act_plus=1, meas_plus=4), Chain(6, act_plus=2, meas_plus=5)
+    assert not always_real(Chain(3, damped=False), Chain(4, damped=False))
+    far = (
+        Chain(6, act_plus=1, meas_plus=4, damped=False),
+        Chain(6, act_plus=2, meas_plus=5, damped=False),
+    )
     assert not always_real(*far)  # three springs between inner ports: no construction
 
 
 def test_altered_real_evidence_is_refused():
-    a, b = (Family(4)[k] for k in (2, 6))
+    a, b = (Family(4, damped=False)[k] for k in (2, 6))
     found = compare(a, b, query=Query(View.REAL))
     assert (found.relation, found.certainty) == (Relation.SOMETIMES, "proven")
     assert compare(b, a, query=Query(View.REAL)).relation is Relation.SOMETIMES

@@ -118,7 +118,11 @@ def test_exact_word_agrees_with_eigenvalues(n, seed, i, j, at_wall):
     a, b = 1 + i % (n - 1), 0
     b = a + 1 + j % (n - a)
     masses, springs = row(Random(seed), n, at_wall)
-    chain = Chain(n + 1, n, a, n + 1, b, n + 1) if at_wall else Chain(n, 0, 0, a, 0, b)
+    chain = (
+        Chain(n + 1, n, a, n + 1, b, n + 1, damped=False)
+        if at_wall
+        else Chain(n, 0, 0, a, 0, b, damped=False)
+    )
     names = [f"k{i}{i + 1}" for i in range(0 if at_wall else 1, n)]
     exact = dict(zip(names, springs if at_wall else springs[1:], strict=True)) | {
         f"m{i + 1}": m for i, m in enumerate(masses)

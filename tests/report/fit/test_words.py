@@ -59,7 +59,7 @@ def test_shares() -> None:
 
 def test_names_tell_all_that_differs() -> None:
     chains = [
-        Chain(3, g, a, b, c, d)
+        Chain(3, g, a, b, c, d, damped=False)
         for g, a, b, c, d in [(0, 0, 1, 0, 1), (0, 0, 1, 0, 3), (1, 1, 2, 1, 3), (2, 2, 3, 1, 3)]
     ]
     assert [name(c) for c in chains] == [
