@@ -41,6 +41,7 @@ InclusionEvidence = (
     | FullImage
     | MissingElements
     | RelativeDegrees
+    | DeadTime
     | RowByRow
     | FibreAt
     | Solved

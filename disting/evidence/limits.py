@@ -4,6 +4,7 @@ be, or cannot.
 
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import groupby
 from typing import ClassVar, NamedTuple
 
 from disting.evidence.conditions import Labels, spelled
@@ -164,8 +165,11 @@ class LargerProjection:
 
 @dataclass(frozen=True, slots=True)
 class MissingElements:
-    """One model is the other one with elements missing, all experiments at the same masses: the
-    numbering of its masses in the larger model.
+    """One model is what remains of the other one when elements tend to zero or grow without bound
+    (see `disting.model.minors`), all experiments at the same masses.
+
+    `numbering`: (in the part, in the whole), 0 being the ground: several masses of the whole at one
+    of the part are one rigid body, those at 0 are at rest, those that are not named move alone.
     """
 
     kind: ClassVar[str] = "missing-elements"
@@ -175,15 +179,30 @@ class MissingElements:
     def sentence(self, left: str, right: str) -> str:
         """Which model is part of which."""
         part, whole = (left, right) if self.left_is_part else (right, left)
+        bodies = [f"masses {' and '.join(map(str, body))} one rigid body" for body in self._bodies]
+        stiff = [*bodies, *(f"mass {i} at rest" for i, at in self._nodes if i and not at)]
+        how, bound = ", ".join(["some elements missing", *stiff]), " or grow without bound"
         return (
-            f"{part} is {whole} with some elements missing, measured at the same masses: elements"
-            f" of {whole} that go to zero give every response of {part}."
+            f"{part} is {whole} with {how}, measured at the same masses: elements of {whole} that"
+            f" go to zero{bound * bool(stiff)} give every response of {part}."
         )
 
     @property
     def formula(self) -> str:
         """Masses of the part in the whole."""
         return ", ".join(f"{a} → {b}" for a, b in self.numbering)
+
+    @property
+    def _nodes(self) -> list[tuple[int, int]]:
+        """(mass of the whole, node of the part)."""
+        return sorted((i, at) for at, i in self.numbering)
+
+    @property
+    def _bodies(self) -> list[list[int]]:
+        """Masses of the whole that are one body, more than one each."""
+        runs = groupby(self._nodes, key=lambda x: x[1])
+        bodies = ([i for i, _ in run] for at, run in runs if at)
+        return [body for body in bodies if len(body) > 1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,8 +232,8 @@ class FullImage:
 
 @dataclass(frozen=True, slots=True)
 class RelativeDegrees:
-    """Relative degrees of the receptances in s, in the pair's order; no elements other than
-    zero change the larger model's.
+    """Relative degrees of the receptances in s, in the pair's order, where no finite elements
+    other than zero give the larger model that of the smaller one.
     """
 
     kind: ClassVar[str] = "relative-degrees"
@@ -226,6 +245,11 @@ class RelativeDegrees:
         """Both relative degrees in words."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
+        if here > there:
+            return (
+                f"The receptance of {larger} falls at least as fast as s^-{here} for all finite"
+                f" elements other than zero, that of {smaller} as s^-{there}."
+            )
         return (
             f"The receptance of {larger} falls as s^-{here} for all elements other than zero, that"
             f" of {smaller} at least as fast as s^-{there}."
@@ -235,4 +259,6 @@ class RelativeDegrees:
     def formula(self) -> str:
         """The two relative degrees."""
         here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
+        if here > there:
+            return f"deg D₂ − deg N₂ ≥ {here} > {there} = deg D₁ − deg N₁"
         return f"deg D₂ − deg N₂ = {here} < {there} ≤ deg D₁ − deg N₁"

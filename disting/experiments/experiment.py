@@ -177,14 +177,18 @@ class Entry:
         return self.structure.sensor_order if quantity is None else quantity.order
 
     @cached_property
-    def ports(self) -> Ports:
-        """Where force and sensor attach; a locked mass is as good as the ground."""
+    def attached(self) -> Ports:
+        """Where force and sensor attach."""
         p = self.structure.ports
-        act = self.experiment.force or (p.act_plus, p.act_minus)
-        meas = self.experiment.sensor or (p.meas_plus, p.meas_minus)
-        still = set(self.experiment.still)
-        act_plus, act_minus, meas_plus, meas_minus = (0 if i in still else i for i in (*act, *meas))
+        act_plus, act_minus = self.experiment.force or (p.act_plus, p.act_minus)
+        meas_plus, meas_minus = self.experiment.sensor or (p.meas_plus, p.meas_minus)
         return Ports(act_minus, act_plus, meas_minus, meas_plus)
+
+    @cached_property
+    def ports(self) -> Ports:
+        """The same, a locked mass being as good as the ground."""
+        still = set(self.experiment.still)
+        return Ports(*(0 if i in still else i for i in self.attached))
 
     @cached_property
     def row_ends(self) -> tuple[tuple[int, int], ...]:

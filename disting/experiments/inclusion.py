@@ -2,26 +2,29 @@
 is known of both: no fibre is looked at.
 
 Inside. If the one is the other with elements missing, and all experiments are at the same masses of
-both, then springs and dampers that are missing, sent to zero, carry every transfer function of the
-larger model into that of the smaller one, whatever is locked or added: rows that lose their joints
-to the ports move alone.
+both, then elements that vanish or grow without bound carry every transfer function of the larger
+model into that of the smaller one, whatever is locked or added (`model.minors`).
 
 Outside. If V1 lies inside V2, so do their projections on one experiment, and on every set of
-coefficients. So one experiment is enough in which no limit has the degrees (`questions.inclusion`,
-`profiles`), in which the one sensor moves and the other one never does, or in which the model that
-has the smaller rank in all of them together has the larger one.
+coefficients. So one experiment is enough in which no limit has the degrees (the lemma of
+`questions.inclusion.profiles`, which speaks of finite elements only where it says so), in which the
+one sensor moves and the other one never does, or in which the model that has the smaller rank in
+all of them together has the larger one.
 """
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 
 from disting.algebra.certainty import Certainty, graded
 from disting.behaviour.profile import Profile
-from disting.behaviour.stacked import ZERO
 from disting.evidence.conditions import Counts
 from disting.evidence.limits import LargerProjection, MissingElements
-from disting.experiments.experiment import MeasuredChain
+from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.model.kinds import Kind
+from disting.model.minors import is_minor, minors
 from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
-from disting.questions.inclusion.profiles import by_profiles, degrees_refute, inside, ordered
+from disting.questions.inclusion.missing_elements import missing, without_dead_time
+from disting.questions.inclusion.profiles import by_profiles, exceed, ordered
 
 IMAGE_NOT_ASKED = "under several experiments only limits are asked for"
 NOT_SETTLED = "neither missing elements nor one experiment alone settles it"
@@ -68,29 +71,73 @@ def numberings(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, 
     return (places for places in found if _keeps(places, part, whole))
 
 
-def _keeps(places: dict[int, int], part: MeasuredChain, whole: MeasuredChain) -> bool:
-    """Whether every experiment on the part is that on the whole at these places."""
-    for here, there in zip(part.entries, whole.entries, strict=True):
-        moved_ports = tuple(places[i] for i in here.ports)
-        same = moved_ports == there.ports and here.sensor_order == there.sensor_order
-        changes = here.experiment.moved(places.__getitem__).changes
-        if not same or changes != there.experiment.changes:
-            return False
-    return True
+def places_in(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, int]]:
+    """Yield the places of masses of the whole in the part at which elements of the whole that
+    vanish or grow without bound make the part of it in all experiments (see `model.minors`).
+
+    >>> from disting.experiments.experiment import Experiment
+    >>> from disting.model.chain import Chain
+    >>> one, two = (MeasuredChain(c, (Experiment(),)) for c in (Chain(1), Chain(2, meas_plus=2)))
+    >>> list(places_in(one, two))
+    [{0: 0, 1: 1, 2: 1}]
+    """
+    pairs = {
+        pair
+        for here, there in zip(part.entries, whole.entries, strict=True)
+        for pair in zip(there.attached, here.attached, strict=True)
+    }
+    ports = dict(pairs)
+    if len(ports) < len(pairs):
+        return iter(())
+    found = minors(part.chain.structure, whole.chain.structure, ports)
+    return (places for places in found if _keeps(places, whole, part))
+
+
+def confirms_missing(evidence: MissingElements, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """Whether the numbering makes the part of the whole, in all experiments."""
+    part, whole = (left, right) if evidence.left_is_part else (right, left)
+    places = {i: at for at, i in evidence.numbering}
+    known = is_minor(part.chain.structure, whole.chain.structure, places)
+    return known and len(places) == len(evidence.numbering) and _keeps(places, whole, part)
+
+
+def _keeps(places: dict[int, int], measured: MeasuredChain, other: MeasuredChain) -> bool:
+    """Whether every experiment becomes that on the other chain, nodes of the one being at these
+    places of the other; what is done to a mass that has none changes nothing.
+    """
+    same = {i: i for i in range(other.chain.n_masses + 1)}
+    return all(
+        tuple(map(places.get, here.attached)) == there.attached
+        and here.sensor_order == there.sensor_order
+        and _changes(here.experiment, places) == _changes(there.experiment, same)
+        for here, there in zip(measured.entries, other.entries, strict=True)
+    )
+
+
+def _changes(
+    experiment: Experiment, places: dict[int, int]
+) -> dict[tuple[Kind, int], Fraction | None]:
+    """What is done at each place but the ground; sizes at one place add up."""
+    done = dict[tuple[Kind, int], Fraction | None]()
+    for change in experiment.changes:
+        at = places.get(change.place)
+        if at:
+            here = change.kind, at
+            done[here] = None if change.size is None else change.size + (done.get(here) or 0)
+    return done
 
 
 def _found(
     small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
 ) -> Iterator[InclusionFinding]:
     """Yield what settles CLOSURE, the cheapest first."""
-    places = numbering(small, large)
-    if places is not None:
-        evidence = MissingElements(first, tuple(sorted(places.items())))
-        yield InclusionFinding(inside(first), Certainty.THEOREM, evidence=evidence)
+    yield from (missing(places, first) for places in places_in(small, large))
+    if small.chain.dead_time and not large.chain.dead_time:
+        yield without_dead_time(first)
     one, other = profile_of(small), profile_of(large)
     pairs = list(zip(_pairs(one), _pairs(other), strict=True))
     for here, there in pairs:
-        if here != ZERO and (there == ZERO or degrees_refute(here, there)):
+        if exceed(here, there):
             counts = Counts(*ordered(here, there, first))
             yield InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if any(here[1] != there[1] for here, there in pairs):

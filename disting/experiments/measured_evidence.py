@@ -18,7 +18,7 @@ from disting.evidence.limits import FullImage, LargerProjection, MissingElements
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
 from disting.experiments.experiment import MeasuredChain
-from disting.experiments.inclusion import numberings
+from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
 from disting.experiments.maps import matched
 from disting.experiments.polynomials import is_renaming
@@ -31,6 +31,7 @@ from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
+from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.positive import proves
 from disting.questions.same.decided_again import by_labels
 from disting.questions.same.evidence_check import is_complete
@@ -51,8 +52,6 @@ def confirms(
     Raises NotSeenError where a contradiction takes too long.
     """
     match evidence:
-        case Counts() if len(evidence.left) < 2 * len(left.experiments):
-            return _one_experiment(evidence, left, right)
         case Counts() | Forms() | Ranks() | FreeChoice():
             return confirms_summary(evidence, representation, *map(_summary, (left, right)))
         case LargerProjection():
@@ -66,8 +65,7 @@ def confirms(
             whole = is_complete(evidence, *names)
             return whole and is_renaming(left, right, dict(evidence.pairs))
         case MissingElements():
-            sides = (left, right) if evidence.left_is_part else (right, left)
-            return dict(evidence.numbering) in numberings(*sides)
+            return confirms_missing(evidence, left, right)
         case Embedding():
             sides = (left, right) if evidence.left_is_submodel else (right, left)
             ranks_ = {profile(m, Representation.TF, 0, FRESH).rank for m in sides}
@@ -80,6 +78,15 @@ def confirms(
         case BothWays():
             return _both_ways(evidence, left, right)
     return False  # it speaks of other models
+
+
+def confirms_inclusion(
+    evidence: InclusionEvidence, left: MeasuredChain, right: MeasuredChain
+) -> bool:
+    """Whether evidence of an inclusion holds: degrees have to refute it."""
+    if isinstance(evidence, Counts):
+        return _one_experiment(evidence, left, right)
+    return confirms(evidence, left, right)
 
 
 def exact_again(
@@ -125,7 +132,7 @@ def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChai
     """Ranks of the named rows of all experiments, or of all rows of one experiment alone."""
     ranks = Ranks(evidence.rows, evidence.left, evidence.right, all_rows=False)
     sides = [_summary(m) for m in (left, right)]
-    if set(evidence.rows) <= sides[0].labels(Representation.TF, 0):
+    if set(evidence.rows) <= set[str]().union(*(s.labels(Representation.TF, 0) for s in sides)):
         return confirms_summary(ranks, "tf", *sides)
     for k in range(len(left.experiments)):
         alone = [_summary(MeasuredChain(m.chain, (m.experiments[k],))) for m in (left, right)]
@@ -136,10 +143,15 @@ def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChai
 
 
 def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain) -> bool:
-    """Whether these are the degrees of one of several experiments."""
+    """Whether these are the degrees of one experiment, and those of the chain of smaller rank are
+    no limit's of the other.
+    """
     sides = (degrees(left), degrees(right))
     pairs = ([side[i : i + 2] for i in range(0, len(side), 2)] for side in sides)
-    return (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
+    ranks = [profile(m, Representation.TF, 0, FRESH).rank for m in (left, right)]
+    small, large = ordered(evidence.left, evidence.right, ranks[0] < ranks[1])
+    told = (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
+    return told and exceed(small, large)
 
 
 def _missed(evidence: FibreUnder, left: MeasuredChain, right: MeasuredChain) -> bool:

@@ -114,7 +114,8 @@ class _Machines:
         return measured_evidence.confirms(evidence, *sides, representation)
 
     def includes(self, evidence: InclusionEvidence) -> bool:
-        return measured_evidence.confirms(evidence, self.left.measured, self.right.measured)
+        sides = self.left.measured, self.right.measured
+        return measured_evidence.confirms_inclusion(evidence, *sides)
 
     def exact(self, evidence: Evidence) -> Finding | None:
         """See `Pair`; None where ranks or degrees differ, as the decision asks for equal ones."""

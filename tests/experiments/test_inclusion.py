@@ -10,8 +10,10 @@ from sympy import Rational, Symbol
 
 from disting import Chain, Engine, Experiment, Family, Inclusion, Query, View, compare, findings
 from disting.behaviour.sample import Representation
+from disting.evidence.conditions import Counts
 from disting.experiments import MeasuredChain, confirms
 from disting.experiments.inclusion import inclusions_under, numbering
+from disting.experiments.measured_evidence import confirms_inclusion
 from disting.experiments.stacked_profiles import profile
 from disting.model.settings import Settings
 from tests.experiments.plain_stack import determined, transfer
@@ -128,6 +130,52 @@ def test_what_holds_of_all_holds_of_each():
                 alone = compare(left, right, experiments=[experiment], query=EXACT, engine=engine)
                 excluded = {Inclusion.NEITHER, together.closure.turned}
                 assert alone.closure not in excluded, (left, right, experiment)
+
+
+@pytest.mark.parametrize("names", [("1:1", "2:2"), ("2:1", "3:2")])
+@pytest.mark.parametrize("damped", [False, True])
+def test_a_rigid_spring_is_a_limit_under_experiments(names, damped):
+    """k12 -> infinity raises no relative degree: what is told without experiments is told with
+    them.
+    """
+    left, right = (Family(int(n), damped)[int(i)] for n, i in (x.split(":") for x in names))
+    assert compare(left, right, query=EXACT).closure is Inclusion.LEFT_IN_RIGHT
+    changes = [{"inertias": {1: 1}}, {"springs": {1: 1}}, {"sensor": 1}]
+    changes += [{"locked": 2}] if left.n_masses > 1 else []
+    for change in changes:
+        places = [change, change | {"locked": 3}] if "locked" in change else [change, change]
+        sides = [
+            MeasuredChain(c, (Experiment(), Experiment(**e)))
+            for c, e in zip((left, right), places, strict=True)
+        ]
+        found = inclusions_under(*sides, profile_of).closure
+        assert found.inclusion is Inclusion.LEFT_IN_RIGHT
+        assert "masses 1 and 2 one rigid body" in found.evidence.sentence("A", "B")
+        assert confirms(found.evidence, *sides)
+        apart = found.evidence.numbering[:-1]
+        assert not confirms(replace(found.evidence, numbering=apart), *sides)
+        assert not confirms_inclusion(Counts((0, 0), (0, 2)), *sides)
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_a_lag_is_a_limit_under_experiments(damped):
+    """T1 -> 0, for all chains of 2 and 3 masses."""
+    for chain in (*Family(2, damped), *Family(3, damped)):
+        sides = [measured(replace(chain, lag=lag)) for lag in (False, True)]
+        found = inclusions_under(*sides, profile_of).closure
+        assert found.inclusion is Inclusion.LEFT_IN_RIGHT
+        degrees = [p.degrees[:2] for p in map(profile_of, sides)]
+        assert not confirms_inclusion(Counts(*degrees), *sides)
+
+
+def test_known_sizes_of_one_body_add_up():
+    """Inertias on two masses that become one; a mass at rest may carry what it likes."""
+    part, whole = Chain(1, damped=True), Chain(3, damped=True)
+    alone = MeasuredChain(part, (Experiment(), Experiment(inertias={1: 3})))
+    for inertias, inside in (({1: 1, 2: 2}, True), ({1: 3, 3: 7}, True), ({1: 2, 2: 2}, False)):
+        both = MeasuredChain(whole, (Experiment(), Experiment(inertias=inertias)))
+        found = inclusions_under(alone, both, profile_of).closure.inclusion
+        assert (found is Inclusion.LEFT_IN_RIGHT) == inside and found is not Inclusion.NEITHER
 
 
 def test_condition_8_under_experiments():

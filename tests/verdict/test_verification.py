@@ -4,10 +4,11 @@ import json
 from copy import deepcopy
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from disting import Chain, Family, Query, Relation, Settings, View, verdict_file, verify
+from disting import Chain, Experiment, Family, Query, Relation, Settings, View, verdict_file, verify
 from disting.catalogs import catalog
 from disting.evidence.plain import to_dict as plain_evidence
 from disting.model.symmetry import canonical
@@ -86,6 +87,24 @@ def test_a_bound_of_an_inclusion_that_was_raised_is_found(left: str, right: str)
         told["safety"] += 100 * bool(told["safety"])
     assert verify(data).sentence == "holds" and surer != data["inclusions"]
     assert "its certainty" in verify(told_again(data, inclusions=surer)).sentence
+
+
+@pytest.mark.parametrize("also", [None, [Experiment(), Experiment(sensor=1)]])
+def test_a_limit_that_the_relative_degree_denied_does_not_hold(also: Any) -> None:
+    """As a file of version 0.2.0 says it of T1 -> 0: proven, and false."""
+    sides = (Chain(2), Chain(2, lag=True))
+    data = plain(*sides, **({} if also is None else {"experiments": also}))
+    assert verify(data).sentence == "holds"
+    counts = {"kind": "counts", "left": [2, 2], "right": [2, 3]}
+    lie = {
+        "inclusion": "neither",
+        "certainty": "proven",
+        "safety": 0,
+        "evidence": counts,
+        "reason": "",
+    }
+    both = {"image": "neither", "closure": "neither", "inclusions": {"closure": lie, "image": lie}}
+    assert "is not true of these models" in verify(told_again(data, **both)).sentence
 
 
 def test_a_fibre_of_models_of_unequal_rank_does_not_make_them_the_same() -> None:

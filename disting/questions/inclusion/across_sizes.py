@@ -4,14 +4,16 @@ larger kind.
 The smaller model has fewer poles, but it may lie in the closure of the larger one, where poles and
 zeros cancel. What settles a pair first is kept:
 
-1. Degrees: a limit has no more zeros and poles than the models that it is a limit of. Refuted.
+1. Degrees: a limit has no more zeros and poles than the models that it is a limit of (see
+   `profiles`). Refuted.
 2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is
    computed. Proven.
 3. `meeting`: dimensions that add up, for the whole or for a row after such limits. Proven.
 4. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted,
    with the rank's error bound.
-5. `pole_sharing`: models of the smaller kind that are no limits. Refuted; this costs more.
-6. `limit_fibre`: the smaller models among what limits of rows lead to. Found with an error bound.
+5. `model.minors`: what has no lag is a limit of what has one. Proven.
+6. `pole_sharing`: models of the smaller kind that are no limits. Refuted; this costs more.
+7. `limit_fibre`: the smaller models among what limits of rows lead to. Found with an error bound.
 
 The larger chain, with more poles, never lies in the smaller one: its generic model does not have
 as few.
@@ -44,8 +46,9 @@ from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 from disting.questions.inclusion.limit_fibre import contained
 from disting.questions.inclusion.limits import follows, reached
 from disting.questions.inclusion.meeting import room
+from disting.questions.inclusion.missing_elements import by_elements
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
-from disting.questions.inclusion.profiles import ordered
+from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part, theorem
 
@@ -53,8 +56,8 @@ REMEMBERED = 1024  # chains whose twins are kept
 
 
 def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
-    """Inclusion of chains of different sizes, of one sensor and dead time; None where
-    `by_computing` is to be asked.
+    """Inclusion of chains of different sizes, of one sensor quantity; None where `by_computing`
+    is to be asked.
     """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
@@ -63,6 +66,9 @@ def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     if found is not None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
         return InclusionFinding(inside, Certainty.PROVEN, evidence=found)
+    told = by_elements(one, other, not left_is_larger)
+    if told is not None and (told.inclusion is not Inclusion.NEITHER or fewer_poles(one, other)):
+        return told
     if not fewer_poles(one, other):
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles"
@@ -98,7 +104,7 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
 
 def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
     """What shows that the smaller chain is a limit of the larger one; None if nothing."""
-    if exceeds(small, large):
+    if exceeds(small, large) or small.dead_time > large.dead_time:
         return None
     limits = next(row_limits(small, large, counting=False), None)
     if limits is not None:
@@ -163,9 +169,7 @@ def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> Inclusi
 
 def exceeds(small: Chain, large: Chain) -> bool:
     """More zeros or more poles than any limit of the larger chain has."""
-    return any(
-        here > there for here, there in zip(degrees_of(small), degrees_of(large), strict=True)
-    )
+    return exceed(degrees_of(small), degrees_of(large))
 
 
 def fewer_poles(small: Chain, large: Chain) -> bool:

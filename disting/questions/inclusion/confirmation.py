@@ -7,7 +7,7 @@ from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.evidence.conditions import Counts, FreeChoice, Labels
-from disting.evidence.decision import FibreAt
+from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
@@ -24,7 +24,8 @@ from disting.model.question import Membership
 from disting.model.structure import Structure
 from disting.questions.inclusion.across_sizes_confirmation import confirms_across_sizes
 from disting.questions.inclusion.closures import confirms_rows
-from disting.questions.inclusion.profiles import degrees_refute, ordered
+from disting.questions.inclusion.missing_elements import confirms_missing
+from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part
@@ -34,22 +35,22 @@ PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 
 
 def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> bool:
-    """Whether the evidence is true of the two chains, at fresh points, and speaks of the model of
-    the smaller rank.
+    """Whether the evidence is true of the two chains, at fresh points, and speaks of the one with
+    fewer masses, or of as many of the one of smaller rank.
 
     A fibre is computed again. The ranks of the two models are taken from their profiles.
     """
     a, b = left.canonical.chain, right.canonical.chain
-    left_is_smaller = left.rank < right.rank
+    left_is_smaller = (a.n_masses, left.rank) < (b.n_masses, right.rank)
     match evidence:
         case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre():
             return a.n_masses != b.n_masses and confirms_across_sizes(evidence, left, right)
         case Counts() if a.n_masses != b.n_masses:
             return confirms_across_sizes(evidence, left, right)
         case MissingElements():
-            part, whole = (a, b) if evidence.left_is_part else (b, a)
-            found = part.structure.embeddings(whole.structure)
-            return evidence.left_is_part == left_is_smaller and dict(evidence.numbering) in found
+            return evidence.left_is_part == left_is_smaller and confirms_missing(evidence, a, b)
+        case DeadTime():
+            return (a.dead_time, b.dead_time) == (evidence.left_given, not evidence.left_given)
         case Counts() | LargerProjection() | FullImage() | RelativeDegrees():
             return _confirms_summary(evidence, a, b, left_is_smaller)
         case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
@@ -67,7 +68,7 @@ def _confirms_summary(
     match evidence:
         case Counts():
             small, large = ordered(evidence.left, evidence.right, left_is_smaller)
-            return degrees_refute(small, large) and fresh.confirms(evidence, "tf", a, b)
+            return exceed(small, large) and fresh.confirms(evidence, "tf", a, b)
         case LargerProjection():
             here, there = ordered(evidence.left, evidence.right, left_is_smaller)
             return here > there and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
@@ -129,8 +130,8 @@ def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
 
 
 def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
-    """Ranks of named invariants of both chains at fresh points; None if they have different
-    numbers of poles.
+    """Ranks of named invariants of both chains at fresh points; None for coefficients if they have
+    different numbers of poles.
     """
     seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
     here, there = (
@@ -138,7 +139,7 @@ def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
         for each in seen
     )
     poles = {sum(x[0] == "a" for x in each[0].labels) for each in seen}
-    return (here, there) if len(poles) == 1 else None
+    return (here, there) if len(poles) == 1 or rows == ("Td",) else None
 
 
 def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
@@ -156,14 +157,18 @@ def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
 
 def _fall_apart(small: Chain, large: Chain, here: int, there: int) -> bool:
     """Whether, written out, the first one's relative degree is `here` at least, the second one's
-    always `there`, smaller.
+    always `there`, smaller; or the first one's `here`, the second one's never below `there`,
+    larger.
 
-    That is so if both leading coefficients are products of elements.
+    That is so if both leading coefficients are products of elements; or that of the denominator.
     """
     one, other = (coefficient_map(_receptance(c)) for c in (small, large))
     (low, poles), (top, others) = one.degrees, other.degrees
-    products = len(other.numerator[top]) == 1 == len(other.denominator[-1])
-    return products and poles - low >= here > there == others - top
+    if len(other.denominator[-1]) > 1 or others - top != there:
+        return False
+    if here < there:
+        return poles - low == here
+    return len(other.numerator[top]) == 1 and poles - low >= here > there
 
 
 def _receptance(chain: Chain) -> Structure:

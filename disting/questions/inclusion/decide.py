@@ -3,15 +3,18 @@ which statements are sought.
 
 V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is
 impossible. What is found first is kept. Chains of different sizes are compared in `across_sizes`:
-there CLOSURE is asked alone. For chains of one size:
+there CLOSURE is asked alone. A dead time of the one alone is a limit of the other's at most, never
+finite. For chains of one size:
 
-1. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
-2. CLOSURE by rows: `closures` proves or refutes it; small ideals of both rows
+1. CLOSURE by `missing_elements`: it is proven where elements that vanish or grow without bound make
+   the one of the other.
+2. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
+3. CLOSURE by rows: `closures` proves or refutes it; small ideals of both rows
    (`disting.fibres.ideals.by_two_rows`) prove it.
-3. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
+4. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
    the rows refute it without any chance; one fibre by the synthesis refutes or proves it
    (`image`), and with it CLOSURE is proven; a small ideal refutes it.
-4. Where neither is known: the rows, then the whole model, as ideals of fibres, with the bounds of
+5. Where neither is known: the rows, then the whole model, as ideals of fibres, with the bounds of
    `disting.fibres.ideals.bounds`. An empty fibre refutes IMAGE, a solution, whose elements may be
    zero, proves CLOSURE.
 """
@@ -21,7 +24,7 @@ from dataclasses import replace
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.evidence.across_sizes import LimitFibre, PoleSharing
-from disting.evidence.decision import FibreAt
+from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Outside, RelativeDegrees, RowsInside
@@ -48,6 +51,7 @@ from disting.questions.inclusion.finding import (
     inclusions_to_json,
 )
 from disting.questions.inclusion.image import of_image
+from disting.questions.inclusion.missing_elements import by_elements
 from disting.questions.inclusion.profiles import by_profiles
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
@@ -58,6 +62,7 @@ INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)
 CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)
 ROW_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one row
 NOT_ASKED = "of chains of different sizes only limits are asked for"
+ONE_SENSOR = "models of one sensor quantity are compared"
 
 
 def inclusions(left: ChainSide, right: ChainSide) -> Inclusions:
@@ -82,34 +87,35 @@ def by_rank(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
 
 
 def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
-    """What profiles, or for chains of different sizes counts and limits, tell of CLOSURE; None
-    if nothing.
+    """What elements and profiles, or for chains of different sizes counts and limits, tell of
+    CLOSURE; None if nothing.
     """
-    one, other = left.chain, right.chain
-    if (one.sensor, one.dead_time) != (other.sensor, other.dead_time):
-        return InclusionFinding(
-            Inclusion.UNKNOWN, reason="models of one sensor and dead time are compared"
-        )
-    if one.n_masses != other.n_masses:
+    if left.chain.sensor is not right.chain.sensor:
+        return InclusionFinding(Inclusion.UNKNOWN, reason=ONE_SENSOR)
+    if left.chain.n_masses != right.chain.n_masses:
         return by_sizes(left, right)
-    small, large = (left, right) if left.rank < right.rank else (right, left)
+    first = left.rank < right.rank
+    small, large = (left, right) if first else (right, left)
+    found = by_elements(small.canonical.chain, large.canonical.chain, first)
+    if found is not None:
+        return found
     profiles = (s.profile(Representation.TF, 0) for s in (small, large))
-    return by_profiles(*profiles, left_is_smaller=left.rank < right.rank)
+    return by_profiles(*profiles, left_is_smaller=first)
 
 
 def implied_image(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
     """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
-    if closure.inclusion is Inclusion.NEITHER:
+    one, other = left.chain, right.chain
+    if closure.inclusion is Inclusion.NEITHER or one.sensor is not other.sensor:
         return closure
-    if left.chain.n_masses != right.chain.n_masses:
+    if one.dead_time != other.dead_time:
+        time = DeadTime(one.dead_time)
+        return InclusionFinding(Inclusion.NEITHER, Certainty.THEOREM, evidence=time)
+    if one.n_masses != other.n_masses:
         return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)
-    compared = (left.chain.sensor, left.chain.dead_time) == (
-        right.chain.sensor,
-        right.chain.dead_time,
-    )
-    return None if compared else closure
+    return None
 
 
 def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
@@ -232,6 +238,8 @@ def _turned(evidence: InclusionEvidence | None) -> InclusionEvidence | None:
             return replace(evidence, left_is_larger=not evidence.left_is_larger)
         case RelativeDegrees():
             return RelativeDegrees(not evidence.left_is_larger, evidence.right, evidence.left)
+        case DeadTime():
+            return DeadTime(not evidence.left_given)
         case _:
             return evidence
 

@@ -1,13 +1,31 @@
-"""What the profiles of two models settle about inclusion, and the relative degrees of their
-receptances.
+"""What degrees and the profiles of two models settle about inclusion.
 
-Degrees: with masses other than zero no special value raises the number of poles or lowers the
-relative degree. Projections: of equally many poles, the coefficients are regular functions of the
-parameters, and V1 in V2 gives rank1(S) <= rank2(S) for every set S of them. Relative degrees: the
-receptance of a row whose ports are l masses apart falls as s^-(2 + l) with dampers and as s^-(2 +
-2 l) without, its leading coefficient a product of springs or dampers and inverse masses. Of two
-rows the slower one leads; only if both fall alike special values cancel. Dampers to the ground
-change nothing of that, a lag adds 1.
+Lemma. Let functions N_k/D_k with deg N_k <= a, deg D_k <= b tend to n/d, n and d coprime, at
+infinitely many s. Then deg n <= a and deg d <= b.
+
+Proof. The pairs (N_k : D_k), up to factors, lie in a projective space, so some subsequence of them
+converges, to (N : D). Where n/d is the limit, N d = n D; this holds at infinitely many s, so for
+all. If D were 0, so were N, but not both are. As n and d are coprime, N = c n and D = c d with a
+polynomial c other than 0; and deg N <= a, deg D <= b, for no limit has a coefficient that is 0 in
+all.
+
+Limits. So more zeros or more poles refute them. The relative degree b - a does so only where both
+models have equally many poles, where it says the same: as poles go to infinity (T1 -> 0, a spring
+without bound) D loses its leading coefficients, and the relative degree falls.
+
+Projections. With equally many poles c is constant, and the limit of the leading coefficients is not
+0. So the coefficients of N/d and of a monic d converge, which are regular functions of the
+parameters, and V1 in V2 gives rank1(S) <= rank2(S) for every set S of them; what is constant in V2
+is so in V1. A dead time Td is one more of them, for exp(-Td s) is no limit of rational functions of
+bounded degrees but for Td -> 0, and Td does not change the limits of the others.
+
+Finite elements. With masses and T1 other than 0 and finite, the leading coefficient of D, a product
+of them, is not 0, and no special value raises the degree of N: no relative degree is lower than
+that of generic elements. The receptance of a row whose ports are l masses apart falls as s^-(2 + l)
+with dampers and as s^-(2 + 2 l) without, its leading coefficient a product of springs or dampers
+and inverse masses: no elements other than 0 make that higher. Of two rows the slower one leads;
+only if both fall alike special values cancel. Dampers to the ground change nothing of that, a lag
+adds 1.
 """
 
 from typing import TypeVar
@@ -22,16 +40,18 @@ from disting.model.row import rows_of
 from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 
 T = TypeVar("T")
+Degrees = tuple[int, ...]
+"""Of numerator and denominator."""
 
 
 def by_profiles(
     small: Profile, large: Profile, *, left_is_smaller: bool
 ) -> InclusionFinding | None:
     """What degrees, ranks of projections and a full image settle; None if nothing."""
-    if degrees_refute(small.degrees, large.degrees):
+    if exceed(small.degrees, large.degrees):
         counts = Counts(*ordered(small.degrees, large.degrees, left_is_smaller))
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
-    if small.degrees[1] != large.degrees[1]:
+    if small.degrees[1::2] != large.degrees[1::2]:
         return None
     safety = min(small.safety, large.safety) - 1
     rows = _larger_rows(small, large)
@@ -51,9 +71,14 @@ def by_profiles(
     return None
 
 
-def degrees_refute(small: tuple[int, ...], large: tuple[int, ...]) -> bool:
-    """More poles, or a smaller relative degree, than any model of the larger rank has."""
-    return small[1] > large[1] or small[1] - small[0] < large[1] - large[0]
+def exceed(small: Degrees, large: Degrees) -> bool:
+    """Whether a numerator or denominator has a larger degree than in any limit of the other model;
+    of several transfer functions one pair after the other, (-1, 0) for 0.
+
+    >>> exceed((2, 2), (2, 3)), exceed((3, 3), (2, 4)), exceed((0, 0), (-1, 0))
+    (False, True, True)
+    """
+    return any(here > there for here, there in zip(small, large, strict=True))
 
 
 def _larger_rows(small: Profile, large: Profile) -> Labels | None:
@@ -95,12 +120,12 @@ def _constants_agree(small: Profile, large: Profile) -> bool:
 
 
 def by_relative_degrees(small: Chain, large: Chain) -> InclusionFinding | None:
-    """A receptance of the left model that always falls faster than any of the larger right one;
-    None if it need not.
+    """Finite elements: a receptance of the left model that falls faster than any of the larger
+    right one does, or slower; None if it need not.
     """
     falls = row_falls(large)
     here, there = min(row_falls(small)), min(falls)
-    if small.damped != large.damped or here <= there or (len(falls) == 2 and falls[0] == falls[1]):
+    if here == there or (here > there and len(falls) == 2 and falls[0] == falls[1]):
         return None
     evidence = RelativeDegrees(False, here, there)
     return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=evidence)

@@ -272,11 +272,69 @@ def test_a_lag_on_one_side_is_no_refutation():
         by_relative_degrees(apart, lagging) is None
         and by_relative_degrees(apart, replace(lagging, lag=False)) is not None
     )
+    # what falls faster may do so for special elements only, what falls slower never does
+    mixed = Chain(4, 2, 1, 3, 1, 3, damped=True)
+    assert by_relative_degrees(replace(mixed, lag=True), mixed) is None
+    assert by_relative_degrees(mixed, replace(mixed, lag=True)) is not None
 
 
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
 def test_no_inclusion_of_small_classes_is_unknown(n, damped):
     assert all(inclusions(a, b).closure.is_known for a, b in unequal(n, damped))
+
+
+SIZES = [(1, False), (2, False), (2, True), (3, False), (3, True)]
+
+
+@pytest.mark.parametrize(("n", "damped"), SIZES)
+@pytest.mark.parametrize("more", [{"lag": True}, {"dead_time": True}, {"ground_dampers": (1,)}])
+def test_a_chain_is_a_limit_of_itself_with_an_element_more(n, damped, more):
+    """T1, Td or b1 goes to zero; no finite one does it. The relative degree rises with a lag: that
+    denied the limit, and was said to be proven.
+    """
+    for chain in Family(n, damped):
+        small, large = (ENGINE.subject("", c) for c in (chain, replace(chain, **more)))
+        if small.rank == large.rank:
+            continue
+        found = inclusions(small, large)
+        assert (found.closure.inclusion, found.closure.certainty) == (
+            Inclusion.LEFT_IN_RIGHT,
+            Certainty.THEOREM,
+        )
+        assert inclusions(large, small).closure.inclusion is Inclusion.RIGHT_IN_LEFT
+        assert confirms(found.closure.evidence, small, large)
+        if "ground_dampers" not in more:
+            assert found.image.inclusion is Inclusion.NEITHER
+            assert confirms(found.image.evidence, small, large)
+
+
+def test_relative_degrees_refute_no_limit():
+    """Evidence that denied T1 -> 0 is refused, in either sense."""
+    small, large = (ENGINE.subject("", Chain(2, lag=lag)) for lag in (False, True))
+    counts = Counts((2, 2), (2, 3))
+    assert not confirms(counts, small, large)
+    assert not confirms(replace(counts, left=(2, 3), right=(2, 2)), large, small)
+    slower = RelativeDegrees(False, 2, 3)
+    assert confirms(slower, small, large) and "at least as fast as s^-3" in slower.sentence(
+        "A", "B"
+    )
+    for false in (RelativeDegrees(False, 3, 2), RelativeDegrees(False, 1, 3)):
+        assert not confirms(false, small, large)
+    with pytest.raises(ValueError, match="does not prove"):
+        Inclusions(*(InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=slower),) * 2)
+
+
+def test_a_dead_time_of_the_smaller_model_alone_is_no_limit():
+    for small, large in (
+        (Chain(2, dead_time=True), Chain(2, ground_dampers=(1,), damped=True)),
+        (Chain(1, dead_time=True), Chain(2, damped=True)),
+    ):
+        one, other = (ENGINE.subject("", chain) for chain in (small, large))
+        found = inclusions(one, other)
+        assert found.image == found.closure
+        assert found.closure.evidence == LargerProjection(("Td",), 1, 0)
+        assert confirms(found.closure.evidence, one, other)
+        assert inclusions(other, one).closure.evidence == LargerProjection(("Td",), 0, 1)
 
 
 def test_verdicts_tell_it():
