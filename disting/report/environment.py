@@ -5,11 +5,13 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from disting.files import __version__
+from disting.report.policy import Policy
 
 
 def render(template: str, **values: object) -> str:
-    """Text of a template."""
-    return environment().get_template(template).render(**values)
+    """Text of a template; a whole page says what it may do."""
+    policy = Policy()
+    return policy.of(environment().get_template(template).render(policy=policy, **values))
 
 
 def source(template: str) -> str:

@@ -150,6 +150,7 @@ def test_script_json_cannot_end_its_element() -> None:
 def test_nothing_is_fetched(render: object) -> None:
     text = render(catalog(3, damped=True))  # type: ignore[operator]
     text = text.replace('"http://www.w3.org/2000/svg"', "")  # a name, which nobody fetches
+    text = re.sub(r"'sha256-[^']*'", "", text)  # may have any signs
     assert "http:" not in text and "https:" not in text and "//" not in text.replace("// ", "")
     text = re.sub(r"<noscript>.*?</noscript>", "", text)  # a picture for those without a script
     assert not re.search(
