@@ -146,7 +146,7 @@ class ComparedChain:
         back = {there: here for here, there in other.canonical.renaming.items()}
         pairs = tuple((p, back[self.canonical.renaming[p]]) for p in self.chain.parameters)
         used = set(self.canonical.symmetries) ^ set(other.canonical.symmetries)
-        return Renaming(pairs, tuple(sorted(used)))
+        return Renaming(pairs, tuple(sorted(symmetry.value for symmetry in used)))
 
     def is_renamed(self, other: "ComparedChain", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns this transfer function into the other: exact."""

@@ -4,6 +4,9 @@ decisions.
 Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which
 code. So nothing is ever invalidated; what changes has another key. Every finished profile is
 stored at once, so a run that is killed resumes there.
+
+All that leaves the engine is read from the text that is stored, whether it was there or has just
+been written: an answer does not depend on who asked before.
 """
 
 import hashlib
@@ -92,11 +95,12 @@ class Engine:
         """The profile, from memory, from the store, or computed and stored."""
         key = profile_key(what, representation, count, settings)
         if key not in self.memo:
-            found = self._stored([key])
-            if key not in found:
-                found[key] = profile_of(what, representation, count, settings)
-                self.store.put_many({key: profile_to_json(found[key])})
-            self.memo[key] = found[key]
+            texts = self.store.get_many([key])
+            if key not in texts:
+                made = profile_of(what, representation, count, settings)
+                texts = {key: profile_to_json(made)}
+                self.store.put_many(texts)
+            self.memo[key] = profile_from_json(texts[key])
         return self.memo[key]
 
     def answer(self, question: Question[T], models: Models, settings: Settings) -> T:
@@ -118,14 +122,14 @@ class Engine:
         computed.
         """
         if audited:
-            return audit(left, right, query)
+            return _read_back(json.dumps(audit(left, right, query).to_dict()))
         content = [*left.content, *right.content, written(query), self.settings.to_dict()]
         key = _key("verdict", *map(str, content))
-        for text in self.store.get_many([key]).values():
-            return Verdict.from_dict(json.loads(text))
-        decided = decide(left, right, query)
-        self.store.put_many({key: json.dumps(decided.to_dict())})
-        return decided
+        texts = self.store.get_many([key])
+        if key not in texts:
+            texts = {key: json.dumps(decide(left, right, query).to_dict())}
+            self.store.put_many(texts)
+        return _read_back(texts[key])
 
     def decisions(
         self,
@@ -287,6 +291,10 @@ def mapped(
     finally:
         for future in futures:
             future.cancel()
+
+
+def _read_back(text: str) -> Verdict:
+    return Verdict.from_dict(json.loads(text))
 
 
 def _key(*content: str) -> str:

@@ -6,6 +6,7 @@ that verdict stands beside it, with evidence of its own. What somebody else wrot
 trust: of every field the type is looked at, and what asks for too much work is refused.
 """
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from fractions import Fraction
@@ -85,14 +86,14 @@ def verdict_file(
 
 
 def as_file(stored: Stored) -> dict[str, Any]:
-    """The file of a verdict that is there."""
+    """The file of a verdict that is there: lists, texts, numbers, as they are read again."""
     query, over_complex = stored.query, stored.over_complex
     asked = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
     pairs = [
         {"left": plain_experiment(here), "right": plain_experiment(there)}
         for here, there in stored.experiments
     ]
-    return {
+    data = {
         "format": FORMAT,
         "program": __version__,
         "models": [_plain_model(model) for model in stored.models],
@@ -102,6 +103,8 @@ def as_file(stored: Stored) -> dict[str, Any]:
         **stored.verdict.to_dict(),
         "over_complex": {} if over_complex is None else over_complex.to_dict(),
     }
+    plain: dict[str, Any] = json.loads(json.dumps(data))
+    return plain
 
 
 def has_more(verdict: Verdict) -> bool:
