@@ -24,6 +24,8 @@ THEOREMS = {
         " one by one"
     ),
 }
+RATIONAL = ("symmetry", "duality")
+"""Theorems whose maps are rational, so that they take real parameters to real ones."""
 
 
 @dataclass(frozen=True, slots=True)

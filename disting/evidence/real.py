@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
 from disting.evidence.decision import Theorem
-from disting.evidence.positive import PositiveFinding
+from disting.evidence.positive import PositiveFinding, Share
 
 Point = tuple[tuple[str, str], ...]  # parameter name, fraction
 
@@ -95,6 +95,17 @@ class BothWays:
     kind: ClassVar[str] = "both ways"
     left: PositiveFinding
     right: PositiveFinding
+
+    @property
+    def share(self) -> Share:
+        """Of the positive models of both that have equivalents: SOMETIMES where some of either have
+        and others have not; UNKNOWN also where one way contradicts the other.
+        """
+        shares = {self.left.share, self.right.share}
+        if len(shares) == 1:
+            return self.left.share
+        known = Share.SOMETIMES in shares and Share.NEVER not in shares
+        return Share.SOMETIMES if known else Share.UNKNOWN
 
     def sentence(self, left: str, right: str) -> str:
         """Both ways in words; a theorem, which holds both ways, once."""

@@ -1,7 +1,6 @@
 """What is known of a pair, with its proof, and how that is said, stored and read."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 from disting.algebra.certainty import Certainty
 from disting.conditions.rule import EXACT, Role, Stage
@@ -12,6 +11,7 @@ from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.domain import Domain
+from disting.model.relation import Relation as Relation
 from disting.model.shown import Shown, summary
 from disting.questions.inclusion import (
     Inclusion,
@@ -19,21 +19,6 @@ from disting.questions.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
-
-
-class Relation(StrEnum):
-    """What is known of a pair over a domain of parameters.
-
-    INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other.
-    DISTINGUISHABLE: those of one of them, at least, have none; the verdict's inclusion and its two
-    shares tell of the other one. SOMETIMES: some parameters have an equivalent and others have
-    none, of two models that are indistinguishable over complex parameters.
-    """
-
-    DISTINGUISHABLE = "distinguishable"
-    INDISTINGUISHABLE = "indistinguishable"
-    SOMETIMES = "sometimes"
-    UNDECIDED = "undecided"
 
 
 def error_bound(certainty: str, safety: int) -> str:

@@ -3,6 +3,7 @@ are at work everywhere.
 """
 
 import csv
+import json
 import os
 import shutil
 import subprocess
@@ -16,6 +17,7 @@ from tests.cli.process import called
 
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
 RULES = """
+from dataclasses import replace
 from disting.algebra.certainty import Certainty, graded
 from disting.evidence.decision import Theorem
 from disting.conditions.finding import Outcome
@@ -23,11 +25,16 @@ from disting.conditions.rule import Role
 
 ALWAYS = Rule("10", Role.NECESSARY, "a matter of course", "both are models")
 NEVER = Rule("11", Role.NECESSARY, "beside the point", "both are something else")
+AGAIN = Rule("12", Role.NECESSARY, "degrees once more", "the degrees are equal")
 MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked ones", "the mark", "M")
 
 
+def _again(left: Profile, right: Profile) -> Finding:
+    return replace(necessary.condition_2(left, right), rule=AGAIN)
+
+
 def _marked(left: Side, right: Side) -> Finding:
-    if {left.name, right.name} != {"A1", "A11"}:
+    if {left.name, right.name} not in ({"A1", "A11"}, {"3:1", "3:11"}):
         return Finding(MARKED, Outcome.INAPPLICABLE, note="not marked")
     return Finding(MARKED, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("duality"))
 
@@ -35,6 +42,7 @@ def _marked(left: Side, right: Side) -> Finding:
 """
 NECESSARY = """    Necessary(ALWAYS, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(ALWAYS, Outcome.HOLDS)),
     Necessary(NEVER, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(NEVER, Outcome.INAPPLICABLE)),
+    Necessary(AGAIN, _n.numbers_of_coefficients, _n.degree_grade, _again, of_degrees=True),
 )
 SUFFICIENT = ("""
 STRUCTURAL = """    Structural(MARKED, _marked),
@@ -97,6 +105,19 @@ def test_it_changes_no_other_verdict(copied):
         "indistinguishable",
         "marked",
     )
+
+
+@pytest.mark.parametrize(
+    ("pair", "rule", "relation"),
+    [(("3:1", "3:11"), "marked", "indistinguishable"), (("3:1", "3:2"), "12", "distinguishable")],
+)
+def test_its_verdict_is_verified(copied, pair, rule, relation):
+    """By evidence of a kind that other rules have too."""
+    written = json.loads(run(copied, "compare", *pair, "--conditions", rule, "--json", "-"))
+    assert (written["relation"], written["decided_by"]) == (relation, rule)
+    path = copied / "verdict.json"
+    path.write_text(json.dumps(written), encoding="utf-8")
+    assert "holds" in run(copied, "verify", "verdict.json")
 
 
 def test_it_is_told_everywhere(copied):

@@ -29,7 +29,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError, InputError
 from disting.evidence.conditions import Renaming
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import RATIONAL, Theorem
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
@@ -46,8 +46,6 @@ NOT_REAL = (
     "over real parameters no rational map is known, real factors are not known to exist or to lack,"
     " and the numbers of equivalents are not odd or not known"
 )
-# theorems whose maps are rational, so that they take real parameters to real ones
-RATIONAL = ("symmetry", "duality")
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +97,8 @@ def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
         raise ContradictionError(
             f"positive equivalents {left.share} one way and {right.share} the other"
         )
-    if Share.UNKNOWN in shares and Share.SOMETIMES not in shares:
+    both = BothWays(left, right)
+    if both.share is Share.UNKNOWN:
         reasons = "; ".join(
             dict.fromkeys(x.reason for x in (left, right) if x.share is Share.UNKNOWN)
         )
@@ -108,14 +107,13 @@ def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
             Outcome.ABANDONED,
             note=f"whether equivalents are positive is not known: {reasons}",
         )
-    outcome = SAME[left.share] if len(shares) == 1 else Outcome.SOMETIMES
     certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
     return Finding(
         rule=ADMISSIBLE,
-        outcome=outcome,
+        outcome=SAME[both.share],
         certainty=certainty,
         safety=safety,
-        evidence=BothWays(left, right),
+        evidence=both,
     )
 
 
