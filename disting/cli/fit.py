@@ -17,6 +17,7 @@ from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import write_mat
+from disting.fit.loop import controller_named
 from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
@@ -32,6 +33,7 @@ FEW = 30  # candidates that are fitted sooner than workers start
 
 def run(options: argparse.Namespace) -> int:
     """Fit, select, print and write."""
+    controller = controller_named(options.controller) if options.controller else None
     given = data(options)
     train, test = given.train, given.test
     candidates = _candidates(options, given)
@@ -52,6 +54,7 @@ def run(options: argparse.Namespace) -> int:
             fixed=dict(options.fix),
             seed=options.seed,
             prune=not options.no_prune,
+            controller=controller,
             method=by_swarm if options.optimiser == "swarm" else None,
             engine=engine,
             executor=pool,

@@ -26,6 +26,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     _structures(candidates)
     _known(candidates)
     _choices(p.add_argument_group("cost and selection"))
+    _control(p.add_argument_group("what it is for"))
     _output(p.add_argument_group("output"))
     add_work(p, jobs=(0, "one for each core if there are many candidates"))
 
@@ -195,6 +196,16 @@ def _choices(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
     group.add_argument("--seed", default="disting", help="of the few random starts")
+
+
+def _control(group: argparse._ArgumentGroup) -> None:
+    """What the model is for."""
+    text = (
+        "a controller around the sensor, such as P=2,I=30,D=0.01,Tf=0.001,loop=velocity (position,"
+        " acceleration; cascade with a position gain V=20), or a JSON file with these names: its"
+        " margins over all structures that are left"
+    )
+    group.add_argument("--controller", metavar="P=..|FILE", help=text)
 
 
 def _output(group: argparse._ArgumentGroup) -> None:

@@ -60,6 +60,7 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
     yield from _excluded(found)
     yield from _set(found)
+    yield from _relied_on(found)
     if found.selected:
         yield ""
         yield from _alternatives(found)
@@ -130,6 +131,14 @@ def _set(found: Selection) -> Iterator[str]:
             yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
         if m.open:
             yield f"    not decided: {', '.join(m.open)}"
+
+
+def _relied_on(found: Selection) -> Iterator[str]:
+    """What holds for all of them."""
+    if found.relied_on:
+        yield ""
+        yield "what you may rely on, for these structures and all that may as well be it (95 %):"
+        yield from (f"  {statement.text}" for statement in found.relied_on)
 
 
 def _differing(member: Member) -> str:

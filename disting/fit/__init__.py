@@ -42,6 +42,9 @@ from disting.fit.joint import Further as Further
 from disting.fit.joint import JointCost as JointCost
 from disting.fit.joint import JointPlant as JointPlant
 from disting.fit.judged import Candidate as Candidate
+from disting.fit.loop import Controller as Controller
+from disting.fit.loop import Margins as Margins
+from disting.fit.loop import margins as margins
 from disting.fit.members import Disagreement as Disagreement
 from disting.fit.members import Member as Member
 from disting.fit.members import Twin as Twin
@@ -60,6 +63,7 @@ from disting.fit.practical import condition_indices as condition_indices
 from disting.fit.practical import importance as importance
 from disting.fit.practical import practical as practical
 from disting.fit.readings import Reading as Reading
+from disting.fit.reliance import Statement as Statement
 from disting.fit.rival import Rival as Rival
 from disting.fit.rival import gain as gain
 from disting.fit.scatter import Scatter as Scatter

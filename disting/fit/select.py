@@ -33,10 +33,12 @@ from disting.fit.exchange import estimates
 from disting.fit.explained import Explanation
 from disting.fit.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.fit.judged import FOLDS, Candidate, judged
+from disting.fit.loop import Controller
 from disting.fit.members import Member, members
 from disting.fit.plant import Complex, Real
 from disting.fit.practical import Thresholds
 from disting.fit.readings import Reading, readings
+from disting.fit.reliance import Statement, statements
 from disting.fit.scatter import Scatter
 from disting.fit.signs import pilot, signed
 from disting.fit.together import alternatives_under_all, learning, representatives_under_all
@@ -66,12 +68,13 @@ class Selection(Shown):
 
     `explanation` is that of the selected candidate, else of the best one; `members`: the
     structures that the data do not exclude, the selected one first, none where nothing explains
-    the data; `readings`: what would fit then; `better`: excluded candidates that fit better than
-    the selected one by more than noise. `margin` is what the selected candidate may lose by to the
-    best one; `saved` counts the candidates that were not fitted because one with the same positive
-    models was (`same_as`, by candidate); `validation` says where the test cost
-    comes from, `judging` is that cost. Where several responses are fitted, `test` is the data of
-    the first one, and `silent` names those that are zero, from which nothing is learned.
+    the data; `readings`: what would fit then; `relied_on`: what holds for all members; `better`:
+    excluded candidates that fit better than the selected one by more than noise. `margin` is what
+    the selected candidate may lose by to the best one; `saved` counts the candidates that were not
+    fitted because one with the same positive models was (`same_as`, by candidate); `validation`
+    says where the test cost comes from, `judging` is that cost. Where several responses are
+    fitted, `test` is the data of the first one, and `silent` names those that are zero, from which
+    nothing is learned.
     """
 
     selected: Candidate | None
@@ -86,6 +89,7 @@ class Selection(Shown):
     explanation: Explanation
     members: tuple[Member, ...]
     readings: tuple[Reading, ...]
+    relied_on: tuple[Statement, ...]
     better: tuple[Candidate, ...]
     silent: tuple[str, ...]
     task: Task = field(repr=False)
@@ -133,6 +137,7 @@ def select(
     fixed: Mapping[str, float] | None = None,
     seed: str = "disting",
     prune: bool = True,
+    controller: Controller | None = None,
     method: Method | None = None,
     engine: Engine | None = None,
     executor: Executor | None = None,
@@ -143,7 +148,8 @@ def select(
     `weights` of amplitude and phase, see `Cost`; `lines` gives each line's weight, such as
     `lines_by_deviation`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
-    and `fixed`, are fitted once; `method` as in `estimates`. An engine with a store resumes
+    and `fixed`, are fitted once; `controller`: one whose margins
+    are told (`reliance`); `method` as in `estimates`. An engine with a store resumes
     interrupted work. Raises InputError.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
@@ -172,6 +178,7 @@ def select(
     said = chosen.explanation
     near = chosen.near if said.explains else ()
     misread = () if said.explains or said.noisy or further else chosen.candidates
+    left = members(near, task, test_cost, within, executor, progress)
     return Selection(
         selected=chosen.selected,
         candidates=chosen.candidates,
@@ -183,8 +190,9 @@ def select(
         same_as={c: other for c, other in first.items() if c != other},
         rule=rule,
         explanation=said,
-        members=members(near, task, test_cost, within, executor, progress),
+        members=left,
         readings=_readings(misread, task, engine.store, executor, progress),
+        relied_on=statements(left, task, controller),
         better=chosen.better,
         silent=tuple(silent),
         task=task,

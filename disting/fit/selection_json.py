@@ -1,5 +1,6 @@
 """A selection as plain data, ready for JSON, and the models in it, read back bit-equal."""
 
+from dataclasses import asdict
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from disting.fit.explained import Explanation
 from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
 from disting.fit.members import Member
+from disting.fit.reliance import Statement
 from disting.fit.select import Selection
 from disting.fit.telling import suspicions
 from disting.model.chain import Chain
@@ -43,6 +45,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "residual_correlation": found.explanation.correlation,
         "fit_percent": _fit_percent(found),
         "not_excluded": [member_to_dict(m) for m in found.members],
+        "relied_on": [_statement_to_dict(s) for s in found.relied_on],
         "suspicions": list(suspicions(found)),
         "rule": found.rule.value,
         "validation": found.validation,
@@ -51,6 +54,12 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "margin": found.margin,
         "sign": found.task.sign,
     } | (_joint_to_dict(found) if len(found.task.cost.parts) > 1 or found.silent else {})
+
+
+def _statement_to_dict(found: Statement) -> dict[str, Any]:
+    """A statement; an end that is not finite is null."""
+    ends = {n: x if isfinite(x) else None for n, x in (("low", found.low), ("high", found.high))}
+    return asdict(found) | ends | {"kind": found.kind.value, "text": found.text}
 
 
 def _joint_to_dict(found: Selection) -> dict[str, Any]:

@@ -1,0 +1,283 @@
+"""What may be relied on whichever of the structures that a fit leaves is the machine: ranges over
+all of them and their uncertainty.
+
+Each structure that was fitted is drawn `DRAWS` times from the normal distribution of the logarithms
+of its parameters (`practical.covariance`), its own fit among the draws; a range holds 95 % of the
+draws of every structure. What behaves as a fitted structure does at the sensor (its twins) has the
+same resonances, antiresonances and margins, so these need no draws of their own; masses and
+responses elsewhere differ, and are those of the twin's own values, of a family those of one of it.
+
+The margins are those of a controller around the sensor of the data (`loop`).
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from math import inf, isfinite, log10, pi
+
+import numpy as np
+
+from disting.fit.estimate import Task
+from disting.fit.judged import Candidate
+from disting.fit.loop import Controller, Margins, margins
+from disting.fit.members import Member
+from disting.fit.modes import oscillating, poles, zeros
+from disting.fit.plant import Complex, Plant, Real
+from disting.fit.practical import covariance
+from disting.model.chain import Chain
+from disting.model.structure import Structure
+
+DRAWS = 100  # of a structure
+WIDEST = 1.0  # standard deviation of a logarithm, where the data do not determine it
+OUTER = 2.5  # percent of the draws on either side that a range leaves out
+SAME = 1.25  # ratio of two frequencies up to which they are one resonance
+ROOTS = {"antiresonance": zeros, "resonance": poles}
+
+
+class Kind(StrEnum):
+    """What a statement is of: a quantity, how far responses lie apart, whether a loop is stable."""
+
+    RANGE = "range"
+    APART = "apart"
+    STABLE = "stable"
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """`name` lies between `low` and `high` [`unit`] in `holds` of `total` structures; an infinite
+    end has no bound. `note` says what else has to be known.
+    """
+
+    kind: Kind
+    name: str
+    low: float
+    high: float
+    unit: str
+    holds: int
+    total: int
+    note: str = ""
+
+    @property
+    def text(self) -> str:
+        """In words.
+
+        >>> Statement(Kind.RANGE, "phase margin", 41.2, 44.0, "deg", 7, 7).text
+        'phase margin: 41.2 to 44 deg, whichever it is'
+        """
+        whose = (
+            "whichever it is" if self.holds == self.total else f"in {self.holds} of {self.total}"
+        )
+        note = f" ({self.note})" if self.note else ""
+        return f"{self.name}: {self.size}, {whose}{note}"
+
+    @property
+    def size(self) -> str:
+        """The range, in words."""
+        low, high = (f"{x:.3g}" for x in (self.low, self.high))
+        unit = f" {self.unit}" if self.unit else ""
+        match self.kind:
+            case Kind.STABLE:
+                return "stable"
+            case Kind.APART:
+                return f"at most {high}{unit} apart"
+        if not isfinite(self.high):
+            return f"over {low}{unit}"
+        return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
+
+
+@dataclass(frozen=True, eq=False)
+class _Drawn:
+    """A structure that was fitted, with its parameters drawn, shape (n, n_p), its own first, and
+    the number of structures that do the same at the sensor.
+    """
+
+    chain: Chain
+    p: Real
+    alike: int
+
+
+def statements(
+    left: Sequence[Member], task: Task, controller: Controller | None = None
+) -> tuple[Statement, ...]:
+    """What holds for all structures that the data do not exclude; nothing where none is left.
+
+    Raises InputError where no margins can be told.
+    """
+    drawn = [_Drawn(m.candidate.chain, draws(m.candidate, task), 1 + len(m.twins)) for m in left]
+    if not drawn:
+        return ()
+    omega = np.unique(np.concatenate([part.measured.omega for part in task.cost.parts]))
+    several = sum(one.alike for one in drawn) > 1
+    return (
+        _inertia(left, drawn),
+        *_roots(drawn, (float(omega[0]) / (2 * pi), float(omega[-1]) / (2 * pi))),
+        *((_at_the_sensor(drawn, omega), _at_the_load(left, omega)) if several else ()),
+        *(_margins(drawn, controller, omega) if controller else ()),
+    )
+
+
+def draws(candidate: Candidate, task: Task, count: int = DRAWS) -> Real:
+    """Parameters of the chain, shape (count, n_p): the fit, then draws near it.
+
+    A direction that the data do not determine is drawn with a standard deviation of `WIDEST`, what
+    is given not at all.
+    """
+    names = task.names(candidate.chain)
+    p = np.array([candidate.estimate.parameters[name] for name in names])
+    free = task.box(names).free
+    whole = np.tile(p, (count, 1))
+    if free.any():
+        columns = task.cost.of(task.plant(candidate.chain), p)[1][:, free]
+        normal = np.random.default_rng(0).normal(size=(count - 1, int(free.sum())))
+        whole[1:, free] *= np.exp(normal @ _half(covariance(columns, candidate.noise)))
+    return whole[:, : len(candidate.chain.parameters)]
+
+
+def _half(spread: Real) -> Real:
+    """F with F'F the covariance of ln p, no direction wider than `WIDEST`."""
+    if not np.all(np.isfinite(spread)):
+        return WIDEST * np.eye(len(spread))
+    sizes, directions = np.linalg.eigh(spread)
+    kept = np.minimum(np.sqrt(np.maximum(sizes, 0.0)), WIDEST)
+    return np.asarray(kept[:, None] * directions.T)
+
+
+def _spread(values: Iterable[float]) -> tuple[float, float]:
+    """Range of the draws of one structure, the outer ones left out."""
+    known = np.array(list(values))
+    if not np.all(np.isfinite(known)):
+        return (float(known.min()), inf)
+    low, high = np.percentile(known, [OUTER, 100 - OUTER])
+    return float(low), float(high)
+
+
+def _joined(
+    name: str,
+    unit: str,
+    ranges: Sequence[tuple[float, float]],
+    numbers: tuple[int, int],
+    note: str = "",
+) -> Statement:
+    low, high = min(low for low, _ in ranges), max(high for _, high in ranges)
+    return Statement(Kind.RANGE, name, low, high, unit, *numbers, note)
+
+
+def _inertia(left: Sequence[Member], drawn: Sequence[_Drawn]) -> Statement:
+    """Of all masses."""
+    ranges = []
+    for member, one in zip(left, drawn, strict=True):
+        at = [i for i, name in enumerate(one.chain.parameters) if name[0] == "m"]
+        ranges.append(_spread(one.p[:, at].sum(axis=1)))
+        for twin in member.twins:
+            total = sum(value for name, value in twin.parameters.items() if name[0] == "m")
+            ranges.append((total, total))
+    return _joined("total inertia", "", ranges, (len(ranges), len(ranges)))
+
+
+def _roots(drawn: Sequence[_Drawn], band: tuple[float, float]) -> Iterator[Statement]:
+    """Resonances and antiresonances within the band [Hz] of the first structure, and what the
+    others have nearest.
+    """
+    total = sum(one.alike for one in drawn)
+    for kind, roots_of in ROOTS.items():
+        nominal = [oscillating(_roots_at(one, roots_of, 0)) for one in drawn]
+        inside = [r for r in nominal[0] if band[0] <= abs(r) / (2 * pi) <= band[1]]
+        for number, root in enumerate(inside, 1):
+            near = [(one, _nearest(roots, root)) for one, roots in zip(drawn, nominal, strict=True)]
+            having = [(one, own) for one, own in near if own is not None]
+            follow = [_followed(one, roots_of, own) for one, own in having]
+            numbers = (sum(one.alike for one, _ in having), total)
+            name = f"{kind} {number}"
+            hertz = [_spread(abs(r) / (2 * pi) for r in roots) for roots in follow]
+            damping = [_spread(-r.real / abs(r) for r in roots) for roots in follow]
+            yield _joined(name, "Hz", hertz, numbers)
+            yield _joined(f"damping ratio of {name}", "", damping, numbers)
+
+
+def _roots_at(one: _Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
+    structure = one.chain.structure
+    return roots_of(structure, one.p[k, : len(structure.parameters)])
+
+
+def _followed(one: _Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
+    """The root in all draws in which it is still there."""
+    found = (
+        _nearest(oscillating(_roots_at(one, roots_of, k)), root, inf) for k in range(len(one.p))
+    )
+    return [r for r in found if r is not None]
+
+
+def _nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> complex | None:
+    """The root of the nearest frequency, if its ratio is no larger."""
+    apart = [(max(abs(r) / abs(root), abs(root) / abs(r)), r) for r in roots]
+    size, nearest = min(apart, key=lambda x: x[0], default=(inf, root))
+    return nearest if size <= ratio and isfinite(size) else None
+
+
+def _at_the_sensor(drawn: Sequence[_Drawn], omega: Real) -> Statement:
+    """How far the fitted responses lie apart."""
+    fitted = [Plant(one.chain.structure, omega).response(one.p[0]) for one in drawn]
+    total = sum(one.alike for one in drawn)
+    return _apart("response at the sensor", fitted, omega, total)
+
+
+def _apart(name: str, responses: Sequence[Complex], omega: Real, total: int) -> Statement:
+    """The largest ratio of two amplitudes at one frequency [dB]."""
+    level = 20 * np.log10(np.abs(np.array(responses)))
+    size = level.max(axis=0) - level.min(axis=0)
+    at = int(np.argmax(size))
+    note = f"largest at {omega[at] / (2 * pi):.3g} Hz, between {_hertz(omega)} Hz"
+    return Statement(Kind.APART, name, 0.0, float(size[at]), "dB", total, total, note)
+
+
+def _hertz(omega: Real) -> str:
+    return f"{omega[0] / (2 * pi):.3g} and {omega[-1] / (2 * pi):.3g}"
+
+
+def _at_the_load(left: Sequence[Member], omega: Real) -> Statement:
+    """How far the positions of the loads per force lie apart, of fitted structures and twins."""
+    models = [(m.candidate.chain, m.candidate.estimate.parameters) for m in left]
+    models += [(twin.chain, twin.parameters) for m in left for twin in m.twins]
+    responses = [
+        Plant(load, omega).response(np.array([values[n] for n in load.parameters]))
+        for load, values in ((_at_load(chain), values) for chain, values in models)
+    ]
+    return _apart("position of the load per force", responses, omega, len(models))
+
+
+def _at_load(chain: Chain) -> Structure:
+    """The structure with the position of the mass of the free row that is farthest from the force
+    for its sensor.
+    """
+    ports, first, last = chain.structure.ports, chain.gap + 1, chain.n_masses
+    far = last if last - ports.act_plus >= ports.act_plus - first else first
+    return replace(
+        chain.structure, ports=ports._replace(meas_minus=0, meas_plus=far), sensor_order=0
+    )
+
+
+def _margins(drawn: Sequence[_Drawn], controller: Controller, omega: Real) -> Iterator[Statement]:
+    """Stability, then what `Margins` holds, over all draws of all structures."""
+    total = sum(one.alike for one in drawn)
+    known = [[margins(one.chain, p, controller) for p in one.p] for one in drawn]
+    firm = [one.alike for one, own in zip(drawn, known, strict=True) if all(m.stable for m in own)]
+    numbers = (total, total)
+    yield Statement(Kind.STABLE, "closed loop", 1.0, 1.0, "", sum(firm), total)
+    if sum(firm) < total:
+        return  # margins of an unstable loop say nothing
+    crossed = _ranged(known, lambda m: m.crossover)
+    low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
+    outside = any(not (low <= x <= high) for pair in crossed for x in pair)
+    note = "the crossover lies outside the measured band" if outside else ""
+    yield _joined("crossover", "Hz", crossed, numbers, note)
+    yield _joined("phase margin", "deg", _ranged(known, lambda m: m.phase), numbers, note)
+    gains = _ranged(known, lambda m: 20 * log10(m.gain) if isfinite(m.gain) else inf)
+    yield _joined("gain margin", "dB", gains, numbers)
+    yield _joined("peak of the sensitivity", "", _ranged(known, lambda m: m.sensitivity), numbers)
+    yield _joined("bandwidth", "Hz", _ranged(known, lambda m: m.bandwidth), numbers)
+
+
+def _ranged(
+    known: Sequence[Sequence[Margins]], value: Callable[[Margins], float]
+) -> list[tuple[float, float]]:
+    return [_spread(map(value, own)) for own in known]

@@ -1,0 +1,71 @@
+"""What holds for all structures that a fit leaves: the true machine is within, twins count."""
+
+import json
+
+import numpy as np
+import pytest
+
+from disting.fit.loop import Controller, margins
+from disting.fit.modes import oscillating, poles
+from disting.fit.reliance import Kind, draws
+from disting.fit.select import select
+from disting.fit.selection_json import selection_to_dict
+from disting.model.chain import Chain
+from tests.fit.drives import response
+
+ROW = Chain(3, damped=True)
+VALUES = {"m1": 1.0, "m2": 0.6, "m3": 0.4, "k12": 3e4, "k23": 2e4, "d12": 8.0, "d23": 3.0}
+LAW = Controller(P=60.0, I=400.0)
+
+
+@pytest.fixture(scope="module")
+def left():
+    train, test = (response(ROW, VALUES, noise=0.01, seed=s) for s in (1, 2))
+    return select(train, [ROW, Chain(2, damped=True)], test=test, controller=LAW)
+
+
+def test_the_true_machine_lies_within_what_is_said(left):
+    said = {s.name: s for s in left.relied_on}
+    p = np.array(list(VALUES.values()))
+    true = {f"resonance {i}": abs(r) / (2 * np.pi) for i, r in
+            enumerate(oscillating(poles(ROW.structure, p)), 1)}  # fmt: skip
+    own = margins(ROW, p, LAW)
+    true |= {"crossover": own.crossover, "phase margin": own.phase, "bandwidth": own.bandwidth}
+    true |= {"peak of the sensitivity": own.sensitivity, "total inertia": 2.0}
+    assert len(true) == 7 and own.stable and said["closed loop"].kind is Kind.STABLE
+    for name, value in true.items():
+        slack = 0.3 * (said[name].high - said[name].low)  # two draws of noise in forty lie outside
+        assert said[name].low - slack <= value <= said[name].high + slack, name
+
+
+def test_twins_share_what_the_sensor_shows_and_not_masses_nor_loads(left):
+    twins = left.members[0].twins
+    said = {s.name: s for s in left.relied_on}
+    assert "3:11" in [t.name for t in twins]
+    assert said["resonance 1"].total == said["resonance 1"].holds == 1 + len(twins)
+    assert said["total inertia"].high > 1.5 * said["total inertia"].low
+    assert said["response at the sensor"].high < 1e-9
+    assert said["position of the load per force"].high > 1.0
+    for twin in twins:
+        p = np.array([twin.parameters[name] for name in twin.chain.parameters])
+        fit = left.members[0].candidate
+        same = margins(fit.chain, np.array(list(fit.estimate.parameters.values())), LAW)
+        assert margins(twin.chain, p, LAW).phase == pytest.approx(same.phase, rel=1e-3)
+
+
+def test_draws_scatter_as_the_standard_errors_say(left):
+    fit = left.members[0].candidate
+    drawn = draws(fit, left.task, 4000)
+    errors = np.log(drawn).std(axis=0)
+    known = [fit.practical.relative_errors[name] for name in fit.chain.parameters]
+    assert errors == pytest.approx(known, rel=0.1)
+    assert drawn[0] == pytest.approx(list(fit.estimate.parameters.values()))
+
+
+def test_a_file_of_the_fit_holds_the_statements(left):
+    plain = json.loads(json.dumps(selection_to_dict(left), allow_nan=False))
+    assert [s["text"] for s in plain["relied_on"]] == [s.text for s in left.relied_on]
+    ends = {s["name"]: s["high"] for s in plain["relied_on"]}
+    assert (
+        ends["gain margin"] is None
+    )  # collocated velocity without dead time: as much as one likes
