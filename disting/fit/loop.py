@@ -87,7 +87,7 @@ def controller_named(text: str) -> Controller:
     """
     try:
         pairs = _from_file(Path(text)) if text.endswith(".json") else _pairs(text)
-        sizes = {n: v if n == "loop" else float(v) for n, v in pairs.items()}
+        sizes = {n: v if n == "loop" else float(str(v)) for n, v in pairs.items()}
         return Controller(**sizes)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise InputError(f"{FORM}, not {shown(text)}") from None
@@ -125,7 +125,7 @@ class Margins:
 
 def loop_gain(chain: Chain, p: Real, controller: Controller, omega: Real) -> Complex:
     """L(j omega), shape (n_f,), at angular frequencies [rad/s]."""
-    s = 1j * omega
+    s: Complex = np.asarray(1j * omega, dtype=complex)
     receptance = Plant(chain.structure, omega).response(p) / s**chain.sensor.order
     return np.asarray(controller.gain(s) * controller.of_position(s) * receptance)
 
@@ -135,7 +135,8 @@ def margins(chain: Chain, p: Real, controller: Controller) -> Margins:
     for a chain with a resonance that nothing damps, and where L does not end below 1.
     """
     omega = _grid(chain, p, controller)
-    s, gain = 1j * omega, loop_gain(chain, p, controller, omega)
+    s: Complex = np.asarray(1j * omega, dtype=complex)
+    gain = loop_gain(chain, p, controller, omega)
     if abs(gain[-1]) > SMALL:
         raise InputError("the loop gain does not fall below 1: give the differentiator a filter Tf")
     size, turned = np.abs(gain), np.abs(np.angle(-gain))
@@ -145,8 +146,10 @@ def margins(chain: Chain, p: Real, controller: Controller) -> Margins:
     lost = np.flatnonzero(tracked < 10 ** (-3 / 20))
     return Margins(
         stable=_unstable_poles(gain, _growth(chain, controller)) == 0,
-        crossover=_crossed(omega, size, falling[0]) / (2 * pi) if len(falling) else float("nan"),
-        phase=min((_between(size, turned, k) for k in crossings), default=inf) * 180 / pi,
+        crossover=_crossed(omega, size, int(falling[0])) / (2 * pi)
+        if len(falling)
+        else float("nan"),
+        phase=min((_between(size, turned, int(k)) for k in crossings), default=inf) * 180 / pi,
         gain=_gain_margin(gain),
         sensitivity=float(np.max(1 / np.abs(1 + gain))),
         bandwidth=float(omega[lost[0]]) / (2 * pi) if len(lost) else inf,
