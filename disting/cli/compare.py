@@ -24,7 +24,7 @@ from disting.cli.plain import keep_apart
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
-from disting.experiments import Places, named
+from disting.experiments import Experiment, MeasuredChain, Places, moved, named
 from disting.general import AnyModel, MatrixModel, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
@@ -160,39 +160,55 @@ def _under_experiments(chains: Sequence[Chain], asked: Query, options: argparse.
     left, right = chains
     with engine_for(options) as (engine, _, _progress):
         found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
-    experiments = list(dict.fromkeys(named(text).experiment.text for text in options.also))
+    asked_for = [named(text).experiment for text in options.also]
+    experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
-    print("\n".join([*_every_way(found, chains), "", *lines]))
+    print("\n".join([*_every_way(found, chains, asked_for), "", *lines]))
     return 0
 
 
-def _every_way(found: Everywhere, chains: Sequence[Chain]) -> Iterator[str]:
-    """One way in full, several with what is common to them."""
+def _every_way(
+    found: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
+) -> Iterator[str]:
+    """One way in full, several with what is common to them; one and the same chain is drawn with
+    the experiments of each side.
+    """
+    left, right = names_of(*chains)
     if len(found.verdicts) == 1:
         places, verdict = found.verdicts[0]
-        yield _explained(verdict, list(map(text_drawing, chains)))
+        drawings = list(map(text_drawing, chains))
+        if left == right:
+            sides = experiments, [moved(e, places) for e in experiments]
+            drawings = [_drawn(chains[0], side) for side in sides]
+        yield _explained(verdict, drawings)
         yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
-        yield f"places     {_placed(places, verdict)}"
+        yield f"places     {_placed(places, left, right)}"
         return
-    verdicts = [verdict for _, verdict in found.verdicts]
-    first = verdicts[0]
+    other = f"the other {right}" if left == right else right
     told = {
         Answer.SURELY: "told apart, wherever the places are in {}",
         Answer.NEVER: "not told apart, wherever the places are in {}",
         Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
         Answer.UNKNOWN: "not known for all places in {}",
     }[found.answer]
-    yield f"{found.answer.upper()}: {first.left} and {first.right} are {told.format(first.right)}"
+    yield f"{found.answer.upper()}: {left} and {other} are {told.format(other)}"
     yield ""
     for places, verdict in found.verdicts:
-        yield f"  {_placed(places, verdict)}: {verdict.sentence}"
+        yield f"  {_placed(places, left, other)}: {verdict.sentence}"
         yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
 
 
-def _placed(places: Places, verdict: Verdict) -> str:
+def _drawn(chain: Chain, experiments: Sequence[Experiment]) -> str:
+    """A chain as it is, and where force and sensor are in each of the experiments."""
+    ports = (entry.attached for entry in MeasuredChain(chain, tuple(experiments)).entries)
+    drawings = (text_drawing(chain), *(text_drawing(chain, each) for each in ports))
+    return " | ".join(dict.fromkeys(drawings))
+
+
+def _placed(places: Places, left: str, right: str) -> str:
     """Which mass is which."""
     pairs = ", ".join(f"{a}/{b}" for a, b in places)
-    return f"masses {pairs} of {verdict.left}/{verdict.right}"
+    return f"masses {pairs} of {left}/{right}"
 
 
 def decided(

@@ -1,7 +1,7 @@
 """A chain in one line of text: for tables in a terminal."""
 
 from disting.model.chain import Chain
-from disting.model.structure import Damper, Element, GroundDamper, Spring
+from disting.model.structure import Damper, Element, GroundDamper, Ports, Spring
 
 LEGEND = (
     "# ground, ~ spring, = spring and damper, comma: ground damper,\n"
@@ -9,8 +9,9 @@ LEGEND = (
 )
 
 
-def text_drawing(chain: Chain) -> str:
-    """The chain from left to right; references to the ground are not drawn.
+def text_drawing(chain: Chain, ports: Ports | None = None) -> str:
+    """The chain from left to right, with its own ports or others; references to the ground are not
+    drawn.
 
     >>> ports = {"act_minus": 1, "act_plus": 2, "meas_minus": 1, "meas_plus": 3}
     >>> text_drawing(Chain(3, gap=1, **ports, damped=True))
@@ -19,7 +20,7 @@ def text_drawing(chain: Chain) -> str:
     elements = set(chain.structure.elements)
     parts = ["#" + _joint(elements, 0)] if Spring(0) in elements else []
     for i in range(1, chain.n_masses + 1):
-        parts.append(f"[{i}{_roles(chain, i)}]" + "," * (GroundDamper(i) in elements))
+        parts.append(f"[{i}{_roles(ports or chain, i)}]" + "," * (GroundDamper(i) in elements))
         parts.append(_joint(elements, i) if i < chain.n_masses else "")
     return "".join(parts)
 
@@ -30,11 +31,6 @@ def _joint(elements: set[Element], i: int) -> str:
     return "=" if Damper(i) in elements else "~"
 
 
-def _roles(chain: Chain, i: int) -> str:
-    places = {
-        "F": chain.act_plus,
-        "f": chain.act_minus,
-        "S": chain.meas_plus,
-        "s": chain.meas_minus,
-    }
+def _roles(at: Chain | Ports, i: int) -> str:
+    places = {"F": at.act_plus, "f": at.act_minus, "S": at.meas_plus, "s": at.meas_minus}
     return "".join(sign for sign, at in places.items() if at == i)

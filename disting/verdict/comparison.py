@@ -128,7 +128,7 @@ def sides_of(
     # as they are: what a verdict's evidence says is then of the chains that were given
     if len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b)):
         return Sides(*plain, tuple(notes))
-    here, there = (side.name for side in plain)
+    here, there = names_under(plain[0].name, plain[1].name, experiments)
     return Sides(engine.measured_subject(here, a), engine.measured_subject(there, b), tuple(notes))
 
 
@@ -164,6 +164,26 @@ def names_of(left: Chain, right: Chain) -> tuple[str, str]:
     if names[0] == names[1] and left != right:
         return f"the model with {left}", f"the model with {right}"
     return names
+
+
+def names_under(
+    left: str, right: str, experiments: Sequence[tuple[Experiment, Experiment]]
+) -> tuple[str, str]:
+    """What two chains are called under experiments: one and the same chain by those that differ.
+
+    >>> names_under("3:1", "3:1", [(Experiment(sensor=2), Experiment(sensor=3))])
+    ('3:1 with sensor 2', '3:1 with sensor 3')
+    """
+    differing = [pair for pair in experiments if pair[0] != pair[1]]
+    if left != right or not differing:
+        return left, right
+    a, b = (" and with ".join(map(_done, side)) for side in zip(*differing, strict=True))
+    return f"{left} with {a}", f"{right} with {b}"
+
+
+def _done(experiment: Experiment) -> str:
+    """What is done in it."""
+    return experiment.text if experiment != Experiment() else "nothing done"
 
 
 def refuse_ports(models: Sequence[AnyModel]) -> None:

@@ -2,9 +2,12 @@ import json
 
 import pytest
 
-from disting import Chain, Experiment, Family, InputError, Query, View, compare_everywhere
+from disting import Chain, Engine, Experiment, Family, InputError, Query, View, compare_everywhere
 from disting.cli import main
 from disting.experiments import moved, named, ways
+from disting.verdict.comparison import sides_of
+from disting.verdict.verdict_file import verdict_file
+from disting.verdict.verification import Standing, verify
 
 A = Family(3, damped=True)
 COMPLEX = Query(View.EXACT)
@@ -21,6 +24,7 @@ COMPLEX = Query(View.EXACT)
         ("lock=1/3+2", Experiment(locked=(1, 2)), ((1, 3),)),
         ("inertia=1:0.5,inertia=2:1/3", Experiment(inertias={1: "1/2", 2: "1/3"}), ()),
         ("spring=2/1:100", Experiment(springs={2: 100}), ((2, 1),)),
+        ("brake=2/1:1e-3,brake=1:2", Experiment(brakes={1: 2, 2: "1/1000"}), ((2, 1),)),
         ("inertia=1:generic", Experiment(inertias={1: "generic"}), ()),
     ],
 )
@@ -112,6 +116,56 @@ def test_command_line(capsys):
     assert code == 0 and out.out.startswith("DEPENDS ON THE PLACES: 3:2 and 3:5")
     code, out = told(capsys, "3:2", "3:5", "--also", "lock=2/2", "--domain", "complex")
     assert code == 0 and "nothing is learned from experiment 2" in out.out
+
+
+def test_one_chain_is_told_apart_by_its_experiments(capsys):
+    code, out = told(capsys, "3:1", "3:1", "--also", "sensor=2/3")
+    first, second = "3:1 with sensor 2", "3:1 with sensor 3"
+    assert code == 0 and f"{first} and {second} are distinguishable" in out.out
+    assert f"  {first}  [1FS]=[2]=[3] | [1F]=[2S]=[3]\n" in out.out
+    assert f"  {second}  [1FS]=[2]=[3] | [1F]=[2]=[3S]\n" in out.out
+    assert "places     masses 2/3 of 3:1/3:1" in out.out
+    code, out = told(capsys, "3:1", "3:1", "--also", "brake=2:1")
+    assert out.out.startswith("DEPENDS ON THE PLACES: 3:1 and the other 3:1 are told apart or not")
+    assert "masses 2/1 of 3:1/the other 3:1: 3:1 with brake 1 at mass 2 and 3:1 with" in out.out
+
+
+@pytest.mark.parametrize(
+    ("experiments", "names"),
+    [
+        ([], ("3:1", "3:1")),
+        ([(Experiment(sensor=2), Experiment(sensor=2))], ("3:1", "3:1")),
+        (
+            [(Experiment(), Experiment(locked=2))],
+            ("3:1 with nothing done", "3:1 with mass 2 locked"),
+        ),
+        (
+            [
+                (Experiment(sensor=2), Experiment(sensor=2)),
+                (Experiment(brakes={1: 2}), Experiment(brakes={3: 2})),
+                (Experiment(force=2), Experiment(force=3)),
+            ],
+            (
+                "3:1 with brake 2 at mass 1 and with force 2",
+                "3:1 with brake 2 at mass 3 and with force 3",
+            ),
+        ),
+    ],
+)
+def test_names_under_experiments(experiments, names):
+    asked = [(Experiment(), Experiment()), *experiments]
+    sides = sides_of(A[1], A[1], asked, Engine())
+    assert (sides.left.name, sides.right.name) == names
+    stored = json.loads(json.dumps(verdict_file(A[1], A[1], experiments=asked)))
+    assert (stored["left"], stored["right"]) == names
+    assert verify(stored).standing is Standing.HOLDS
+    assert verify(stored | {"left": "3:4"}).standing is Standing.FAILS
+
+
+def test_two_chains_have_names_of_their_own():
+    pair = [(Experiment(sensor=2), Experiment(sensor=3))]
+    sides = sides_of(A[1], A[4], [(Experiment(), Experiment()), *pair], Engine())
+    assert (sides.left.name, sides.right.name) == ("3:1", "3:4")
 
 
 def test_command_line_as_json(capsys):
