@@ -95,7 +95,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
         for name, some in _by_split(given, other, large).items()
     }
     for told in found.values():
-        if all(why is not None and why[0] in SUPPORTS for _, why in told):
+        if told and all(why is not None and why[0] in SUPPORTS for _, why in told):
             return RowsInside(True, tuple(_step(p, why) for p, why in told if why is not None)), 0
     if not _covered(given, other, f"{seed}:{small}:poles"):
         return None

@@ -16,8 +16,9 @@ without bound) D loses its leading coefficients, and the relative degree falls.
 Projections. With equally many poles c is constant, and the limit of the leading coefficients is not
 0. So the coefficients of N/d and of a monic d converge, which are regular functions of the
 parameters, and V1 in V2 gives rank1(S) <= rank2(S) for every set S of them; what is constant in V2
-is so in V1. A dead time Td is one more of them, for exp(-Td s) is no limit of rational functions of
-bounded degrees but for Td -> 0, and Td does not change the limits of the others.
+is so in V1. A dead time Td is one more of them: N_k and D_k scaled each for itself converge to
+polynomials other than 0, so where t_k exp(-Td_k s) N_k/D_k converges at infinitely many real s to
+what is not 0, t_k and Td_k converge too, and a factor exp(-Td s) is rational for Td = 0 only.
 
 Finite elements. With masses and T1 other than 0 and finite, the leading coefficient of D, a product
 of them, is not 0, and no special value raises the degree of N: no relative degree is lower than
