@@ -13,10 +13,11 @@ from disting.cli.fit_told import told
 from disting.cli.output import emitted
 from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable
+from disting.files import write_whole
 from disting.fit.admissible import Rule
 from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
-from disting.fit.export import write_mat
+from disting.fit.export import control_script, write_mat
 from disting.fit.loop import controller_named
 from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
@@ -116,14 +117,12 @@ def _write(
     test: FrequencyResponse | None,
     options: argparse.Namespace,
 ) -> None:
-    from disting.report.fit import write_fit_report
+    from disting.report.fit import exported, write_fit_report
 
     names = found.selected.practical.names if options.profiles and found.selected else ()
     write_fit_report(found, options.out, train, test, profiles=names, site=options.site)
-    if found.selected:
-        write_mat(
-            options.out / "model.mat",
-            found.selected.chain,
-            found.selected.estimate.parameters,
-            found.task.sign,
-        )
+    models = exported(found, train)
+    if models:
+        write_mat(options.out / "model.mat", models, found.task.sign)
+        script = control_script(models, found.task.sign)
+        write_whole(options.out / "models.py", script.encode())

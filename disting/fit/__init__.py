@@ -30,11 +30,14 @@ from disting.fit.estimate import Task as Task
 from disting.fit.exchange import estimates as estimates
 from disting.fit.explained import Explanation as Explanation
 from disting.fit.explained import Miss as Miss
+from disting.fit.export import Exported as Exported
+from disting.fit.export import control_script as control_script
 from disting.fit.export import predicted as predicted
 from disting.fit.export import state_space as state_space
 from disting.fit.export import to_control as to_control
 from disting.fit.export import to_control_transfer_function as to_control_transfer_function
 from disting.fit.export import write_mat as write_mat
+from disting.fit.export import zero_pole as zero_pole
 from disting.fit.fitted import Confidence as Confidence
 from disting.fit.fitted import confidence as confidence
 from disting.fit.fitted import fit_percent as fit_percent

@@ -1,7 +1,8 @@
-"""The selected model for other programs: state space (20) to (23), python-control, MATLAB; as JSON:
-`plain`.
+"""Models with numbers for other programs: state space (20) to (23), zeros and poles, MATLAB,
+python-control. As JSON: `selection_json`.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -12,8 +13,8 @@ import numpy as np
 from disting.errors import InputError
 from disting.files import write_whole
 from disting.fit.modes import poles, zeros
-from disting.fit.plant import Plant, Real
-from disting.model.chain import Chain, Sensor
+from disting.fit.plant import Complex, Plant, Real
+from disting.model.chain import Chain
 from disting.model.shown import plural, summary
 from disting.simulation import matrices, port_vectors
 
@@ -92,22 +93,37 @@ def to_control_transfer_function(
     """A python-control TransferFunction, without the dead time, from poles, zeros and gain;
     needs disting[control].
     """
-    p = np.array([values[name] for name in chain.parameters])
-    bottom, top = (
-        np.atleast_1d(np.poly(roots(chain.structure, p))).real for roots in (poles, zeros)
-    )
-    at = 2.0 * np.abs(poles(chain.structure, p)).max() + 1.0  # a real point away from all of them
-    plain = Chain(
-        *chain.indices,
-        damped=chain.damped,
-        ground_dampers=chain.ground_dampers,
-        sensor=Sensor.POSITION,
-    )
-    whole = _real_response(plain, {name: values[name] for name in plain.parameters}, at)
-    gain = whole * np.polyval(bottom, at) / np.polyval(top, at)
-    top = sign * gain * np.append(top, np.zeros(chain.sensor.order))
-    bottom = np.polymul(bottom, [values["T1"], 1.0]) if chain.lag else bottom
-    return _control().TransferFunction(top, bottom)
+    found = zero_pole(chain, values, sign)
+    top, bottom = (np.atleast_1d(np.poly(roots)).real for roots in (found.zeros, found.poles))
+    return _control().TransferFunction(found.gain * top, bottom)
+
+
+@dataclass(frozen=True, eq=False)
+class ZeroPole:
+    """gain prod(s - z) / prod(s - p), roots in rad/s."""
+
+    zeros: Complex
+    poles: Complex
+    gain: float
+
+
+def zero_pole(chain: Chain, values: dict[str, float], sign: int = 1) -> ZeroPole:
+    """Zeros, poles and gain of a chain with numbers, without the dead time.
+
+    >>> found = zero_pole(Chain(1), {"m1": 2.0})
+    >>> len(found.zeros), len(found.poles), found.gain
+    (2, 2, 0.5)
+    """
+    structure = chain.structure
+    p = np.array([values[name] for name in structure.parameters])
+    bottom, top = poles(structure, p), zeros(structure, p)
+    at = 2.0 * np.abs(bottom).max() + 1.0  # a real point away from all of them
+    ratio = np.prod(at - bottom) / np.prod(at - top)
+    gain = sign * _real_response(chain, values, at) * float(np.real(ratio))
+    top = np.append(top, np.zeros(chain.sensor.order))
+    if chain.lag:
+        bottom, gain = np.append(bottom, -1 / values["T1"]), gain / values["T1"]
+    return ZeroPole(top, bottom, gain)
 
 
 def _real_response(chain: Chain, values: dict[str, float], s: float) -> float:
@@ -127,14 +143,70 @@ def _control() -> Any:
     return control
 
 
-def write_mat(path: Path, chain: Chain, values: dict[str, float], sign: int = 1) -> None:
-    """A, B, C, D and delay as a MATLAB v5 file; the same model gives the same bytes."""
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """A structure with numbers under its name, such as 3:11+b1, and the units of its parameters,
+    "" where the data do not tell.
+    """
+
+    name: str
+    chain: Chain
+    values: dict[str, float]
+    units: dict[str, str]
+
+
+def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
+    """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
+    name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
+    bytes.
+    """
     from scipy.io import savemat
 
-    ss = state_space(chain, values, sign)
+    whole = np.empty(len(models), dtype=object)
+    whole[:] = [_plain(model, sign) for model in models]
     content = BytesIO()
-    savemat(content, {"A": ss.A, "B": ss.B, "C": ss.C, "D": ss.D, "delay": ss.delay})
+    savemat(content, {n: whole[0][n] for n in (*"ABCD", "delay")} | {"models": whole})
     write_whole(path, MAT_HEAD + content.getvalue()[len(MAT_HEAD) :])
+
+
+def _plain(model: Exported, sign: int) -> dict[str, Any]:
+    """What the fields of a MATLAB struct are."""
+    ss = state_space(model.chain, model.values, sign)
+    zpk = zero_pole(model.chain, model.values, sign)
+    return {
+        "name": model.name,
+        **{n: getattr(ss, n) for n in (*"ABCD", "delay")},
+        **{"z": zpk.zeros[:, None], "p": zpk.poles[:, None], "k": zpk.gain},
+        "parameters": model.values,
+        "units": model.units,
+    }
+
+
+def control_script(models: Sequence[Exported], sign: int = 1) -> str:
+    """A Python program that makes a python-control StateSpace of each model, by name."""
+    return "".join([_HEAD, *(_entry(model, sign) for model in models), "}\n", _DELAYS, *(
+        f"    {model.name!r}: {model.values.get('Td', 0.0)!r},\n" for model in models
+    ), "}\n"])  # fmt: skip
+
+
+_HEAD = """\"\"\"Structures that a measurement leaves, for python-control.\"\"\"
+
+import control
+
+models = {
+"""
+_DELAYS = "dead_times = {  # [s], no part of a state space\n"
+
+
+def _entry(model: Exported, sign: int) -> str:
+    """The matrices, with the parameters as a comment."""
+    ss = state_space(model.chain, model.values, sign)
+    known = ", ".join(
+        f"{n} = {v:.6g}{f' {model.units[n]}' if model.units.get(n) else ''}"
+        for n, v in model.values.items()
+    )
+    matrices_of = (f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
+    return f"    # {known}\n    {model.name!r}: control.StateSpace(\n{''.join(matrices_of)}    ),\n"
 
 
 def predicted(

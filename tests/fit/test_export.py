@@ -7,11 +7,14 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.export import (
+    Exported,
+    control_script,
     predicted,
     state_space,
     to_control,
     to_control_transfer_function,
     write_mat,
+    zero_pole,
 )
 from disting.fit.modes import oscillating, poles, zeros
 from disting.fit.select import select
@@ -49,15 +52,53 @@ def test_python_control_sees_the_same(chain):
     )
 
 
-def test_matlab_reads_the_matrices(tmp_path):
+def left():
+    """Two structures with numbers."""
+    return [
+        Exported(f"model {k}", chain, truth(chain, k), dict.fromkeys(chain.parameters, "kg"))
+        for k, chain in enumerate(CHAINS[2:4])
+    ]
+
+
+@pytest.mark.parametrize("chain", CHAINS, ids=str)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_zeros_poles_and_gain_have_the_response(chain, sign):
+    values = truth(chain, 3)
+    found = zero_pole(chain, values, sign)
+    s = 1j * OMEGA[::10]
+    seen = found.gain * np.prod(s[:, None] - found.zeros, axis=1)
+    seen = seen / np.prod(s[:, None] - found.poles, axis=1) * np.exp(-s * values.get("Td", 0.0))
+    np.testing.assert_allclose(seen, predicted(chain, values, OMEGA[::10], sign), rtol=1e-6)
+
+
+def test_matlab_reads_every_model(tmp_path):
     from scipy.io import loadmat
 
-    chain, values = CHAINS[2], truth(CHAINS[2], 5)
-    write_mat(tmp_path / "model.mat", chain, values)
-    seen, ss = loadmat(tmp_path / "model.mat"), state_space(chain, values)
+    write_mat(tmp_path / "model.mat", left())
+    seen = loadmat(tmp_path / "model.mat", simplify_cells=True)
+    first = state_space(CHAINS[2], truth(CHAINS[2], 0))
     for name in "ABCD":
-        np.testing.assert_array_equal(seen[name], getattr(ss, name))
-    assert seen["delay"] == values["Td"]
+        np.testing.assert_array_equal(np.atleast_2d(seen[name]).reshape(getattr(first, name).shape),
+                                      getattr(first, name))  # fmt: skip
+    assert seen["delay"] == first.delay and len(seen["models"]) == 2
+    for model, struct in zip(left(), seen["models"], strict=True):
+        zpk = zero_pole(model.chain, model.values)
+        assert struct["name"] == model.name and struct["parameters"] == model.values
+        assert struct["units"] == model.units and struct["k"] == zpk.gain
+        np.testing.assert_array_equal(np.ravel(struct["p"]), zpk.poles)
+
+
+def test_the_script_makes_every_model_in_python_control():
+    pytest.importorskip("control", reason="python-control is not installed")
+    names = {}
+    exec(compile(control_script(left()), "models.py", "exec"), names)
+    for model in left():
+        delay = np.exp(-1j * OMEGA[::10] * names["dead_times"][model.name])
+        np.testing.assert_allclose(
+            names["models"][model.name](1j * OMEGA[::10]) * delay,
+            predicted(model.chain, model.values, OMEGA[::10]),
+            rtol=1e-7,
+        )
 
 
 @pytest.mark.parametrize("chain", CHAINS[:4], ids=str)

@@ -11,5 +11,6 @@ from disting.report.fit.sensitivity import collinearity_dots as collinearity_dot
 from disting.report.fit.sensitivity import importance_bars as importance_bars
 from disting.report.fit.thresholds import models_by_threshold as models_by_threshold
 from disting.report.fit.thresholds import parameters_by_threshold as parameters_by_threshold
+from disting.report.fit.write import exported as exported
 from disting.report.fit.write import fit_figures as fit_figures
 from disting.report.fit.write import write_fit_report as write_fit_report

@@ -2,12 +2,15 @@
 
 import csv
 import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from io import StringIO
 from pathlib import Path
 from typing import Any
 
 from disting.files import write_whole
+from disting.fit.candidates import reference as name_of
+from disting.fit.export import Exported
 from disting.fit.modes import Result, physical
 from disting.fit.select import Selection
 from disting.fit.selection_json import candidate_to_dict, selection_to_dict
@@ -22,7 +25,7 @@ from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
-from disting.report.fit.words import name
+from disting.report.fit.words import name, unit_of
 
 COLUMNS = (
     "n_masses", "gap", "actuator", "sensor", "ground_dampers", "lag", "delay", "n_parameters",
@@ -108,6 +111,28 @@ def _files(
         ],
     )
     yield "candidates.csv", [candidates_csv(selection)]
+
+
+def exported(selection: Selection, measured: FrequencyResponse) -> list[Exported]:
+    """The structures that the data leave, the selected one first, then what may as well be one of
+    them; further parameter sets of one structure are numbered.
+    """
+    fitted = [m.candidate for m in selection.members] or [
+        c for c in (selection.selected,) if c is not None
+    ]
+    models = [
+        (name_of(c.chain), c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters})
+        for c in fitted
+    ]
+    models += [(t.name, t.chain, t.parameters) for m in selection.members for t in m.twins]
+    counted = Counter[str]()
+    found = []
+    for called, chain, values in models:
+        counted[called] += 1
+        number = f" ({counted[called]})" if counted[called] > 1 else ""
+        units = {n: unit_of(n[0], measured) for n in values}
+        found.append(Exported(called + number, chain, values, units))
+    return found
 
 
 def candidates_csv(selection: Selection) -> str:
