@@ -32,6 +32,7 @@ from functools import lru_cache
 
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.fibres.ideals.system import (
+    REMEMBERED,
     CoefficientMap,
     receptance_map,
     receptance_of_row,
@@ -40,8 +41,6 @@ from disting.fibres.ideals.system import (
 )
 from disting.model.row import rows_of
 from disting.model.structure import Structure
-
-REMEMBERED = 256  # structures whose receptances are kept: each is asked for in many pairs
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,19 +23,20 @@ port, which the transfer function does not contain, are left out.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from operator import mul
 from typing import Protocol
 
 from flint import fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.sampling import digest
-from disting.algebra.symbols import coefficients, renamed, symbols
+from disting.algebra.symbols import renamed, symbols
 from disting.behaviour.expanded import expanded
 from disting.errors import InputError
 from disting.model.row import Row, rows_of
 from disting.model.structure import Structure
 
+REMEMBERED = 256  # structures whose maps are kept: each is asked for in many pairs
 SCALE = "scale"  # the unknown common factor of numerator and denominator
 Term = tuple[tuple[int, ...], int]  # exponents and coefficient
 Terms = tuple[Term, ...]
@@ -143,6 +144,7 @@ def coefficient_map(structure: Structure) -> CoefficientMap:
     return separated(names, *expanded(structure))
 
 
+@lru_cache(maxsize=REMEMBERED)
 def normalised(structure: Structure) -> CoefficientMap:
     """The map of a chain in the unknowns of this module's text: monic and linear in each of them.
 
@@ -191,14 +193,16 @@ def _padded(model: CoefficientMap, count: int) -> CoefficientMap:
 
 def separated(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> CoefficientMap:
     """The map of a fraction of polynomials in s, the first symbol, and the names."""
-    ring = symbols(names)
-    context = next(iter(ring.values())).context()
-    parts = [tuple(_without_s(c, context) for c in coefficients(p, "s")) for p in (num, den)]
-    return CoefficientMap(names, *parts)
+    context = next(iter(symbols(names).values())).context()
+    return CoefficientMap(names, *(_powers_of_s(p, context) for p in (num, den)))
 
 
-def _without_s(polynomial: fmpz_mpoly, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    return context.from_dict({e[1:]: int(c) for e, c in polynomial.to_dict().items()})
+def _powers_of_s(polynomial: fmpz_mpoly, context: fmpz_mpoly_ctx) -> tuple[fmpz_mpoly, ...]:
+    """The coefficients of the powers 0, 1, .. of the first symbol, without it."""
+    parts: list[dict[tuple[int, ...], int]] = [{} for _ in range(polynomial.degrees()[0] + 1)]
+    for powers, number in polynomial.to_dict().items():
+        parts[powers[0]][powers[1:]] = number
+    return tuple(map(context.from_dict, parts))
 
 
 def terms(polynomial: fmpz_mpoly) -> Terms:

@@ -17,7 +17,7 @@ Poly = Any  # acb_poly
 
 # widest relative radius of a test ball that may pass as "consistent with zero"
 TOLERANCE = 2.0**-40
-# absolute widths tried where the first isolation is too coarse for Newton's method
+# absolute widths tried where an isolation is too coarse for Newton's method
 _ISOLATION = (2.0**-30, 2.0**-90)
 
 _ENCLOSED = 2.0**-40
@@ -92,12 +92,12 @@ def roots(p: Poly, degree: int) -> list[Ball]:
     if not found:
         raise Imprecise("roots could not be isolated")
     slope = p.derivative()
+    sharp = [_sharpened(p, slope, z) for z in found]
     for tolerance in _ISOLATION:
-        sharp = [_sharpened(p, slope, z) for z in found]
         finer = [] if all(z is not None for z in sharp) else _isolated(p, tolerance)
         if not finer:
             break
-        found = finer
+        found, sharp = finer, [_sharpened(p, slope, z) for z in finer]
     return [z if better is None else better for z, better in zip(found, sharp, strict=True)]
 
 
