@@ -43,7 +43,7 @@ BITS = 192  # of the prime: one point gives more than 100 bits
 DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720 for six roots
 PATTERNS = 400  # points at which the Galois group is looked at
 # of one matrix: little is lost where one direction is much dearer than the other
-ENTRIES = (40_000, 400_000, 4_000_000)
+ENTRIES = (40_000, 100_000, 400_000, 4_000_000)
 
 
 def told_apart(

@@ -121,9 +121,12 @@ def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
     """Newton's method on midpoints, then one interval Newton step on a small box inside z: a
     proof that the root is there.
     """
-    mid = z.mid()
+    mid, near = z.mid(), arb(2) ** (-ctx.prec // 2)
     for _ in range(int(ctx.prec).bit_length() + 1):
-        mid = (mid - p(mid) / slope(mid)).mid()
+        change = p(mid) / slope(mid)
+        mid = (mid - change).mid()
+        if bool(change.abs_upper() <= near * mid.abs_upper()):
+            break  # the next change is about the square of this one
     error = 4 * (p(mid) / slope(mid)).abs_upper() + mid.abs_upper() * arb(2) ** (4 - ctx.prec)
     spread = arb(0, error.upper())
     box = mid + acb(spread, spread)
