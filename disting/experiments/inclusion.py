@@ -21,7 +21,7 @@ from disting.evidence.conditions import Counts
 from disting.evidence.limits import LargerProjection, MissingElements
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.model.kinds import Kind
-from disting.model.minors import is_minor, minors
+from disting.model.minors import embeddings, is_minor, minors
 from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.questions.inclusion.missing_elements import missing, without_dead_time
 from disting.questions.inclusion.profiles import by_profiles, exceed, ordered
@@ -67,7 +67,7 @@ def numberings(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, 
     mine, theirs = part.chain.structure, whole.chain.structure
     if len(mine.elements) >= len(theirs.elements):
         return iter(())
-    found = mine.embeddings(theirs)
+    found = embeddings(mine, theirs)
     return (places for places in found if _keeps(places, part, whole))
 
 

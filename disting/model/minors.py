@@ -48,17 +48,32 @@ def is_minor(part: Structure, whole: Structure, places: Places) -> bool:
 
 
 def minors(part: Structure, whole: Structure, ports: Places) -> Iterator[dict[int, int]]:
-    """Yield the places that make the part, a structure with fewer parameters, of the whole, and
-    have some nodes where `ports` says.
+    """Yield the places that make the part of the whole and have some nodes where `ports` says.
 
     >>> from disting.model.chain import Chain
     >>> one, two = (Chain(n).structure for n in (1, 2))
     >>> list(minors(one, two, {1: 1}))
     [{0: 0, 1: 1}, {0: 0, 1: 1, 2: 1}, {0: 0, 1: 1, 2: 0}]
     """
-    if ports.get(0, 0) == 0 and len(part.parameters) < len(whole.parameters):
+    if ports.get(0, 0) == 0:
         search = _Search(part, whole, ports)
         yield from (p for p in search.grown({0: 0}, 1) if is_minor(part, whole, p))
+
+
+def embeddings(part: Structure, whole: Structure) -> Iterator[dict[int, int]]:
+    """Yield every numbering {node of the part: node of the whole} under which all elements and
+    ports of the part lie in the whole: nothing is rigid or at rest, and both have a dead time or
+    none.
+
+    "Submodel means that model structures are identical except for missing elements" (section 4.4):
+    chains embed as shifted or mirrored runs.
+    """
+    pairs = set(zip(whole.ports, part.ports, strict=True))
+    same = (part.sensor_order, part.dead_time) == (whole.sensor_order, whole.dead_time)
+    if same and len(dict(pairs)) == len(pairs):
+        for places in minors(part, whole, dict(pairs)):
+            if len(places) == part.n_masses + 1:
+                yield {at: i for i, at in sorted(places.items(), key=lambda x: x[1])}
 
 
 @dataclass(frozen=True, slots=True)

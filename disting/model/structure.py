@@ -1,5 +1,4 @@
-"""What a chain is made of: masses, springs, dampers and ports, and when one structure is a part of
-another.
+"""What a chain is made of: masses, springs, dampers and ports.
 
 A `Structure` is wider than a `Chain`: any set of joints may be present, so the supermodel of two
 chains (condition 9), which has no gap, is a structure too. Elements know their parameter's name
@@ -7,16 +6,12 @@ and how they enter the equation of motion A(s) x = e_act F with A(s) = M s^2 + D
 parameter * s^power * v v^T for a vector v of the masses.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from disting.errors import InputError
-
-if TYPE_CHECKING:
-    import networkx as nx
 
 HIGHEST = 2  # derivative that has Markov parameters and a state space whatever the ports
 
@@ -159,52 +154,3 @@ class Structure:
             self.lag or other.lag,
             self.dead_time or other.dead_time,
         )
-
-    def embeddings(self, larger: "Structure") -> Iterator[dict[int, int]]:
-        """Yield every numbering of this structure's masses under which all its elements and ports
-        lie in `larger`.
-
-        "Submodel means that model structures are identical except for missing elements" (section
-        4.4): chains embed as shifted or mirrored runs, found as graph monomorphisms that keep the
-        ground, the ports and the joints.
-        """
-        import networkx as nx
-
-        if (
-            self.sensor_order != larger.sensor_order
-            or self.dead_time != larger.dead_time
-            or (self.lag and not larger.lag)
-        ):
-            return
-        matcher = nx.algorithms.isomorphism.GraphMatcher(
-            larger.graph(), self.graph(), node_match=_node_fits, edge_match=_edge_fits
-        )
-        for mapping in matcher.subgraph_monomorphisms_iter():
-            yield {mine: theirs for theirs, mine in sorted(mapping.items(), key=lambda kv: kv[1])}
-
-    def graph(self) -> "nx.Graph[int]":
-        """networkx graph: node 0 is the ground, nodes carry ports and ground dampers, edges the
-        joint's elements.
-        """
-        import networkx as nx
-
-        graph: nx.Graph[int] = nx.Graph()
-        for node in range(self.n_masses + 1):
-            roles = frozenset(name for name, at in self.ports._asdict().items() if at == node)
-            graph.add_node(
-                node, ground=node == 0, roles=roles, damper=GroundDamper(node) in self.elements
-            )
-        for element in self.elements:
-            if element.kind in "kd":
-                graph.add_edge(element.at, element.at + 1)
-                graph.edges[element.at, element.at + 1].setdefault("kinds", set()).add(element.kind)
-        return graph
-
-
-def _node_fits(larger: dict[str, object], smaller: dict[str, object]) -> bool:
-    same = larger["ground"] == smaller["ground"] and larger["roles"] == smaller["roles"]
-    return same and (bool(larger["damper"]) or not smaller["damper"])
-
-
-def _edge_fits(larger: dict[str, set[str]], smaller: dict[str, set[str]]) -> bool:
-    return smaller["kinds"] <= larger["kinds"]

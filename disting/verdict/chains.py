@@ -20,6 +20,7 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.model.chain import Chain
 from disting.model.domain import Domain
+from disting.model.minors import embeddings
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
 from disting.model.structure import Structure
@@ -102,7 +103,7 @@ class ComparedChain:
 
     def part_of(self, other: "ComparedChain") -> dict[int, int] | None:
         """The numbering under which it is the other one with elements missing."""
-        return next(self.chain.structure.embeddings(other.chain.structure), None)
+        return next(embeddings(self.chain.structure, other.chain.structure), None)
 
     @property
     def n_states(self) -> int:

@@ -1,4 +1,4 @@
-"""Structures as graphs: parts, unions, rows; and the drawing in one line."""
+"""Structures: unions, rows; and the drawing in one line."""
 
 from dataclasses import replace
 
@@ -7,14 +7,11 @@ from hypothesis import given, settings
 
 from disting import Chain, Family, InputError
 from disting.model.drawing import LEGEND, text_drawing
+from disting.model.minors import embeddings
 from disting.model.structure import GroundDamper, Spring, Structure
 from tests.laws.strategies import chains
 
 quick = settings(max_examples=40, deadline=None)
-
-
-def embeddings(part, whole):
-    return list(part.structure.embeddings(whole.structure))
 
 
 def without(structure, *elements):
@@ -34,91 +31,6 @@ def test_a_derivative_whose_transfer_function_is_not_proper_is_refused(order):
     """Its Markov parameters were those of the proper part alone, and verdicts rested on them."""
     with pytest.raises(InputError, match="is not proper"):
         replace(Chain(2, damped=False).structure, sensor_order=order)
-
-
-# --- embeddings
-# ------------------------------------------------------------------------------------------------------
-
-
-@quick
-@given(chains(dead_time=True))
-def test_every_structure_is_a_part_of_itself(chain):
-    assert {i: i for i in range(chain.n_masses + 1)} in embeddings(chain, chain)
-
-
-@quick
-@given(chains())
-def test_a_structure_without_an_element_is_a_part_and_not_the_other_way_round(chain):
-    for element in chain.structure.elements:
-        if element.kind != "m":
-            part = without(chain.structure, element)
-            assert {i: i for i in range(chain.n_masses + 1)} in list(
-                part.embeddings(chain.structure)
-            )
-            assert list(chain.structure.embeddings(part)) == []
-
-
-def test_a_shorter_chain_is_a_part_of_a_longer_one():
-    assert embeddings(Chain(2, damped=False), Chain(3, damped=False)) == [{0: 0, 1: 1, 2: 2}]
-    assert embeddings(Chain(3, damped=False), Chain(2, damped=False)) == []
-
-
-def test_a_shifted_run_in_the_middle():
-    """Force and sensor at mass 2 of 3: the pair to its left and the pair to its right."""
-    found = embeddings(Chain(2, damped=False), Chain(3, act_plus=2, meas_plus=2, damped=False))
-    assert sorted(sorted(m.items()) for m in found) == [
-        [(0, 0), (1, 2), (2, 1)],
-        [(0, 0), (1, 2), (2, 3)],
-    ]
-
-
-def test_a_grounded_part_stays_at_the_ground():
-    part = Chain(2, 1, 1, 2, 1, 2, damped=False)
-    assert embeddings(part, Chain(3, 1, 1, 2, 1, 2, damped=False)) == [{0: 0, 1: 1, 2: 2}]
-    assert (
-        embeddings(part, Chain(3, 2, 2, 3, 2, 3, damped=False)) == []
-    )  # mass 2 is not joined to the ground
-
-
-def test_undamped_is_a_part_of_damped():
-    assert embeddings(Chain(3, damped=False), Chain(3, damped=True)) == [{0: 0, 1: 1, 2: 2, 3: 3}]
-    assert embeddings(Chain(3, damped=True), Chain(3, damped=False)) == []
-
-
-def test_without_lag_is_a_part_of_with_lag():
-    assert len(embeddings(Chain(2, damped=False), Chain(2, lag=True, damped=False))) == 1
-    assert embeddings(Chain(2, lag=True, damped=False), Chain(2, damped=False)) == []
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        Chain(3, meas_plus=2, damped=False),
-        Chain(3, sensor="position", damped=False),
-        Chain(3, dead_time=True, damped=False),
-        Chain(4, 1, 1, 2, 1, 2, damped=False),
-    ],
-    ids=str,
-)
-def test_other_ports_sensors_and_dead_times_are_no_whole(other):
-    assert embeddings(Chain(3, damped=False), other) == []
-
-
-@pytest.mark.parametrize(
-    ("mine", "theirs", "fits"),
-    [
-        ((), (1,), True),
-        ((1,), (1,), True),
-        ((1,), (2,), False),
-        ((1,), (1, 3), True),
-        ((1, 3), (3,), False),
-    ],
-)
-def test_ground_dampers_must_be_there(mine, theirs, fits):
-    left, right = (
-        Chain(3, meas_plus=3, ground_dampers=masses, damped=False) for masses in (mine, theirs)
-    )
-    assert bool(embeddings(left, right)) == fits
 
 
 # --- unions
@@ -163,7 +75,7 @@ def test_united_gaps_have_none():
         ((1, 2), (3, 4)),
         ((1, 4),),
     )
-    assert all(list(part.embeddings(whole)) for part in (left, right))
+    assert all(list(embeddings(part, whole)) for part in (left, right))
 
 
 def test_united_sizes_and_extras():

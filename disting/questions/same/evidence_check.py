@@ -36,6 +36,7 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Status
 from disting.fibres.synthesis.target import fraction, target
 from disting.model.chain import Chain
+from disting.model.minors import embeddings
 from disting.model.settings import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
@@ -106,7 +107,7 @@ class Witness:
     def _embeds(self, evidence: Embedding, a: Structure, b: Structure) -> bool:
         """The numbering of the part's masses once more, and both ranks."""
         part, whole = (a, b) if evidence.left_is_submodel else (b, a)
-        fits = dict(evidence.numbering) in list(part.embeddings(whole))
+        fits = dict(evidence.numbering) in list(embeddings(part, whole))
         return fits and all(self._rank(s) == evidence.rank for s in (a, b))
 
     def _unites(self, evidence: Supermodel, a: Structure, b: Structure) -> bool:
