@@ -26,6 +26,7 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.shown import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
+from disting.schemas import Format
 from disting.verdict import Relation, Verdict, View
 
 if TYPE_CHECKING:
@@ -237,13 +238,13 @@ class Catalog(Shown):
     def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
         verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
-        return (
-            json.dumps(
-                {"header": self.records[0], "view": view.value, "verdicts": verdicts},
-                ensure_ascii=False,
-            )
-            + "\n"
-        )
+        plain = {
+            "format": Format.CATALOGUE.value,
+            "header": self.records[0],
+            "view": view.value,
+            "verdicts": verdicts,
+        }
+        return json.dumps(plain, ensure_ascii=False) + "\n"
 
     def _row(self, record: Record, group: int) -> ModelRow:
         number, (numerator, denominator) = record["model"], record["degrees"]

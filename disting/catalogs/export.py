@@ -10,6 +10,7 @@ from disting.algebra.certainty import Certainty
 from disting.evidence.positive import PositiveFinding
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Sense
+from disting.schemas import Format
 from disting.verdict import Decisions, Relation, error_bound, family_safety
 
 FORMULA = re.compile(r"(?:^|(?<=[,;])|(?<=[,;] ))[=+@-]")
@@ -122,4 +123,9 @@ def decisions_json(decided: Decisions) -> str:
     ]
     safety = family_safety(decided)
     bound = error_bound(Certainty.BOUNDED if safety else Certainty.PROVEN, safety)
-    return json.dumps({"joint_error_bound": bound, "verdicts": verdicts}, ensure_ascii=False) + "\n"
+    plain = {
+        "format": Format.VERDICTS.value,
+        "joint_error_bound": bound,
+        "verdicts": verdicts,
+    }
+    return json.dumps(plain, ensure_ascii=False) + "\n"

@@ -111,7 +111,7 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     if options.csv:
         emitted(options.csv, _table([(*CSV_COLUMNS, *MEASURED_COLUMNS), *left_rows(found)]))
     if options.json:
-        plain = {"first": first_sentence(found)} | left_to_dict(found)
+        plain = left_to_dict(found) | {"first": first_sentence(found)}
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
         emitted(options.json, text + "\n")
     if "-" not in (options.csv, options.json):

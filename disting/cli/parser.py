@@ -185,6 +185,11 @@ COMMANDS = (
         "which sets of dampers to the ground of one model can be told apart",
         "dampers",
     ),
+    Command(
+        "schema",
+        "what is in the JSON files that disting writes, as JSON Schema",
+        "schema",
+    ),
     CACHE,
     Command("doctor", "what is installed, and what else would help", "upkeep", "doctor", ""),
 )

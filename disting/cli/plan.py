@@ -25,6 +25,7 @@ from disting.model.chain import Chain
 from disting.model.names import chains_named, damping_option
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.plan_write import write_plan
+from disting.schemas import Format
 
 LINES = 120
 
@@ -108,7 +109,7 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
             contains = there.answer is Answer.SAME and values
             found.append((there, planned(rival, values, named.model) if contains else None))
     rows = [plan_to_dict(one) | _reverse(back) for one, back in found]
-    _emit(options, {"same": named.same, "rivals": rows})
+    _emit(options, {"format": Format.PLANS_OF_FIT.value, "same": named.same, "rivals": rows})
     if options.json != "-":
         print(printable("\n".join(rivals_in_words(named, found, effort.source))))
     return 0

@@ -13,6 +13,7 @@ from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.shown import Shown, summary
+from disting.schemas import Format
 
 
 class Signs(StrEnum):
@@ -139,6 +140,7 @@ class Equivalents(Shown):
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
         return {
+            "format": Format.EQUIVALENTS.value,
             "model": self.name,
             "values": {name: str(value) for name, value in self.values.items()},
             "proportional_damping": self.proportional,

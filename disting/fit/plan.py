@@ -37,6 +37,7 @@ from disting.model.settings import Settings
 from disting.model.shown import Shown, summary
 from disting.questions.identifiability.tangent import proof_tangents
 from disting.questions.inclusion import Inclusion
+from disting.schemas import Format
 from disting.verdict import Engine, Relation, Verdict
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Progress, silent
@@ -200,6 +201,7 @@ def plan_to_dict(found: Plan) -> dict[str, Any]:
     """Plain data; `noncentrality` 0 and `factor` null where no effort is enough."""
     rival, name = found.rival, found.names
     plain: dict[str, Any] = {
+        "format": Format.PLAN.value,
         "model": name[0],
         "parameters": dict(found.values),
         "rival": name[1],

@@ -19,6 +19,7 @@ from disting.fit.reliance import Statement
 from disting.fit.select import Selection
 from disting.fit.telling import suspicions
 from disting.model.chain import Chain
+from disting.schemas import Format
 
 FIT_FILE = "a file of 'disting fit --json'"
 
@@ -28,6 +29,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
     else is not excluded.
     """
     return {
+        "format": Format.FIT.value,
         "selected": candidate_to_dict(found.selected) if found.selected else None,
         "candidates": [candidate_to_dict(c) for c in found.candidates],
         "alternatives": [

@@ -27,6 +27,7 @@ from disting.model.chain import Sensor
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of
 from disting.model.shown import Shown, plural, summary
+from disting.schemas import Format
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -117,12 +118,13 @@ def models_text(found: ModelList) -> str:
 
     >>> lag = Model.from_transfer_function(["k"], ["T", 1], name="lag")
     >>> print(models_text(ModelList((lag,))), end="")
-    {"title": "", "models": [
+    {"format": "disting models 1", "title": "", "models": [
       {"name": "lag", "num": ["k"], "den": ["T", "1"]}
     ]}
     """
     lines = [f"  {json.dumps(as_entry(model), ensure_ascii=False)}" for model in found.models]
-    head = f'{{"title": {json.dumps(found.title, ensure_ascii=False)}, "models": [\n'
+    title = json.dumps(found.title, ensure_ascii=False)
+    head = f'{{"format": "{Format.MODELS}", "title": {title}, "models": [\n'
     return head + ",\n".join(lines) + "\n]}\n"
 
 
@@ -147,7 +149,8 @@ def read_entry(entry: Mapping[str, object]) -> AnyModel:
 
 def models_of(data: object) -> ModelList:
     """The models of what a file holds; raises InputError."""
-    whole = object_of(data, ("title", "s", "models"), "the file")
+    whole = object_of(data, ("format", "title", "s", "models"), "the file")
+    _refuse_format(text_of(whole, "format", Format.MODELS.value))
     entries = whole.get("models")
     if not isinstance(entries, list) or not entries:
         raise InputError('"models" is a list of models, each in braces, at least one')
@@ -162,6 +165,11 @@ def models_of(data: object) -> ModelList:
         )
     models = tuple(_model(entry, place, variable) for place, entry in enumerate(entries, 1))
     return ModelList(models, text_of(whole, "title", ""))
+
+
+def _refuse_format(said: str) -> None:
+    if said != Format.MODELS:
+        raise InputError(f'"format" is "{Format.MODELS}" or missing, not {shown(said)}')
 
 
 def _model(entry: object, place: int, variable: str) -> AnyModel:

@@ -10,6 +10,7 @@ from disting.experiments import Experiment, Named
 from disting.files import __version__
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
+from disting.schemas import Format
 from disting.verdict.engine import Engine
 from disting.verdict.everywhere import Everywhere, named_all, placements
 from disting.verdict.query import Query
@@ -24,7 +25,7 @@ from disting.verdict.verdict_file import (
     verdict_file,
 )
 
-FORMAT = "disting verdicts for every place 1"
+FORMAT = Format.EVERYWHERE.value
 COMMON = ("models", "query", "settings")
 
 

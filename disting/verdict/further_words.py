@@ -7,6 +7,7 @@ from typing import Any
 from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import FREE_CHOICE, RENAMING
 from disting.experiments.menu import Gain, Item
+from disting.schemas import Format
 from disting.verdict.further import Further, Option
 from disting.verdict.placed import REPEATS
 from disting.verdict.result import Relation, error_bound
@@ -112,6 +113,7 @@ def rows(found: Further) -> Iterator[tuple[str, ...]]:
 def to_dict(found: Further) -> dict[str, Any]:
     """Plain data, ready for JSON."""
     return {
+        "format": Format.NEXT.value,
         "structures": list(found.names),
         "domain": "complex",
         "costs": dict(found.costs.of),

@@ -25,12 +25,13 @@ from disting.model.kinds import CHANGES
 from disting.model.names import name_of
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion
+from disting.schemas import Format
 from disting.verdict.comparison import Sides, both_places, compare, models_named, sides_of
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 
-FORMAT = "disting verdict 1"
+FORMAT = Format.VERDICT.value
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known
 MOST_POINTS, MOST_SUBSETS, MOST_MARKOV, LONGEST_SEED = 100, 10**9, 1000, 1000
 MOST_EXPERIMENTS = 50

@@ -58,6 +58,7 @@ COMMANDS = [
     ["report", "1", "--out", "pages å"],
     ["catalog", "build", "1", "--out", "catalogues ø"],
     ["catalog", "verify", "1", "--catalog", "catalogues ø"],
+    ["schema", "models"],
     ["doctor"],
     ["cache", "info"],
     ["cache", "clear"],

@@ -26,6 +26,7 @@ CHEAP = tuple(
         "models 3",
         "models vessels",
         "next",
+        "schema",
         "simulate",
     )
 )

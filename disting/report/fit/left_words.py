@@ -14,6 +14,7 @@ from disting.fit.standing import Standing, Stood
 from disting.model.drawing import LEGEND, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
+from disting.schemas import Format
 from disting.verdict import Relation
 from disting.verdict.everywhere import Answer
 from disting.verdict.further import Further
@@ -158,6 +159,7 @@ def left_rows(found: Onward) -> Iterator[tuple[str, ...]]:
 def left_to_dict(found: Onward) -> dict[str, Any]:
     """Plain data, ready for JSON; null where a number is not known or not finite."""
     return {
+        "format": Format.NEXT_OF_FIT.value,
         "structures": [
             {
                 "name": one.name,
