@@ -151,7 +151,7 @@ def block(at: Layout, node: int, sign: str, height: int = 0) -> tuple[Shape, ...
     """What is added to a mass, left of the post of a force, on top of `height` others."""
     width, depth = BLOCK
     x = at.middle(node) - 2.5 - width / 2
-    y = at.axis - (MASS + depth) / 2 - height * depth
+    y = at.axis - (MASS + depth) / 2 - height * (depth - 0.5)  # neighbours share a line
     box = Rect(x - width / 2, y - depth / 2, width, depth, Ink.PAPER, Ink.LINE, radius=2)
     return box, Text(x, y, sign, 10.5, bold=True)
 

@@ -108,14 +108,17 @@ def test_experiments_say_what_is_locked_and_what_is_added(bench):
         *("--experiment", f"{bench['locked']}:lock=2,sensor=1"),
         *("--experiment", f"{bench['both']}:inertia=2:0.004,inertia=1:1e-3"),
         *("--experiment", f"{bench['both']}:sensor=1:2,lock=last,column=Re load"),
+        *("--experiment", f"{bench['locked']}:brake=1:0.3,spring=last:1/3,sensor=1"),
     )
-    load, locked, heavy, loaded, between = found.further
+    load, locked, heavy, loaded, between, braked = found.further
     inertias = (("2", 0.004), ("1", 0.001))
     assert load.setup == Setup("2", sign=-1, delay="Td2")
     assert locked.setup == Setup("1", locked=("2",), delay="Td3")
     assert heavy.setup == Setup("1", inertias=inertias, delay="Td4")
     assert loaded.setup == Setup("2", inertias=inertias, sign=-1, delay="Td5")
     assert between.setup == Setup("1:2", locked=("last",), delay="Td6")
+    known = {"brakes": (("1", 0.3),), "springs": (("last", "1/3"),)}
+    assert braked.setup == Setup("1", delay="Td7", **known)
     for one, same in ((loaded, load.measured), (between, load.measured), (heavy, found.train)):
         np.testing.assert_array_equal(one.measured.G, same.G)
 
@@ -177,6 +180,8 @@ REFUSED = [
     (["motor", "--experiment", "{locked}:lock=7"], "there is no mass 7 in a chain of 2 masses"),
     (["motor", "--experiment", "{locked}:lock=1+2"], "all masses of a chain of 2 are locked"),
     (["motor", "--experiment", "{locked}:inertia=1:-1"], "a known inertia is positive"),
+    (["motor", "--experiment", "{locked}:brake=1:generic"], "a known brake that was measured with"),
+    (["motor", "--experiment", "{locked}:brake=x:1"], "a mass is a number or the word last"),
     (
         ["motor", "--experiment", "{locked}:inertia=1"],
         "size of a known inertia is missing: write inertia=1:1",

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from math import pi
 
 import pytest
 
@@ -94,6 +95,20 @@ def test_plain_data_says_what_the_numbers_are(path):
         if (one["structure"], one["experiment"], one["mass"], one["other"]) == ("3:1", "lock", 2, "3:11")
     ]  # fmt: skip
     assert 0 < lock["power"] <= 1
+
+
+def test_a_brake_is_told_of_where_it_costs_something(path):
+    said = called("next", path, "--cost", "brake=0.5").stdout
+    assert "a known brake at mass 2" in said
+    assert "is added is 2, the mean of the masses; a brake is 12.6, times 2 pi f in the" in said
+    rows = list(
+        csv.DictReader(
+            io.StringIO(called("next", path, "--cost", "brake=0.5", "--csv", "-").stdout)
+        )
+    )
+    assert len(rows) == 3 * 5 * 9 and {"brake", "lock"} < {row["experiment"] for row in rows}
+    plain = json.loads(called("next", path, "--cost", "brake=0.5", "--json", "-").stdout)
+    assert plain["measured"]["brake"] == pytest.approx(4 * pi)
 
 
 def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disting.equivalence import equivalents
-from disting.experiments.menu import Item
+from disting.experiments.menu import Costs, Item
 from disting.fit.export import predicted
 from disting.fit.foretold import MOVES, STILL, Bench, bench_of, foretold, shown, step
 from disting.fit.named import named_by
@@ -16,7 +16,7 @@ from disting.fit.selection_json import _named
 from disting.fit.standing import Standing, stood
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.kinds import FORCE, INERTIA, LOCK, SENSOR
+from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR
 from disting.verdict import Engine
 from tests.fit.drives import dense_response, truth
 
@@ -101,6 +101,21 @@ def test_a_locked_mass_and_an_added_inertia_are_limits_and_sums_of_masses():
     still = [dense_response(FREE, VALUES | {"m2": 1e14}, 1j * w) for w in BENCH.omega]
     assert shown(FREE, VALUES, Item(LOCK, 2), BENCH) == pytest.approx(np.array(still), rel=1e-6)
     assert shown(FREE, VALUES, Item(LOCK, 1), BENCH) is None
+
+
+def test_a_known_brake_is_a_damper_to_the_ground():
+    """As large as the inertia in the middle of the lines: J w, w = sqrt(w_1 w_n)."""
+    braked = replace(FREE, ground_dampers=(2,))
+    values = VALUES | {"b2": BENCH.inertia * 2 * np.pi}  # 0.1 to 10 Hz
+    slow = [dense_response(braked, values, 1j * w) for w in BENCH.omega]
+    assert shown(FREE, VALUES, Item(BRAKE, 2), BENCH) == pytest.approx(np.array(slow), rel=1e-9)
+
+
+def test_a_brake_is_on_the_menu_where_its_cost_is_named(left):
+    kinds = {item.kind for item in foretold(left, BENCH).items(0)}
+    seen = foretold(left, BENCH, costs=Costs.read("brake=2"))
+    assert {item.kind for item in seen.items(0)} - kinds == {BRAKE}
+    assert seen.sizes == {"inertia": BENCH.inertia, "brake": BENCH.size(1)}
 
 
 def test_a_step_is_measured_in_units_of_the_scatter():

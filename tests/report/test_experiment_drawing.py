@@ -5,13 +5,14 @@ from itertools import product
 
 from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
-from disting.experiments.menu import Costs, Item
+from disting.experiments import Experiment
+from disting.experiments.menu import Item
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.kinds import FORCE, LOCK, SENSOR
+from disting.model.kinds import FORCE, KINDS, LOCK, SENSOR
 from disting.report import model_page
 from disting.report.drawing import draw
-from disting.report.experiment_drawing import added, definitions, sketch, with_items
+from disting.report.experiment_drawing import added, definitions, sketch, state, with_items
 from disting.report.next_page import next_page
 from disting.report.next_steps import advice, found_for, sketches_for_pairs
 from disting.report.scene import Text, extent
@@ -25,9 +26,9 @@ DAMPED = catalog(3, damped=True)
 
 
 def items(chain):
-    return [
-        Item(k, at) for k in Costs().kinds(chain.n_masses) for at in range(1, chain.n_masses + 1)
-    ]
+    """Of every kind, those that are on a menu only where their cost is named too."""
+    kinds = [k for k in KINDS if chain.n_masses > 1 or not k.holds]
+    return [Item(k, at) for k in kinds for at in range(1, chain.n_masses + 1)]
 
 
 def test_nothing_leaves_the_picture_and_no_letters_overlap():
@@ -74,6 +75,18 @@ def test_what_an_experiment_adds_covers_no_name_and_no_sign():
             signs = [s for s in shapes if isinstance(s, Text) and s.text[0] != "m"]
             for shape in added(chain, item).shapes:
                 assert not any(meet(sign, shape) for sign in signs), (chain, item, shape)
+
+
+def test_what_is_added_to_one_mass_stands_on_one_another():
+    changes = Experiment(inertias={1: 1, 2: 1}, springs={1: 2}, brakes={1: 3}, locked=2).changes
+    for chain in (Chain(2), Chain(3, ground_dampers=(1, 2, 3), lag=True)):
+        scene = state(chain, {"y": (2, 0)}, changes)
+        blocks = [s for s in scene.shapes if isinstance(s, Text) and s.text[0] == "+"]
+        assert sorted(s.text for s in blocks) == ["+J", "+J", "+c", "+k"]
+        for k, shape in enumerate(blocks):
+            left, top, right, bottom = extent(shape)
+            assert 0 <= left <= right <= scene.width and 0 <= top <= bottom <= scene.height
+            assert not any(meet(shape, other) for other in blocks[k + 1 :])
 
 
 def test_two_things_at_once_are_one_drawing():
