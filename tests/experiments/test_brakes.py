@@ -1,7 +1,7 @@
 """A known damper to the ground, and a kind of change that only the table knows."""
 
 import json
-from itertools import product
+from itertools import combinations, product
 from random import Random
 
 import pytest
@@ -18,6 +18,7 @@ from tests.experiments.plain_stack import has_equivalent, keywords
 
 COMPLEX = Query(View.EXACT, inclusion=False)
 AS_IT_IS = Experiment()
+TOLD = [(8, 11, 1, 2), (8, 11, 3, 3), (9, 10, 1, 1), (9, 10, 2, 2), (9, 10, 3, 3)]
 U, A = Family(3, damped=False), Family(3, damped=True)
 
 
@@ -98,6 +99,20 @@ def test_a_brake_adds_no_inertia():
         assert _by_mass(under(BRAKE, i), under(BRAKE, j)) is None
         assert not same_by_rows(under(BRAKE, i), under(INERTIA, j))
     assert _by_mass(under(INERTIA, 1), under(INERTIA, 1)) is not None
+
+
+@pytest.mark.parametrize("argument", ["brakes", "springs"])
+def test_rows_that_show_the_same_have_equivalents(argument):
+    """Whatever is added where force and sensor of a row are, or in a row that both share."""
+    told = []
+    for a, b in combinations((8, 9, 10, 11), 2):
+        for i, j in product((1, 2, 3), repeat=2):
+            pair = Experiment(**{argument: {i: 2}}), Experiment(**{argument: {j: 2}})
+            sides = zip((U[a], U[b]), pair, strict=True)
+            if same_by_rows(*(MeasuredChain(chain, (AS_IT_IS, e)) for chain, e in sides)):
+                told.append((a, b, i, j))
+                agrees_with_groebner_bases(U[a], U[b], pair)
+    assert told == TOLD
 
 
 def test_what_is_added_to_one_mass_counts_in_the_bound():
