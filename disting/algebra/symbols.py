@@ -106,7 +106,7 @@ def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]
     try:
         number, found = polynomial.factor()
     except OverflowError:
-        number, found = _over_rationals(polynomial)
+        return _over_rationals(polynomial)
     return int(number), [(factor, int(power)) for factor, power in found]
 
 

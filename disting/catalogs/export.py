@@ -87,11 +87,11 @@ def share_text(found: PositiveFinding | None) -> str:
 
 
 def _names(decided: Decisions) -> Sequence[int | str]:
-    """Numbers from 1 for chains of one size, else the subjects' names."""
-    of_one_size = len(set(decided.sizes)) == 1
-    return (
-        range(1, len(decided.subjects) + 1) if of_one_size else [s.name for s in decided.subjects]
-    )
+    """Numbers from 1 for the numbered chains of one size, else the subjects' names."""
+    names = [s.name for s in decided.subjects]
+    numbers = range(1, len(names) + 1)
+    numbered = len(set(decided.sizes)) == 1 and names == [f"A{number}" for number in numbers]
+    return numbers if numbered else names
 
 
 def _cell(name: int | str) -> int | str:

@@ -25,7 +25,7 @@ from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, Places, moved, named
-from disting.general import AnyModel, MatrixModel, read_models
+from disting.general import AnyModel, MatrixModel, as_chain, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
@@ -146,6 +146,9 @@ def _in_letters(side: Chain | AnyModel) -> str:
     """A chain's drawing, or a transfer function that fits a few lines."""
     if isinstance(side, Chain):
         return text_drawing(side)
+    chain = as_chain(side)
+    if chain is not None:
+        return text_drawing(chain)
     entries = side.entries if isinstance(side, MatrixModel) else (side,)
     parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
     if sum(map(len, parts)) <= MOST_TERMS:

@@ -16,7 +16,7 @@ from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general import read_models
+from disting.general import read_models, unnamed
 from disting.general.parameters import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
@@ -99,7 +99,7 @@ def _of_file(path: Path, options: argparse.Namespace) -> int:
     refuse_chain_options(options)
     found = read_models(path)
     keep_apart(model.name for model in found)
-    asked = [(replace(model, name="model"),) for model in found]
+    asked = [(unnamed(model),) for model in found]
     with engine_for(options) as (engine, pool, progress):
         engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
         for model, question in zip(found, asked, strict=True):

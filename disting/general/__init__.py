@@ -6,6 +6,8 @@ from disting.evidence.general import Witnesses as Witnesses
 from disting.general.admissible import confirms as confirms
 from disting.general.alternatives import Alternatives as Alternatives
 from disting.general.alternatives import alternatives as alternatives
+from disting.general.any_model import as_chain as as_chain
+from disting.general.any_model import unnamed as unnamed
 from disting.general.compared import ComparedModel as ComparedModel
 from disting.general.equivalent import Equivalent as Equivalent
 from disting.general.fibre import Extent as Extent

@@ -1,5 +1,7 @@
 """What is asked of general models of either kind: with one input and output, or with several."""
 
+from dataclasses import replace
+
 from disting.algebra.sampling import Size, enough, prime
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation, Sample
@@ -20,8 +22,23 @@ from disting.general.model import Model
 from disting.general.profiles import profile, proven_constants
 from disting.general.renaming import is_renaming, products
 from disting.general.samples import minor_size, samples
+from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.questions.same.exact import decided
+
+
+def as_chain(model: Chain | AnyModel) -> Chain | None:
+    """The chain that it is, if it is one."""
+    if isinstance(model, Chain):
+        return model
+    return model.chain if isinstance(model, Model) else None
+
+
+def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
+    """The transfer functions alone, whatever they are called and however they were made."""
+    if isinstance(model, Model):
+        return replace(model, name=name, chain=None)
+    return replace(model, name=name)
 
 
 def profile_of(

@@ -26,13 +26,16 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import (
+    as_chain,
     columns_of,
     constants_of,
     is_renamed,
     profile_of,
     same,
+    unnamed,
 )
 from disting.general.matrix_model import AnyModel
+from disting.model.chain import Chain
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
@@ -123,9 +126,14 @@ class ComparedModel:
         return self.name, written(self.profiled)
 
     @property
+    def chain(self) -> Chain | None:
+        """The chain that it is, if it is one."""
+        return as_chain(self.model)
+
+    @property
     def profiled(self) -> AnyModel:
         """The model without its name."""
-        return replace(self.model, name="model")
+        return unnamed(self.model)
 
     @property
     def rank(self) -> int:
@@ -209,7 +217,7 @@ class ComparedModel:
 
 
 def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    return replace(left.model, name=LEFT), replace(right.model, name=RIGHT)
+    return unnamed(left.model, LEFT), unnamed(right.model, RIGHT)
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:

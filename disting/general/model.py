@@ -10,7 +10,7 @@ and its coefficients say exactly which of them vanish or are constant.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
@@ -25,7 +25,7 @@ from disting.general.expression import tree
 from disting.general.response import responses
 from disting.general.trees import LONGEST_NUMBER, Tree, names
 from disting.model.chain import Chain
-from disting.model.names import name_of
+from disting.model.names import name_of, names_another
 from disting.model.shown import Shown, plural, summary
 
 MOST_SYMBOLS = 300
@@ -42,7 +42,8 @@ class Model(Shown):
 
     `parameters` by name; `numerator_terms` and `denominator_terms` hold the coefficients of s^0,
     s^1, .. Immutable and hashable; two models are equal if their parameters and coefficients are,
-    whatever they are called.
+    whatever they are called. `chain`: the chain that it is, in the chain's own parameters, where it
+    was made of one; such models are compared as chains.
 
     >>> str(Model.from_transfer_function(["k"], ["m", "d", "k"]))
     'G(s) = k/(k + d*s + m*s**2)'
@@ -52,6 +53,7 @@ class Model(Shown):
     numerator_terms: tuple[Terms, ...]
     denominator_terms: tuple[Terms, ...]
     name: str = field(default="model", compare=False)
+    chain: Chain | None = field(default=None, compare=False)
 
     def __repr__(self) -> str:
         return summary(
@@ -106,17 +108,20 @@ class Model(Shown):
     @staticmethod
     def from_chain(chain: Chain, *, name: str = "") -> "Model":
         """The model of a chain in its own parameters, sorted; raises InputError for a dead time,
-        which is no rational function.
+        which is no rational function, and for a name that is another chain's.
 
         >>> str(Model.from_chain(Chain(1, damped=False)))
         'G(s) = 1/m1'
         """
         if chain.dead_time:
             raise InputError("a dead time exp(-Td s) is no rational function of s")
+        if names_another(name, chain):
+            raise InputError(f"{name} is the name of another chain; call this one otherwise")
         parameters = tuple(sorted(chain.parameters))
         ring = symbols(["s", *parameters])
         num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
-        return _model(RationalFunction(num, den), parameters, name or name_of(chain))
+        made = _model(RationalFunction(num, den), parameters, name or name_of(chain))
+        return replace(made, chain=chain)
 
     @property
     def numerator(self) -> tuple[fmpz_mpoly, ...]:

@@ -23,9 +23,9 @@ from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.spelled import polynomial_text
 from disting.general.strict_json import Plain, object_of, plain_of, text_of
-from disting.model.chain import Sensor
+from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
-from disting.model.names import DAMPED, chain_of
+from disting.model.names import DAMPED, chain_of, name_of
 from disting.model.shown import Shown, plural, summary
 from disting.schemas import Format
 
@@ -107,8 +107,8 @@ def read_models(path: Path | str) -> ModelList:
 
 
 def write_models(path: Path | str, found: ModelList) -> Path:
-    """Write the models as transfer functions in lowest terms, which `read_models` reads back as
-    they were; returns the path.
+    """Write chains by their names and other models as transfer functions in lowest terms, which
+    `read_models` reads back as they were; returns the path.
     """
     return write_whole(Path(path), [models_text(found)])
 
@@ -129,11 +129,14 @@ def models_text(found: ModelList) -> str:
 
 
 def as_entry(model: AnyModel) -> dict[str, object]:
-    """A model as a file has it, by its transfer functions in lowest terms; a matrix as its
-    expressions, parameters that they lack beside them. Raises InputError for a parameter s.
+    """A model as a file has it: a chain by its name, another one by its transfer function in lowest
+    terms; a matrix as its expressions, parameters that they lack beside them. Raises InputError for
+    a parameter s.
     """
     _refuse_s(model)
     if isinstance(model, Model):
+        if model.chain is not None and _can_be_listed(model.chain):
+            return {"name": model.name, **_of_listed(model.chain)}
         return {"name": model.name, **_of_entry(model)}
     rows = [["0" if e is None else _ratio(_of_entry(e)) for e in row] for row in model.rows]
     return {"name": model.name, "G": rows}
@@ -233,6 +236,15 @@ def _of_chain(given: Plain, name: str) -> Model:
     if chain.dead_time:
         raise InputError("a dead time is no rational function of s; leave +delay away")
     return Model.from_chain(chain, name=name)
+
+
+def _can_be_listed(chain: Chain) -> bool:
+    """Whether a file can name it: it has a number, and not too many masses."""
+    return chain.n_masses <= LARGEST_CHAIN and not name_of(chain).startswith("(")
+
+
+def _of_listed(chain: Chain) -> dict[str, object]:
+    return {"chain": name_of(chain), "damped": chain.damped, "sensor": chain.sensor.value}
 
 
 def _ratio(sides: Mapping[str, list[str]]) -> str:

@@ -124,6 +124,16 @@ def name_of(chain: Chain) -> str:
     return name + extras_of(chain)
 
 
+def names_another(text: str, chain: Chain) -> bool:
+    """Whether a text is the whole name of a chain, and not of this one.
+
+    >>> [names_another(text, Chain(3)) for text in ("3:9", "3:1", "A9")]
+    [True, False, False]
+    """
+    match = NAME.fullmatch(_joined(text))
+    return match is not None and bool(match[1]) and str(read(text)) != name_of(chain)
+
+
 def extras_of(chain: Chain) -> str:
     """What stands behind the number: +b1+lag."""
     words = [*(f"b{i}" for i in chain.ground_dampers), *["lag"] * chain.lag]

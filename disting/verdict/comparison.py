@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
-from disting.general import AnyModel, MatrixModel, Model
+from disting.general import AnyModel, MatrixModel, Model, as_chain
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named, name_of
 from disting.verdict.cascade import Step, steps
@@ -142,18 +142,24 @@ def both_places(
 def _sides(
     left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
 ) -> tuple[Compared, Compared]:
-    """Two chains as chains, whatever else as two general models; by two names."""
-    if not (isinstance(left, Chain) and isinstance(right, Chain)):
-        models = [_model(left), _model(right)]
-        refuse_ports(models)
-        names = [m.name for m in models]
-        if names[0] == names[1]:
-            names = [f"{names[0]} 1", f"{names[1]} 2"]
-        return engine.general_subject(names[0], models[0]), engine.general_subject(
-            names[1], models[1]
-        )
-    here, there = names_of(left, right)
-    return engine.subject(here, left), engine.subject(there, right)
+    """Two chains as chains, whoever names them, whatever else as two general models; by two
+    names.
+    """
+    here, there = names_beside(left, right)
+    a, b = as_chain(left), as_chain(right)
+    if a is not None and b is not None:
+        return engine.subject(here, a), engine.subject(there, b)
+    models = [_model(left), _model(right)]
+    refuse_ports(models)
+    return engine.general_subject(here, models[0]), engine.general_subject(there, models[1])
+
+
+def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, str]:
+    """What two models are called beside each other."""
+    if isinstance(left, Chain) and isinstance(right, Chain):
+        return names_of(left, right)
+    here, there = (name_of(m) if isinstance(m, Chain) else m.name for m in (left, right))
+    return (f"{here} 1", f"{there} 2") if here == there else (here, there)
 
 
 def names_of(left: Chain, right: Chain) -> tuple[str, str]:

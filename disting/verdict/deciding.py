@@ -29,16 +29,21 @@ Prefetch = Callable[[Sequence[Compared], Representation, int], None]
 
 
 def decisions(
-    subjects: Sequence[Compared], query: Query, prefetch: Prefetch, ask: Ask
+    subjects: Sequence[Compared],
+    query: Query,
+    prefetch: Prefetch,
+    ask: Ask,
+    apart: Sequence[int] = (),
 ) -> Decisions:
-    """Decide all pairs of models, of any sizes; the two callbacks compute what will be asked
-    for.
+    """Decide all pairs of models, of any sizes, but for those of two models in the places `apart`;
+    the two callbacks compute what will be asked for.
     """
     n = len(subjects)
     result = Decisions(
         tuple(subjects), query, np.zeros((n, n), np.uint8), np.zeros((n, n), np.uint8)
     )
     open_pairs = np.triu(np.ones((n, n), bool), 1)
+    open_pairs[np.ix_(apart, apart)] = False
     for stage in query.view.representations:
         if stage is Stage.STRUCTURE:
             _structural(result, open_pairs)

@@ -2,10 +2,11 @@
 somebody asks for a pair.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,19 @@ NUMBERS = {name: number for number, name in enumerate(NAMES)}
 GRADES = {c.rule.name: c for c in NECESSARY}
 STAGES = tuple(Stage)
 Numbers = NDArray[np.uint8]
+Pair = tuple[int, int]
+T = TypeVar("T")
+
+
+class Part(NamedTuple):
+    """What was decided of some models of a list by themselves; `places`: which they are."""
+
+    decisions: "Decisions"
+    places: tuple[int, ...]
+
+    def moved(self, found: Mapping[Pair, T]) -> dict[Pair, T]:
+        """What was found of its pairs, by their places in the list."""
+        return {(self.places[i], self.places[j]): x for (i, j), x in found.items()}
 
 
 @dataclass(frozen=True)
@@ -43,7 +57,8 @@ class Decisions(Shown):
     on pairs of unequal rank. `shares[i, j]` tells, for i before or after j, which positive models
     i have a positive equivalent j: of indistinguishable pairs both ways, of included models in the
     ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that
-    were asked again over real or positive ones.
+    were asked again over real or positive ones. `part`: those models of a mixed list that are
+    chains, decided as chains; of their pairs all else here is a copy.
     """
 
     subjects: tuple[Compared, ...]
@@ -55,6 +70,7 @@ class Decisions(Shown):
     inclusions: dict[tuple[int, int], Inclusions] = field(default_factory=dict)
     shares: dict[tuple[int, int], PositiveFinding] = field(default_factory=dict)
     equal: dict[tuple[int, int], Finding] = field(default_factory=dict)
+    part: Part | None = None
 
     def __repr__(self) -> str:
         size = len(self.subjects)
@@ -62,6 +78,30 @@ class Decisions(Shown):
         return summary(
             self, f"{plural(size, 'model')}, {pairs}, over {self.query.view.domain} parameters"
         )
+
+    def with_part(self, part: Part) -> "Decisions":
+        """The same with what is decided of the pairs of a part in their places."""
+        inside = np.ix_(part.places, part.places)
+        decided_by, representation = self.decided_by.copy(), self.representation.copy()
+        decided_by[inside] = part.decisions.decided_by
+        representation[inside] = part.decisions.representation
+        found = part.decisions
+        own = {pair: x for pair, x in self.inclusions.items() if not set(pair) <= {*part.places}}
+        return replace(
+            self,
+            decided_by=decided_by,
+            representation=representation,
+            steps=self.steps | part.moved(found.steps),
+            inclusions=own | part.moved(found.inclusions),
+            shares=self.shares | part.moved(found.shares),
+            equal=self.equal | part.moved(found.equal),
+            part=part,
+        )
+
+    def within(self, i: int, j: int) -> Pair | None:
+        """Which pair of the part it is, if it is one."""
+        places = self.part.places if self.part else ()
+        return (places.index(i), places.index(j)) if {i, j} <= {*places} else None
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
@@ -96,6 +136,9 @@ class Decisions(Shown):
     def verdict(self, i: int, j: int) -> Verdict:
         """The verdict with its evidence; only the deciding condition is run."""
         i, j = min(i, j), max(i, j)
+        inner = self.within(i, j)
+        if self.part and inner:
+            return self.part.decisions.verdict(*inner)
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
             return self._included(
@@ -146,6 +189,7 @@ class Decisions(Shown):
 
     def grades(self) -> Iterator[tuple[int, int, str, str, str, int]]:
         """Yield (i, j, rule, representation, certainty, safety) of all pairs, without evidence."""
+        told = {(g[0], g[1]): g[2:] for g in self.part.decisions.grades()} if self.part else {}
         profiles: dict[tuple[int, int], Profile] = {}
 
         def profile(where: int, i: int) -> Profile:
@@ -155,6 +199,10 @@ class Decisions(Shown):
             return profiles[where, i]
 
         for i, j in combinations(range(len(self.subjects)), 2):
+            inner = self.within(i, j)
+            if inner:
+                yield i, j, *told[inner]
+                continue
             rule, where = self.rule(i, j), int(self.representation[i, j])
             grade: Grade | tuple[str, int] = ("", 0)
             if (i, j) in self.proven:

@@ -36,7 +36,7 @@ from disting.verdict.cascade import audit, decide
 from disting.verdict.chains import ComparedChain
 from disting.verdict.compared import Compared, Profiled
 from disting.verdict.deciding import decisions
-from disting.verdict.decisions import Decisions
+from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
 
@@ -140,7 +140,7 @@ class Engine:
         progress: Progress = silent,
     ) -> Decisions:
         """All pairs of models, of one size or several; the executor's workers compute what is
-        asked for.
+        asked for. Models that are chains are compared as chains with each other.
         """
 
         def prefetch(wanted: Sequence[Compared], r: Representation, count: int) -> None:
@@ -151,7 +151,18 @@ class Engine:
             """Have the question answered for these pairs, many at a time."""
             self.answer_all(question, pairs, executor=executor, progress=progress)
 
-        return decisions(subjects, query, prefetch, ask)
+        chains = {
+            place: self.subject(s.name, s.chain)
+            for place, s in enumerate(subjects)
+            if isinstance(s, ComparedModel) and s.chain is not None
+        }
+        if len(chains) < 2:
+            return decisions(subjects, query, prefetch, ask)
+        part = decisions(list(chains.values()), query, prefetch, ask)
+        if len(chains) == len(subjects):
+            return part
+        whole = decisions(subjects, query, prefetch, ask, apart=list(chains))
+        return whole.with_part(Part(part, tuple(chains)))
 
     def profiles_of(
         self,

@@ -3,12 +3,11 @@ several together.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general import AnyModel, MatrixModel, Model
+from disting.general import AnyModel, MatrixModel, Model, unnamed
 from disting.general.parameters import PARAMETERS
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
@@ -48,7 +47,7 @@ def identifiability(
     if isinstance(model, Model | MatrixModel):
         if experiments:
             raise InputError(NOT_CHAINS)
-        return engine.answer(PARAMETERS, (replace(model, name="model"),), engine.settings)
+        return engine.answer(PARAMETERS, (unnamed(model),), engine.settings)
     if isinstance(model, str):
         (model,) = chains_named([model], damped=damped, sensor=sensor)
     if not isinstance(model, Chain):

@@ -9,7 +9,8 @@ model does not lie in the smaller one, and of equal ranks distinguishable models
 other. So every rank that is not proven counts.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from disting.conditions.rule import Stage
 from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions
 
+T = TypeVar("T")
+
 
 def family_safety(decided: Decisions) -> int:
     """Largest b such that all statements on all pairs hold, but for a probability of 2**-b at
@@ -25,7 +28,8 @@ def family_safety(decided: Decisions) -> int:
 
     `certainty.USELESS` where no bound is left.
     """
-    return joint_safety(_safeties(decided))
+    part = _safeties(decided.part.decisions) if decided.part else ()
+    return joint_safety([*_safeties(decided), *part])
 
 
 def classes_safety(found: Classes) -> int:
@@ -66,11 +70,18 @@ def joint_in_words(safety: int) -> str:
 
 
 def _safeties(decided: Decisions) -> Iterator[int]:
-    """Yield the bits of everything that rests on chance. Those of an exact decision count the
-    ranks it needs.
+    """Yield the bits of everything that rests on chance, but for what is decided in a part of a
+    list. Those of an exact decision count the ranks it needs.
     """
+
+    def own(found: Mapping[tuple[int, int], T]) -> list[T]:
+        """What is not of the part."""
+        return [x for pair, x in found.items() if decided.within(*pair) is None]
+
     profiles = set[tuple[Stage, int]]()
     for i, j, _, where, certainty, safety in decided.grades():
+        if decided.within(i, j):
+            continue
         if certainty == Certainty.BOUNDED and (i, j) in decided.steps:
             yield safety
         elif certainty == Certainty.BOUNDED:
@@ -78,10 +89,10 @@ def _safeties(decided: Decisions) -> Iterator[int]:
     if decided.query.tells_inclusion:
         profiles |= set(_uncertain_ranks(decided))
     yield from (decided.profile(where, i).safety for where, i in profiles)
-    yield from (safety for safety in (f.safety for f in decided.equal.values()) if safety)
-    for both in decided.inclusions.values():
+    yield from (safety for safety in (f.safety for f in own(decided.equal)) if safety)
+    for both in own(decided.inclusions):
         yield from (f.safety for f in dict.fromkeys((both.image, both.closure)) if f.safety)
-    yield from (share.safety for share in decided.shares.values() if share.safety)
+    yield from (share.safety for share in own(decided.shares) if share.safety)
 
 
 def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[Stage, int]]:

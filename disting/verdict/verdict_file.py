@@ -16,13 +16,13 @@ from disting.errors import DistingError, InputError, shown
 from disting.evidence.plain import is_well_typed
 from disting.experiments import Experiment
 from disting.files import __version__
-from disting.general import AnyModel, MatrixModel, Model
-from disting.general.model_files import as_entry, read_entry
+from disting.general import AnyModel, Model, as_chain
+from disting.general.model_files import LARGEST_CHAIN, as_entry, read_entry
 from disting.model.chain import Chain, Sensor
 from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
-from disting.model.names import name_of
+from disting.model.names import name_of, names_another
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format
@@ -241,9 +241,10 @@ def _verdict(data: dict[str, Any]) -> Verdict:
 
 
 def _plain_model(model: Chain | AnyModel) -> dict[str, object]:
-    if isinstance(model, Model | MatrixModel):
-        return as_entry(model)
-    return {"name": name_of(model), **asdict(model)}
+    if isinstance(model, Chain):
+        return {"name": name_of(model), **asdict(model)}
+    chain = as_chain(model)
+    return as_entry(model) if chain is None else {"name": model.name, **asdict(chain)}
 
 
 def _model(data: Mapping[str, Any]) -> Chain | AnyModel:
@@ -255,4 +256,11 @@ def _model(data: Mapping[str, Any]) -> Chain | AnyModel:
         raise InputError("whether a chain has dampers, lag or dead time is true or false")
     if type(rest["n_masses"]) is int and rest["n_masses"] > MOST_MASSES:
         raise InputError(f"a chain has {MOST_MASSES} masses at most")
-    return Chain(**rest | {"ground_dampers": tuple(rest["ground_dampers"])})
+    chain, name = Chain(**rest | {"ground_dampers": tuple(rest["ground_dampers"])}), data["name"]
+    if type(name) is not str:
+        raise InputError("the name of a model is a text")
+    if name == name_of(chain) or names_another(name, chain):
+        return chain  # by its own name: what the file calls it is compared with that
+    if chain.n_masses > LARGEST_CHAIN:
+        raise InputError(f"a chain with a name of its own has {LARGEST_CHAIN} masses at most")
+    return Model.from_chain(chain, name=name)

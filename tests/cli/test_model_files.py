@@ -124,7 +124,7 @@ BAD = [
     (("compare", "MODELS:drive", "3:1", "--prove"), "belongs to numbered chains"),
     (("compare", "MODELS:drive", "3:1", "--bound", "m1=1..2"), "belongs to numbered chains"),
     (("compare", "MODELS:drive", "MODELS:by hand", "--damped"), "belongs to numbered chains"),
-    (("compare", "MODELS:drive", "3:1+delay"), "no rational function"),
+    (("compare", "MODELS:two leaks", "3:1+delay"), "no rational function"),
 ]  # fmt: skip
 
 
