@@ -21,7 +21,7 @@ def values_of(chain):
     return dict(zip(chain.parameters, numbers, strict=True))
 
 
-def response(chain, values, s, *, sensor=None, force=None, locked=(), inertias=()):
+def response(chain, values, s, *, sensor=None, force=None, locked=(), inertias=(), brakes=()):
     """By a linear solve of the masses that move."""
     n = chain.n_masses
     a = np.zeros((n, n), dtype=complex)
@@ -34,6 +34,8 @@ def response(chain, values, s, *, sensor=None, force=None, locked=(), inertias=(
             a += value * (s if name[0] == "d" else 1) * np.outer(v, v)
     for i, size in dict(inertias).items():
         a[i - 1, i - 1] += float(Fraction(size)) * s**2
+    for i, size in dict(brakes).items():
+        a[i - 1, i - 1] += float(Fraction(size)) * s
     ends = []
     for plus, minus in (
         (force, 0) if force else (chain.act_plus, chain.act_minus),
@@ -86,6 +88,21 @@ def check(pair, kind, i, j, same):
     alone = equivalents(given, values, other)
     kept = [m.text for m in listing.members]
     for member in alone:
+        assert agrees(given, values, other, member, further) is (member.text in kept)
+
+
+@pytest.mark.parametrize(
+    ("pair", "i", "j", "same"),
+    [((2, 5), 1, 3, True), ((2, 5), 2, 2, True), ((2, 5), 1, 1, False), ((9, 10), 3, 3, True)],
+)
+def test_a_brake_keeps_what_has_all_responses(pair, i, j, same):
+    """The pair 2, 5 is one machine numbered from its other end."""
+    given, other = (A[n] for n in pair)
+    values, further = values_of(given), [({}, {}), ({"brakes": {i: 2}}, {"brakes": {j: 2}})]
+    (listing,) = equivalents(given, values, other, also=[f"brake={i}/{j}:2"]).listings
+    kept = [m.text for m in listing.members]
+    assert bool(kept) is same
+    for member in equivalents(given, values, other):
         assert agrees(given, values, other, member, further) is (member.text in kept)
 
 
