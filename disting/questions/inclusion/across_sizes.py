@@ -9,9 +9,9 @@ zeros cancel. What settles a pair first is kept:
 2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is
    computed. Proven.
 3. `meeting`: dimensions that add up, for the whole or for a row after such limits. Proven.
-4. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted,
+4. `model.minors`: what has no lag, or no dead time, is a limit of what has one. Proven.
+5. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted,
    with the rank's error bound.
-5. `model.minors`: what has no lag is a limit of what has one. Proven.
 6. `pole_sharing`: models of the smaller kind that are no limits. Refuted; this costs more.
 7. `limit_fibre`: the smaller models among what limits of rows lead to. Found with an error bound.
 

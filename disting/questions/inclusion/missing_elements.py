@@ -26,6 +26,8 @@ def by_elements(small: Chain, large: Chain, left_is_smaller: bool) -> InclusionF
     """
     if small.dead_time and not large.dead_time:
         return without_dead_time(left_is_smaller)
+    if len(small.parameters) >= len(large.parameters):
+        return None
     found = (
         places
         for ports in _ways(small, large)
