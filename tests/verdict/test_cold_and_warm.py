@@ -10,7 +10,7 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from disting import Engine, Family, Query, Sensor, View, verify
+from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
 from disting.evidence import plain
 from disting.evidence.decision import THEOREMS, Theorem
@@ -18,7 +18,9 @@ from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.plain import is_well_typed
 from disting.evidence.positive import Empirical, Excluded, PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays, RealWitnesses
+from disting.experiments import MeasuredChain
 from disting.general import read_models
+from disting.verdict.cascade import decide
 from disting.verdict.result import Verdict
 from disting.verdict.verification import Standing
 from tests.cli.process import called
@@ -138,6 +140,14 @@ def evidence_of(verdict):
     return [x.evidence for x in (verdict, *both, *shares)]
 
 
+def refuse_differences(verdicts):
+    """Each is as it is read after it was written, and every field of its evidence has its type."""
+    for verdict in verdicts:
+        assert all(map(is_well_typed, evidence_of(verdict)))
+        assert repr(read_back(verdict).evidence) == repr(verdict.evidence)
+        assert read_back(verdict) == verdict
+
+
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT, View.COMBINED])
 @pytest.mark.parametrize("damped", [False, True])
 def test_evidence_that_is_made_is_that_which_is_read(view, damped):
@@ -147,11 +157,25 @@ def test_evidence_that_is_made_is_that_which_is_read(view, damped):
         *((f"2:{i}", c) for i, c in enumerate(Family(2, damped, Sensor.VELOCITY), 1)),
     ]
     decided = engine.decisions([engine.subject(*one) for one in chains], Query(view))
-    for pair in combinations(range(len(chains)), 2):
-        verdict = decided.verdict(*pair)
-        assert all(map(is_well_typed, evidence_of(verdict)))
-        assert repr(read_back(verdict).evidence) == repr(verdict.evidence)
-        assert read_back(verdict) == verdict
+    refuse_differences(decided.verdict(*pair) for pair in combinations(range(len(chains)), 2))
+
+
+@pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT])
+@pytest.mark.parametrize("name", ["single", "matrices"])
+def test_evidence_of_models_is_that_which_is_read(view, name, files):
+    subjects = [Engine().general_subject(m.name, m) for m in read_models(files[name])]
+    refuse_differences(decide(*pair, Query(view)) for pair in combinations(subjects, 2))
+
+
+@pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT])
+def test_evidence_under_experiments_is_that_which_is_read(view):
+    experiments = [Experiment(), Experiment(sensor=2), Experiment(locked=1)]
+    measured = [
+        Engine().measured_subject(f"{n}:{i}", MeasuredChain(chain, tuple(experiments)))
+        for n in (2, 3)
+        for i, chain in list(enumerate(Family(n, False), 1))[:4]
+    ]
+    refuse_differences(decide(*pair, Query(view)) for pair in combinations(measured, 2))
 
 
 KINDS = sorted(

@@ -36,7 +36,9 @@ def told(verdict):
         verdict.representation,
         verdict.certainty,
         verdict.error_bound,
-        verdict.evidence and (verdict.evidence.kind, verdict.evidence.formula),
+        # a list looks at as many Markov parameters as its largest pair needs
+        verdict.evidence and verdict.evidence.kind,
+        verdict.representation != "markov" and verdict.evidence and verdict.evidence.formula,
         verdict.domain,
     )
 
