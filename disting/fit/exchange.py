@@ -112,8 +112,9 @@ def _results(
     for _, found in mapped(
         run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor
     ):
-        store.put_many({keys[found.chain]: estimate_to_json(found)})
-        yield found
+        text = estimate_to_json(found)
+        store.put_many({keys[found.chain]: text})
+        yield estimate_from_json(found.chain, text)  # as it is read the next time
 
 
 def estimate_to_json(found: Estimate) -> str:

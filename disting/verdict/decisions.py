@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,11 +37,17 @@ Pair = tuple[int, int]
 T = TypeVar("T")
 
 
-class Part(NamedTuple):
+@dataclass(frozen=True)
+class Part:
     """What was decided of some models of a list by themselves; `places`: which they are."""
 
     decisions: "Decisions"
     places: tuple[int, ...]
+
+    @cached_property
+    def numbers(self) -> dict[int, int]:
+        """Which of the part stands in a place of the list."""
+        return {place: number for number, place in enumerate(self.places)}
 
     def moved(self, found: Mapping[Pair, T]) -> dict[Pair, T]:
         """What was found of its pairs, by their places in the list."""
@@ -86,7 +92,7 @@ class Decisions(Shown):
         decided_by[inside] = part.decisions.decided_by
         representation[inside] = part.decisions.representation
         found = part.decisions
-        own = {pair: x for pair, x in self.inclusions.items() if not set(pair) <= {*part.places}}
+        own = {pair: x for pair, x in self.inclusions.items() if not part.numbers.keys() >= {*pair}}
         return replace(
             self,
             decided_by=decided_by,
@@ -100,8 +106,8 @@ class Decisions(Shown):
 
     def within(self, i: int, j: int) -> Pair | None:
         """Which pair of the part it is, if it is one."""
-        places = self.part.places if self.part else ()
-        return (places.index(i), places.index(j)) if {i, j} <= {*places} else None
+        numbers = self.part.numbers if self.part else {}
+        return (numbers[i], numbers[j]) if i in numbers and j in numbers else None
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
