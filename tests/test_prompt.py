@@ -132,7 +132,8 @@ def test_lines_say_what_is_there(shown):
     assert repr(catalog(5, damped=False)) == "<Catalog: chains-5-undamped, 73 models, 2628 pairs>"
     assert (
         lines["Verdict"]
-        == "<Verdict: A1 and A2 are distinguishable over positive parameters (proven)>"
+        == "<Verdict: 3:1 and 3:2, undamped, acceleration: distinguishable over positive parameters,"
+        " proven>"
     )
     assert lines["Selection"] == "<Selection: 2:1+b1 of 24 candidates, 1 not excluded>"
     assert lines["FrequencyResponse"] == "<FrequencyResponse: 60 lines, 5 to 200 Hz, acceleration>"

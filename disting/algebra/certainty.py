@@ -25,6 +25,34 @@ class Certainty(StrEnum):
     BOUNDED = "bounded"
     NUMERICAL = "numerical"
 
+    def in_words(self, safety: int = 0, theorem: str = "") -> str:
+        """How sure a statement is, as it is said everywhere: to a reader of a sentence, a page, a
+        notebook. `theorem` names the one that it holds by.
+
+        >>> Certainty.THEOREM.in_words(theorem="duality theorem"), Certainty.PROVEN.in_words()
+        ('proven (duality theorem)', 'proven')
+        >>> Certainty.BOUNDED.in_words(132)
+        'probability of error at most 2^-132'
+        """
+        match self:
+            case Certainty.THEOREM:
+                return f"proven ({theorem or 'theorem'})"
+            case Certainty.PROVEN:
+                return "proven"
+            case Certainty.BOUNDED:
+                return f"probability of error at most {bits_in_words(safety)}"
+            case Certainty.NUMERICAL:
+                return "found numerically, not proven"
+
+
+def bits_in_words(safety: int) -> str:
+    """Text of an error bound 2**-safety.
+
+    >>> bits_in_words(132), bits_in_words(USELESS)
+    ('2^-132', '1')
+    """
+    return f"2^-{safety}" if safety > 0 else "1"
+
 
 Grade = tuple[Certainty, int]
 """Certainty and, if it is BOUNDED, the bits b of the error bound 2**-b."""
@@ -45,7 +73,7 @@ def shortfall(certainty: Certainty | None, safety: int) -> str:
     'its error bound would be 2^-99, and more than 2^-100 is not accepted'
     """
     if certainty is Certainty.BOUNDED:
-        bound = f"2^-{safety}" if safety > 0 else "1"
+        bound = bits_in_words(safety)
         return (
             ""
             if safety >= LEAST_SAFETY

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from disting.catalogs.export import Row, csv_text, inclusion_text, share_text
+from disting.catalogs.export import Row, csv_text, inclusion_text, premise_text, share_text
 from disting.catalogs.files import (
     PROVENANCE,
     SHIPPED_SIZES,
@@ -22,7 +22,7 @@ from disting.catalogs.files import (
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.shown import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
@@ -92,6 +92,11 @@ class Catalog(Shown):
     def damped(self) -> bool:
         """Whether every spring has a damper beside it."""
         return bool(self.records[0]["damped"])
+
+    @property
+    def premise(self) -> Premise:
+        """Damping and sensor quantity of all models."""
+        return Premise(self.damped, self.family.sensor)
 
     @cached_property
     def family(self) -> Family:
@@ -285,7 +290,9 @@ class Catalog(Shown):
 
     def _read(self, record: Record, view: View) -> Verdict:
         try:
-            return stored_verdict(record, view)
+            numbers = (record["left"], record["right"])
+            names = (f"{self.n_masses}:{numbers[0]}", f"{self.n_masses}:{numbers[1]}")
+            return stored_verdict(record, view, names, (self.premise, self.premise))
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             where = f"{self.name}, {record['left']}:{record['right']}"
             raise CatalogError(
@@ -330,6 +337,7 @@ def _csv_row(left: int, right: int, v: Verdict) -> Row:
         closure,
         share_text(v.left_positive),
         share_text(v.right_positive),
+        *premise_text(*v.premises),
     )
 
 

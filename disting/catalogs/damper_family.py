@@ -9,6 +9,7 @@ from functools import cached_property
 
 from disting.catalogs.damper_settled import preload, read_settled
 from disting.catalogs.dampers import DamperSets, Masses
+from disting.catalogs.export import premise_text
 from disting.catalogs.files import shipped_folder
 from disting.errors import InputError
 from disting.model.family import Family
@@ -63,15 +64,16 @@ class DamperFamily:
         return tuple(tuple(map(self.name, members)) for members in self.found.classes())
 
     def csv_lines(self) -> Iterator[str]:
-        """Yield left, right, relation, decided_by, domain of all pairs, models written 3:4+b1+b3,
-        a line at a time.
+        """Yield left, right, relation, decided_by, domain, damped, quantity of all pairs, models
+        written 3:4+b1+b3, a line at a time.
 
         The domain is complex: over positive parameters, families are not asked.
         """
-        yield "left,right,relation,decided_by,domain\n"
+        yield "left,right,relation,decided_by,domain,damped,quantity\n"
+        premise = ",".join(premise_text(*[self.family[1].premise] * 2))
         names = [self.text(i) for i in range(len(self))]
         for i, j, relation, rule in self.found.pairs():
-            yield f"{names[i]},{names[j]},{relation.value},{rule},complex\n"
+            yield f"{names[i]},{names[j]},{relation.value},{rule},complex,{premise}\n"
 
     def text(self, place: int) -> str:
         """A model as `compare` names it."""

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
 
+from disting.catalogs.export import premise_text
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.domain import Domain
@@ -20,7 +21,7 @@ from disting.model.shown import plural, summary
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
 
 Masses = tuple[int, ...]
-COLUMNS = ("left", "right", "relation", "decided_by", "domain")
+COLUMNS = ("left", "right", "relation", "decided_by", "domain", "damped", "quantity")
 
 
 class DamperSets(StrEnum):
@@ -97,13 +98,16 @@ class DamperTable:
         return tuple(tuple(self.sets[i] for i in group) for group in groups)
 
     def to_csv(self) -> str:
-        """All pairs as CSV text: left, right, relation, decided_by ("" if undecided), domain."""
+        """All pairs as CSV text: left, right, relation, decided_by ("" if undecided), domain,
+        and the premise of the chain.
+        """
+        premise = premise_text(self.chain.premise, self.chain.premise)
         out = io.StringIO()
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(COLUMNS)
         rows = self.rows()
         writer.writerows(
-            (spelled(a), spelled(b), relation.value, rule, self.domain.value)
+            (spelled(a), spelled(b), relation.value, rule, self.domain.value, *premise)
             for a, b, relation, rule in rows
         )
         return out.getvalue()

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from disting.algebra.certainty import Certainty
 from disting.evidence.positive import PositiveFinding
+from disting.model.chain import Premise
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.schemas import Format
@@ -27,12 +28,16 @@ CSV_COLUMNS = (
     "closure",
     "left_positive",
     "right_positive",
+    "damped",
+    "quantity",
 )
-Row = tuple[int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str]
+Row = tuple[
+    int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str, str, str
+]
 """left, right (numbers, or names where models of several sizes are compared), relation,
 decided_by, representation, certainty, error bound, domain, image and closure ("" if not known),
 and which positive models of the left, and of the right, have a positive equivalent on the other
-side ("" where that is not asked)
+side ("" where that is not asked), and what `premise_text` says
 """
 
 
@@ -40,10 +45,10 @@ def csv_text(rows: Iterable[Row]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
     >>> told = (Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX)
-    >>> row = (1, 2, *told, "neither", "neither", "", "")
+    >>> row = (1, 2, *told, "neither", "neither", "", "", "true", "acceleration")
     >>> print(csv_text([row]), end="")
-    left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,left_positive,right_positive
-    1,2,distinguishable,1,tf,proven,0,complex,neither,neither,,
+    left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,left_positive,right_positive,damped,quantity
+    1,2,distinguishable,1,tf,proven,0,complex,neither,neither,,,true,acceleration
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -59,11 +64,12 @@ def decisions_csv(decided: Decisions) -> str:
     """
     names = [_cell(name) for name in _names(decided)]
 
-    def rest(i: int, j: int) -> tuple[Domain, str, str, str, str]:
-        """Domain, image, closure and the positive equivalents of both sides."""
+    def rest(i: int, j: int) -> tuple[Domain, str, str, str, str, str, str]:
+        """Domain, image, closure, the positive equivalents of both sides, damping, quantity."""
+        sides = decided.subjects[i].premise, decided.subjects[j].premise
         here, there = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
         image, closure = (inclusion_text(decided.inclusion(i, j, sense)) for sense in Sense)
-        return decided.query.view.domain, image, closure, here, there
+        return decided.query.view.domain, image, closure, here, there, *premise_text(*sides)
 
     graded = (
         (
@@ -79,6 +85,22 @@ def decisions_csv(decided: Decisions) -> str:
         for i, j, rule, where, certainty, safety in decided.grades()
     )
     return csv_text(graded)
+
+
+def premise_text(left: Premise | None, right: Premise | None) -> tuple[str, str]:
+    """Texts of two columns: whether springs have dampers (true, false) and the sensor quantity, of
+    both models where they differ, left/right; "" of models that are no chains.
+
+    >>> from disting import Chain
+    >>> premise_text(Chain(2).premise, Chain(2, sensor="position", damped=False).premise)
+    ('true/false', 'acceleration/position')
+    """
+    sides = [
+        ("", "") if side is None else (str(side.damped).lower(), side.quantity.value)
+        for side in (left, right)
+    ]
+    damped, quantity = (a if a == b else f"{a}/{b}" for a, b in zip(*sides, strict=True))
+    return damped, quantity
 
 
 def share_text(found: PositiveFinding | None) -> str:

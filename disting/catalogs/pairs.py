@@ -15,15 +15,19 @@ from disting.conditions.table import RULES
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 from disting.evidence.positive import PositiveFinding
+from disting.model.chain import Premise
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
 from disting.verdict import Relation, Step, Verdict, View, open_note
 
 
-def stored_verdict(record: Record, view: View) -> Verdict:
-    """The verdict of a view with all that the record says of the pair."""
-    found, settled = _plain(record, view), relation_of(deciding(record, View.EXACT)[1])
+def stored_verdict(
+    record: Record, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
+) -> Verdict:
+    """The verdict of a view with all that the record says of the pair, which it names so."""
+    found = replace(_plain(record, view, names), premises=premises)
+    settled = relation_of(deciding(record, View.EXACT)[1])
     if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
         return found
     here, there = _shares(record)
@@ -71,8 +75,7 @@ def relation_of(step: dict[str, Any]) -> Relation:
     )
 
 
-def _plain(record: Record, view: View) -> Verdict:
-    names = (f"A{record['left']}", f"A{record['right']}")
+def _plain(record: Record, view: View, names: tuple[str, str]) -> Verdict:
     where, step = deciding(record, view)
     if not step:
         return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_notes(record, view))

@@ -20,7 +20,7 @@ from disting.catalogs.files import SHIPPED_SIZES, Record, shipped_folder
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Premise
 from disting.model.shown import Shown, plural, summary
 from disting.verdict import Relation, Verdict, View
 
@@ -60,6 +60,11 @@ class SizesCatalog(Shown):
     def name(self) -> str:
         """Such as sizes-damped."""
         return name_of(self.damped)
+
+    @property
+    def premise(self) -> Premise:
+        """Damping and sensor quantity of all models."""
+        return self.catalogs[0].premise
 
     @cached_property
     def family(self) -> tuple[Chain, ...]:
@@ -121,12 +126,12 @@ class SizesCatalog(Shown):
         left, right = self.names[low - 1], self.names[high - 1]
         (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
         if one is other:
-            return replace(one.verdict(i, j, view), left=left, right=right)
+            return one.verdict(i, j, view)
         if view is not View.EXACT:  # what distinguishes over complex parameters does so over all
             return replace(self.verdict(low, high, View.EXACT), domain=view.domain)
         try:
-            found = stored_verdict(self._across[left, right], view)
-            return replace(found, left=left, right=right)
+            record = self._across[left, right]
+            return stored_verdict(record, view, (left, right), (one.premise, other.premise))
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             raise CatalogError(
                 f"{self.name}, {left} and {right} cannot be read ({reason!r});"

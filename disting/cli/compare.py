@@ -303,8 +303,7 @@ def _explained(verdict: Verdict, drawn: list[str]) -> str:
         lines += [shown(verdict), ""]
     lines.append(verdict.sentence)
     if verdict.evidence:
-        certainty = f"{verdict.certainty}, probability of error at most {verdict.error_bound}"
-        lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {certainty}"]
+        lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]
     lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")
     return "\n".join([*lines, *_inclusion(verdict)])
 
@@ -349,8 +348,5 @@ def _why(found: InclusionFinding, verdict: Verdict) -> str:
     """Grade and evidence of one statement, or why it is not known."""
     if found.evidence is None:
         return f"not known: {found.reason}"
-    bound = f", probability of error at most 2^-{found.safety}" if found.safety else ""
-    return (
-        f"{found.inclusion} ({found.certainty}{bound}):"
-        f" {found.evidence.sentence(verdict.left, verdict.right)}"
-    )
+    sure = f" ({found.certainty.in_words(found.safety)})" if found.certainty else ""
+    return f"{found.inclusion}{sure}: {found.evidence.sentence(verdict.left, verdict.right)}"

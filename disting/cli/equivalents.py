@@ -253,7 +253,5 @@ def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace
 def _checked(found: Map) -> str:
     if not found.safety:
         return "identity of the transfer functions proven"
-    return (
-        "identity of the transfer functions checked, probability of error at most"
-        f" 2^-{found.safety}"
-    )
+    sure = found.certainty.in_words(found.safety)
+    return f"identity of the transfer functions checked, {sure}"

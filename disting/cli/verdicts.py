@@ -24,7 +24,7 @@ from disting.cli.plain import keep_apart
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Sensor
 from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety, joint_in_words
@@ -114,12 +114,10 @@ def list_of(path: Path) -> ModelList:
 
 
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:
-    """Numbered chains: A1, A2, .. of one size, N:I of several."""
-    named: Sequence[tuple[str, Chain]] = combined_family(
+    """Numbered chains, N:I."""
+    named = combined_family(
         options.masses, damped=is_damped(options), sensor=Sensor(options.quantity)
     )
-    if len(options.masses) == 1:
-        named = [(f"A{number}", chain) for number, (_, chain) in enumerate(named, 1)]
     return [engine.subject(name, chain) for name, chain in named]
 
 

@@ -61,7 +61,7 @@ class Forms:
         sides = ((self.only_left, left, right), (self.only_right, right, left))
         parts = [_varies(labels, here, there) for labels, here, there in sides if labels]
         why = f": {TRANSCENDENTAL}" if "Td" in (*self.only_left, *self.only_right) else ""
-        return _capital("; ".join(parts)) + why + "."
+        return capital("; ".join(parts)) + why + "."
 
     @property
     def formula(self) -> str:
@@ -226,5 +226,6 @@ def _varies(labels: Labels, here: str, there: str) -> str:
     return f"{spelled(labels)} {depends} on the parameters in {here} but {are} constant in {there}"
 
 
-def _capital(text: str) -> str:
+def capital(text: str) -> str:
+    """With a capital letter at its beginning."""
     return text[:1].upper() + text[1:]

@@ -27,6 +27,14 @@ THEOREMS = {
 RATIONAL = ("symmetry", "duality")
 """Theorems whose maps are rational, so that they take real parameters to real ones."""
 
+TITLES = {
+    "Foster and Cauer": "Foster's and Cauer's theorems",
+    "symmetry": "symmetry",
+    "duality": "duality theorem",
+    "Foster": "Foster's theorem",
+    "parts": "reversal of undamped rows",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Theorem:
@@ -41,6 +49,11 @@ class Theorem:
         # from a damaged file: said here, and not when it is to be told
         if self.name not in THEOREMS:
             raise ValueError(f"no theorem is called {self.name!r}")
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return TITLES[self.name]
 
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says of this pair."""

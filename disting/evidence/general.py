@@ -5,6 +5,8 @@ and without one; constants.
 from dataclasses import dataclass
 from typing import ClassVar
 
+from disting.model.domain import Domain
+
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
 """Left given; polynomials in its parameters that are positive; values of the other model's
 parameters; and, if a value contains a root, (its name, the equation's polynomial, two numbers or
@@ -12,26 +14,40 @@ fractions between which it is).
 """
 Point = tuple[tuple[str, str], ...]  # parameter name, number
 SHOWN = 3
+BOTH = (True, False)  # ways from one model to the other
 
 
 @dataclass(frozen=True, slots=True)
 class Explicit:
     """All generic parameters of either model have an equivalent: those of the first formula
     that applies.
+
+    Positive ones have no exception where there is one formula each way, on no condition and without
+    a root, and it has plus signs only: then its values are positive wherever the parameters are.
     """
 
     kind: ClassVar[str] = "explicit"
     domain: str
     formulas: tuple[Formula, ...]
 
+    @property
+    def without_exception(self) -> bool:
+        """Whether it holds for special values too."""
+        plain = all(
+            not where and not root and not any("-" in value for _, value in values)
+            for _, where, values, root in self.formulas
+        )
+        return self.domain == Domain.POSITIVE and plain and len(self.formulas) == len(BOTH)
+
     def sentence(self, left: str, right: str) -> str:
         """One formula each way, and how many there are."""
         said = []
-        for way, given, searched in ((True, left, right), (False, right, left)):
+        for way, given, searched in zip(BOTH, (left, right), (right, left), strict=True):
             every = [f for f in self.formulas if f[0] is way]
             more = f" ({len(every)} formulas for different parameters)" if len(every) > 1 else ""
             said.append(f"{given} is {searched} at {_told(every[0])}{more}")
-        return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters."
+        values = "" if self.without_exception else " but special ones"
+        return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
 
     @property
     def formula(self) -> str:

@@ -15,9 +15,9 @@ from disting.evidence.across_sizes import (
     PoleSharing,
     TooLarge,
 )
-from disting.evidence.conditions import ByConditions, Counts
+from disting.evidence.conditions import ByConditions, Counts, Renaming
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
-from disting.evidence.general import OfGeneralModels
+from disting.evidence.general import Explicit, OfGeneralModels
 from disting.evidence.ideals import ByRows, FullRows, Refuted, Shared, Solved
 from disting.evidence.limits import (
     FullImage,
@@ -27,7 +27,9 @@ from disting.evidence.limits import (
     RelativeDegrees,
     RowsInside,
 )
+from disting.evidence.positive import Excluded, Interlacing, PositiveEvidence
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.model.domain import Domain
 
 ByDecision = Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | Refuted | Shared
 Evidence = (
@@ -77,6 +79,50 @@ def inclusion_evidence_from(data: dict[str, Any]) -> InclusionEvidence:
     """
     found: InclusionEvidence = plain.from_dict(data, get_args(InclusionEvidence))
     return found
+
+
+def without_exception(evidence: Evidence | PositiveEvidence, domain: Domain) -> bool:
+    """Whether evidence that two models are indistinguishable speaks of all their parameters in this
+    domain; else special values, a set of measure zero, are left out.
+
+    A renaming, and the symmetries of a chain, carry all parameters over. So does duality where they
+    are positive: its formulas divide by sums of masses alone. Foster's and Cauer's theorems, and
+    all that rests on ranks or on one fibre, speak of generic ones: of a chain with the force on its
+    middle mass and both sides alike a pole is cancelled, and a chain with the force at its end has
+    always all of them.
+    """
+    match evidence:
+        case Renaming():
+            return True
+        case Theorem(name="symmetry"):
+            return True
+        case Theorem(name="duality"):
+            return domain is Domain.POSITIVE
+        case Explicit():
+            return evidence.without_exception
+        case BothWays():
+            ways = (evidence.left.evidence, evidence.right.evidence)
+            return all(way is not None and without_exception(way, domain) for way in ways)
+        case _:
+            return False
+
+
+def theorem_named(evidence: Evidence | PositiveEvidence | None) -> str:
+    """What the theorem is called by which evidence speaks; "" where it has no name of its own."""
+    match evidence:
+        case Theorem():
+            return evidence.title
+        case Excluded():
+            return evidence.name
+        case Interlacing():
+            return "order of poles and zeros"
+        case DeadTime() | RealFactors() | OddFibres():
+            return evidence.kind
+        case BothWays():
+            ways = (theorem_named(way.evidence) for way in (evidence.left, evidence.right))
+            return " and ".join(dict.fromkeys(filter(None, ways)))
+        case _:
+            return ""
 
 
 def tells_equivalents(evidence: InclusionEvidence) -> bool:

@@ -15,7 +15,7 @@ from itertools import pairwise
 from disting.behaviour.transfer import touched
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.experiments.changes import Change, changes_of, in_order
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import AS_IT_IS, Chain, Sensor
 from disting.model.kinds import CHANGES, Kind
 from disting.model.shown import summary
 from disting.model.structure import Element, Known, Ports, Structure
@@ -137,7 +137,7 @@ class Experiment:
             if place
         ]
         quantity = [self.quantity.value] if self.quantity else []
-        return ", ".join([*ports, *quantity, *(c.text for c in self.changes)]) or "as it is"
+        return ", ".join([*ports, *quantity, *(c.text for c in self.changes)]) or AS_IT_IS
 
     def refuse(self, chain: Chain) -> None:
         """Raise InputError if the chain has no such place, or nothing is left that moves."""

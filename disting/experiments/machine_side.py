@@ -31,6 +31,7 @@ from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
 from disting.experiments.stacked_profiles import drawn_at, profile
+from disting.model.chain import Premise
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
@@ -65,6 +66,11 @@ class ComparedMachine:
     _known: dict[tuple[Representation, int], Profile] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
+
+    @property
+    def premise(self) -> Premise:
+        """Damping, sensor quantity, and all experiments."""
+        return replace(self.measured.chain.premise, experiments=self.measured.text)
 
     def profile(self, representation: Representation, count: int) -> Profile:
         """What all experiments together reveal."""

@@ -35,7 +35,7 @@ from disting.general.any_model import (
     unnamed,
 )
 from disting.general.matrix_model import AnyModel
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Premise
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
 from disting.model.settings import Settings
@@ -123,12 +123,17 @@ class ComparedModel:
     @property
     def content(self) -> tuple[str, ...]:
         """All that verdicts on this model depend on."""
-        return self.name, written(self.profiled)
+        return self.name, written(self.profiled), written(self.premise)
 
     @property
     def chain(self) -> Chain | None:
         """The chain that it is, if it is one."""
         return as_chain(self.model)
+
+    @property
+    def premise(self) -> Premise | None:
+        """That of the chain that it is, if it is one."""
+        return None if self.chain is None else self.chain.premise
 
     @property
     def profiled(self) -> AnyModel:

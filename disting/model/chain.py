@@ -6,7 +6,7 @@ neighbours except at the gap. The force acts with +F on mass `act_plus` and with
 the sensor shows x[meas_plus] - x[meas_minus].
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
@@ -17,6 +17,7 @@ from disting.model.constraints import Indices, violated
 from disting.model.shown import Drawn
 from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
 
+AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
 PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said
 
 
@@ -31,6 +32,38 @@ class Sensor(StrEnum):
     def order(self) -> int:
         """Number of differentiations of the position: 0, 1 or 2."""
         return list(Sensor).index(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Premise:
+    """What a name such as 3:4 leaves to be said: dampers beside the springs, the sensor quantity,
+    and how else the machine is measured.
+
+    >>> str(Premise(True, Sensor.ACCELERATION, ("as it is", "sensor 3, mass 2 locked")))
+    'damped, acceleration, measured as it is and with sensor 3, mass 2 locked'
+    """
+
+    damped: bool
+    quantity: Sensor
+    experiments: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        plain = f"{'damped' if self.damped else 'undamped'}, {self.quantity.value}"
+        ways = " and ".join(t if t == AS_IT_IS else f"with {t}" for t in self.experiments)
+        return f"{plain}, measured {ways}" if ways else plain
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        plain: dict[str, object] = {"damped": self.damped, "quantity": self.quantity.value}
+        return plain | ({"experiments": list(self.experiments)} if self.experiments else {})
+
+    @staticmethod
+    def from_dict(data: Mapping[str, Any]) -> "Premise":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        if type(data["damped"]) is not bool:
+            raise TypeError("whether a chain is damped is true or false")
+        experiments = tuple(map(str, data.get("experiments", ())))
+        return Premise(data["damped"], Sensor(data["quantity"]), experiments)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +134,11 @@ class Chain(Drawn):
         return Indices(
             self.n_masses, self.gap, self.act_minus, self.act_plus, self.meas_minus, self.meas_plus
         )
+
+    @property
+    def premise(self) -> Premise:
+        """Damping and sensor quantity."""
+        return Premise(self.damped, self.sensor)
 
     @property
     def structure(self) -> Structure:

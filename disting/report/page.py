@@ -127,6 +127,7 @@ def _payload(
         domains,
         sizes=[(catalog.n_masses, len(catalog.family))],
         damped=catalog.damped,
+        premise=str(catalog.premise),
         version=__version__,
         families=pages,
         motion=motion_of(catalog),

@@ -15,24 +15,19 @@ from markupsafe import Markup
 
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.table import RULES
+from disting.evidence.conditions import capital
+from disting.evidence.kinds import without_exception
 from disting.evidence.positive import Share
+from disting.model.domain import Domain
 from disting.report.decided import Decided
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
-from disting.report.words import VIEW_TITLES, probability
+from disting.report.words import VIEW_TITLES, raised
 from disting.verdict import Verdict, View
 from disting.verdict.shown import shown
 
-CERTAINTIES = {
-    "proven": "Proven by exact computation.",
-    "theorem": "Holds by a theorem.",
-    "bounded": "Computed at random points; wrong with a probability of at most {bound}.",
-    "numerical": "Found numerically, not proven.",
-    "": "",
-}
-
 SHARES = {
-    Share.ALWAYS: "Every generic {0} with positive parameters has a positive equivalent {1}",
+    Share.ALWAYS: "Every{generic} {0} with positive parameters has a positive equivalent {1}",
     Share.SOMETIMES: (
         "Some {0} with positive parameters have a positive equivalent {1}, others have none"
     ),
@@ -64,9 +59,9 @@ SYMBOLS = {
     "Td": "Td: the dead time",
 }
 """Symbols and words of formulas and sentences, as patterns, and what they mean."""
-Entry = tuple[str, str, str, str, str, str, str, str, str]
+Entry = tuple[str, str, str, str, str, str, str, str, str, str, str]
 """relation, decided_by, representation, certainty in words, domain, what a measurement shows, why,
-formula, what decided in words
+formula, what decided in words, what else is known, what is left out
 """
 
 
@@ -145,11 +140,11 @@ def _triangle(decided: Decided, view: View) -> Iterable[Verdict]:
 def _entry(verdict: Verdict) -> Entry:
     evidence = verdict.evidence
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
-    certainty = CERTAINTIES[verdict.certainty or ""].format(bound=probability(verdict.error_bound))
+    certainty = f"{capital(raised(verdict.sure))}." if evidence else ""
     formula = evidence.formula if evidence else ""
-    if verdict.inclusions is not None:
-        why = f"{why} Over complex parameters: {verdict.inclusions.sentence('{L}', '{R}')}"
-    why = " ".join([why, *_shares(verdict)])
+    both = verdict.inclusions
+    limits = [] if both is None else [f"Over complex parameters: {both.sentence('{L}', '{R}')}"]
+    more = " ".join([*limits, *_shares(verdict)])
     graded = (
         verdict.relation,
         verdict.decided_by,
@@ -158,7 +153,8 @@ def _entry(verdict: Verdict) -> Entry:
         verdict.domain,
     )
     sentence = shown(replace(verdict, left="{L}", right="{R}"))
-    return *graded, sentence, why, formula, verdict.rule
+    aside = ", special values aside" * verdict.has_exceptions
+    return *graded, sentence, why, formula, verdict.rule, more, aside
 
 
 def _shares(verdict: Verdict) -> Iterator[str]:
@@ -177,7 +173,9 @@ def _shares(verdict: Verdict) -> Iterator[str]:
                 if found.share is Share.SOMETIMES and found.empirical
                 else ""
             )
-            yield SHARES[found.share].format(given, other) + seen + "."
+            every = found.evidence and without_exception(found.evidence, Domain.POSITIVE)
+            generic = "" if every else " generic"
+            yield SHARES[found.share].format(given, other, generic=generic) + seen + "."
 
 
 def _undecided(verdict: Verdict) -> str:

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+from disting.algebra.certainty import Certainty
 from disting.catalogs.sizes_files import SizesCatalog
 from disting.files import __version__
 from disting.questions.inclusion import Inclusion, InclusionFinding
@@ -19,7 +20,7 @@ from disting.report.environment import render
 from disting.report.families import Families, families
 from disting.report.page_drawing import SharedDrawing, definitions, shared
 from disting.report.payload import packed, payload
-from disting.report.words import VIEW_TITLES, plural, probability
+from disting.report.words import VIEW_TITLES, plural, raised
 from disting.verdict import Verdict, View
 
 UNTOLD, LEFT_INSIDE, RIGHT_INSIDE, NO_LIMIT, NOT_KNOWN = range(5)
@@ -109,6 +110,7 @@ def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
             VIEWS,
             sizes=[[c.n_masses, len(c.family)] for c in found.catalogs],
             damped=found.damped,
+            premise=str(found.premise),
             version=__version__,
             families=pages,
             limits=limits(found),
@@ -206,11 +208,9 @@ def _reason(verdict: Verdict) -> str:
 
 
 def _bound(told: InclusionFinding) -> str:
-    return (
-        f" (wrong with a probability of at most {probability(f'2^-{told.safety}')})"
-        if told.safety
-        else ""
-    )
+    if told.certainty is not Certainty.BOUNDED:
+        return ""
+    return f" ({raised(told.certainty.in_words(told.safety))})"
 
 
 def _open(told: InclusionFinding) -> str:

@@ -1,5 +1,7 @@
 """The wording that pages and figures share."""
 
+import re
+
 from disting.catalogs import Catalog
 from disting.conditions.table import RULES
 from disting.model.domain import Domain
@@ -94,11 +96,11 @@ def listed(parts: list[str]) -> str:
     return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
 
 
-def probability(bound: str) -> str:
-    """An error bound with a raised exponent.
+def raised(text: str) -> str:
+    """Words with raised exponents of 2, as error bounds have them.
 
-    >>> probability("2^-131")
-    '2⁻¹³¹'
+    >>> raised("probability of error at most 2^-131")
+    'probability of error at most 2⁻¹³¹'
     """
-    base, _, exponent = bound.partition("^")
-    return base + exponent.translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    up = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+    return re.sub(r"\b2\^(-\d+)", lambda found: f"2{found[1].translate(up)}", text)

@@ -73,7 +73,7 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it
     goes on to admissible ones.
     """
-    found, domain = first(left.name, right.name, steps(left, right, query)), query.view.domain
+    found, domain = first(left, right, steps(left, right, query)), query.view.domain
     if query.tells_inclusion:
         found = with_inclusion(found, left.rank == right.rank, lambda: left.inclusions(right))
         found = _with_shares(found, left, right)
@@ -84,17 +84,10 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
         Stage.PARAMETERS,
         resting_on(left.admissible(right, domain, found.evidence), grade, found.evidence),
     )
-    open_pair = Verdict(
-        left.name,
-        right.name,
-        Relation.UNDECIDED,
-        domain=domain,
-        notes=(open_note(step.finding.note),),
-    )
     said = (
-        open_pair
+        undecided(left, right, (open_note(step.finding.note),), domain)
         if step.relation is Relation.UNDECIDED
-        else verdict_of(left.name, right.name, step, domain)
+        else verdict_of(left, right, step, domain)
     )
     said = replace(said, image=found.image, closure=found.closure)
     return replace(said, left_positive=found.left_positive, right_positive=found.right_positive)
@@ -138,7 +131,7 @@ def with_inclusion(
     )
 
 
-def first(left: str, right: str, found: Iterable[Step]) -> Verdict:
+def first(left: Compared, right: Compared, found: Iterable[Step]) -> Verdict:
     """The verdict over complex parameters of the first step that decides; undecided, it names
     what was abandoned.
     """
@@ -148,7 +141,7 @@ def first(left: str, right: str, found: Iterable[Step]) -> Verdict:
             return verdict_of(left, right, step)
         if step.finding.outcome is Outcome.ABANDONED:
             notes.append(f"{_rule(step)} was abandoned: {step.finding.note}")
-    return Verdict(left, right, Relation.UNDECIDED, notes=tuple(notes))
+    return undecided(left, right, tuple(notes))
 
 
 def _rule(step: Step) -> str:
@@ -178,12 +171,28 @@ def agreed(left: str, right: str, found: Iterable[Step]) -> None:
         raise ContradictionError(f"{left} and {right}: {told}")
 
 
-def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLEX) -> Verdict:
+def undecided(
+    left: Compared, right: Compared, notes: tuple[str, ...], domain: Domain = Domain.COMPLEX
+) -> Verdict:
+    """The verdict that nothing gives."""
+    return Verdict(
+        left=left.name,
+        right=right.name,
+        relation=Relation.UNDECIDED,
+        domain=domain,
+        notes=notes,
+        premises=(left.premise, right.premise),
+    )
+
+
+def verdict_of(
+    left: Compared, right: Compared, step: Step, domain: Domain = Domain.COMPLEX
+) -> Verdict:
     """The verdict that a deciding step gives."""
     f = step.finding
     return Verdict(
-        left=left,
-        right=right,
+        left=left.name,
+        right=right.name,
         relation=step.relation,
         decided_by=f.rule.name,
         representation=step.representation,
@@ -191,6 +200,7 @@ def verdict_of(left: str, right: str, step: Step, domain: Domain = Domain.COMPLE
         safety=f.safety,
         evidence=f.evidence,
         domain=domain,
+        premises=(left.premise, right.premise),
     )
 
 

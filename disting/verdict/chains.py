@@ -18,7 +18,7 @@ from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share, Values
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Premise
 from disting.model.domain import Domain
 from disting.model.minors import embeddings
 from disting.model.question import Answerer, Question, computed
@@ -104,6 +104,11 @@ class ComparedChain:
     def part_of(self, other: "ComparedChain") -> dict[int, int] | None:
         """The numbering under which it is the other one with elements missing."""
         return next(embeddings(self.chain.structure, other.chain.structure), None)
+
+    @property
+    def premise(self) -> Premise:
+        """Damping and sensor quantity."""
+        return self.chain.premise
 
     @property
     def n_states(self) -> int:

@@ -13,6 +13,7 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding
 from disting.experiments import MeasuredChain
 from disting.general import AnyModel
+from disting.model.chain import Premise
 from disting.model.domain import Domain
 from disting.model.question import Models, Question
 from disting.model.structure import Structure
@@ -26,6 +27,10 @@ Profiled = Structure | AnyModel | MeasuredChain
 
 class Compared(Side, Protocol):
     """A model that is compared with others of its kind."""
+
+    @property
+    def premise(self) -> Premise | None:
+        """What its name leaves to be said; None of models whose name says all."""
 
     @property
     def n_states(self) -> int:

@@ -50,8 +50,8 @@ def compare(
     ('indistinguishable', 'distinguishable')
     >>> compare(a[1], a[11]).relation.value
     'indistinguishable'
-    >>> compare("3:1", "A11", damped=True).sentence[:31]
-    '3:1 and 3:11 are indistinguisha'
+    >>> compare("3:1", "A11").sentence[:52]
+    '3:1 and 3:11, damped, acceleration, are indistinguis'
     >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
     'distinguishable'
     """

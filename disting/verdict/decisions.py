@@ -148,7 +148,7 @@ class Decisions(Shown):
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
             return self._included(
-                i, j, verdict_of(left.name, right.name, self.steps[i, j], self.query.view.domain)
+                i, j, verdict_of(left, right, self.steps[i, j], self.query.view.domain)
             )
         rule, where = self.rule(i, j), STAGES[self.representation[i, j]]
         if not rule:
@@ -157,7 +157,7 @@ class Decisions(Shown):
         if (i, j) in self.proven:
             finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
         return self._included(
-            i, j, verdict_of(left.name, right.name, Step(where, finding), self.query.view.domain)
+            i, j, verdict_of(left, right, Step(where, finding), self.query.view.domain)
         )
 
     def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:

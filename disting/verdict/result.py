@@ -2,14 +2,16 @@
 
 from dataclasses import dataclass
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, bits_in_words
 from disting.conditions.rule import EXACT, Role, Stage
 from disting.conditions.table import RULES
-from disting.evidence.kinds import GROUNDS, Evidence
+from disting.evidence.conditions import capital
+from disting.evidence.kinds import GROUNDS, Evidence, theorem_named, without_exception
 from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
+from disting.model.chain import Premise
 from disting.model.domain import Domain
 from disting.model.relation import Relation as Relation
 from disting.model.shown import Shown, summary
@@ -25,8 +27,7 @@ def error_bound(certainty: str, safety: int) -> str:
     """Text of the bound that goes with a certainty."""
     if not certainty:
         return ""
-    bound = f"2^-{safety}" if safety > 0 else "1"
-    return bound if certainty == Certainty.BOUNDED else "0"
+    return bits_in_words(safety) if certainty == Certainty.BOUNDED else "0"
 
 
 WHERE = {Stage.TF: "transfer function", Stage.MARKOV: "Markov parameters"}
@@ -43,7 +44,7 @@ class Verdict(Shown):
     side, elements finite and not zero; `closure` whose are limits of models there; for models of
     unequal rank `inclusions` says why. `left_positive`: which positive left models have a positive
     equivalent on the right, where generic left ones have equivalents there; `right_positive`: the
-    reverse.
+    reverse. `premises`: damping and sensor quantity of both, None of models that are no chains.
     """
 
     left: str
@@ -61,6 +62,7 @@ class Verdict(Shown):
     inclusions: Inclusions | None = None
     left_positive: PositiveFinding | None = None
     right_positive: PositiveFinding | None = None
+    premises: tuple[Premise | None, Premise | None] = (None, None)
 
     def __post_init__(self) -> None:
         decided = self.relation is not Relation.UNDECIDED
@@ -73,9 +75,11 @@ class Verdict(Shown):
 
     def __repr__(self) -> str:
         # the names are short ones in catalogues, of any length in lists of one's own
-        names = " and ".join(n if len(n) <= 30 else f"{n[:29]}…" for n in (self.left, self.right))
-        how = f" ({self.certainty})" if self.certainty else ""
-        return summary(self, f"{names} are {self.told} over {self.domain} parameters{how}")
+        left, right = (n if len(n) <= 30 else f"{n[:29]}…" for n in (self.left, self.right))
+        sure = self.sure.removeprefix("probability of ").partition(" (")[0]
+        how = f", {sure}" if sure else ""
+        models = _models(left, right, self.premises).removesuffix(",")
+        return summary(self, f"{models}: {self.told} over {self.domain} parameters{how}")
 
     def __bool__(self) -> bool:
         raise TypeError("a verdict is not true or false; look at its relation")
@@ -88,17 +92,43 @@ class Verdict(Shown):
         return error_bound(self.certainty or "", self.safety)
 
     @property
+    def sure(self) -> str:
+        """How sure it is, in words; "" if undecided.
+
+        >>> from disting import compare
+        >>> compare("3:1", "3:11").sure, compare("3:1", "3:2").sure
+        ('proven (duality theorem)', 'proven')
+        """
+        if self.certainty is None:
+            return ""
+        return self.certainty.in_words(self.safety, theorem_named(self.evidence))
+
+    @property
+    def has_exceptions(self) -> bool:
+        """Whether special values, a set of measure zero, are left out: what decides models that
+        are indistinguishable says nothing of them.
+        """
+        if self.relation is not Relation.INDISTINGUISHABLE or self.evidence is None:
+            return False
+        return not without_exception(self.evidence, self.domain)
+
+    @property
+    def models(self) -> str:
+        """Both names with what they leave to be said."""
+        return _models(self.left, self.right, self.premises)
+
+    @property
     def sentence(self) -> str:
-        """The verdict in words an engineer understands."""
+        """The verdict in words that stand alone: models, domain, reason, certainty."""
         over = f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
-            return f"{self.left} and {self.right} are undecided{over}: nothing settles them{why}."
+            return f"{self.models} are undecided{over}: nothing settles them{why}."
         depending = ", depending on their values" * (self.relation is Relation.SOMETIMES)
-        says = f"are {self.told}{over}{depending}"
+        aside = ", special values aside" * self.has_exceptions
         return (
-            f"{self.left} and {self.right} {says} ({self.rule}):"
-            f" {self.evidence.sentence(self.left, self.right)}"
+            f"{self.models} are {self.told}{over}{depending}{aside} ({self.rule}):"
+            f" {self.evidence.sentence(self.left, self.right)} {capital(self.sure)}."
         )
 
     @property
@@ -130,6 +160,8 @@ class Verdict(Shown):
         return {
             "left": self.left,
             "right": self.right,
+            "left_premise": _premise_to(self.premises[0]),
+            "right_premise": _premise_to(self.premises[1]),
             "relation": self.relation.value,
             "decided_by": self.decided_by,
             "representation": self.representation,
@@ -165,8 +197,32 @@ class Verdict(Shown):
             Inclusion(str(data["image"])),
             Inclusion(str(data["closure"])),
             inclusions_from_dict(inclusion) if isinstance(inclusion, dict) and inclusion else None,
-            *(_positive_from(data[side]) for side in ("left_positive", "right_positive")),
+            left_positive=_positive_from(data["left_positive"]),
+            right_positive=_positive_from(data["right_positive"]),
+            premises=(_premise_from(data["left_premise"]), _premise_from(data["right_premise"])),
         )
+
+
+def _models(left: str, right: str, premises: tuple[Premise | None, Premise | None]) -> str:
+    """Both names, with what they leave to be said once where it is the same.
+
+    >>> from disting.model.chain import Sensor
+    >>> a, b = Premise(True, Sensor.ACCELERATION), Premise(False, Sensor.POSITION)
+    >>> _models("3:1", "3:4", (a, a)), _models("3:1", "star", (b, None))
+    ('3:1 and 3:4, damped, acceleration,', '3:1 (undamped, position) and star')
+    """
+    if premises[0] == premises[1]:
+        return f"{left} and {right}" + (f", {premises[0]}," if premises[0] else "")
+    said = (f"{n} ({k})" if k else n for n, k in zip((left, right), premises, strict=True))
+    return " and ".join(said)
+
+
+def _premise_to(premise: Premise | None) -> dict[str, object]:
+    return {} if premise is None else premise.to_dict()
+
+
+def _premise_from(data: object) -> Premise | None:
+    return Premise.from_dict(data) if isinstance(data, dict) and data else None
 
 
 def _positive_from(data: object) -> PositiveFinding | None:

@@ -1,8 +1,8 @@
 """What a verdict means for who measures: one sentence for the engineer at the drive.
 
-It is derived from the evidence, which says the same in algebra (`Verdict.sentence`). A curve here
-is all that is measured, a frequency response from the force to the sensor; the parameters are
-generic, finite and not zero.
+It is derived from the evidence, which says the same in algebra (`Verdict.sentence`). A response
+here is all that is measured, from the force to the sensor or from the inputs to the outputs; the
+parameters are generic, finite and not zero.
 """
 
 from disting.evidence.conditions import Counts, Forms, Ranks
@@ -13,11 +13,13 @@ from disting.verdict.result import Relation, Verdict
 
 DECADE = 20  # decibels that a power of s falls in a decade of frequency
 PARTS = {
-    frozenset("a"): "its resonances and how they are damped",
-    frozenset("b"): "its gain, its antiresonances and how they are damped",
-    frozenset("G"): "how its motion begins after a blow",
-}
-WHOLE = "its resonances, antiresonances, their damping and its gain"
+    frozenset("a"): ("In its resonances and how they are damped", "In its poles"),
+    frozenset("b"): (
+        "In its gain, its antiresonances and how they are damped",
+        "In its gain and its zeros",
+    ),
+    frozenset("G"): ("Just after an impulse", "Just after an impulse"),
+}  # of a machine, and of any other model
 
 
 def shown(verdict: Verdict) -> str:
@@ -25,25 +27,21 @@ def shown(verdict: Verdict) -> str:
 
     Of unequal ranks (conditions 4 and 5): the behaviours of the model of smaller rank lie in a
     variety of smaller dimension, so a generic behaviour of the other one is not there; the number
-    of laws is the difference of the ranks.
+    of equations is the difference of the ranks.
     """
-    left, right = verdict.left, verdict.right
+    left, right, machines = verdict.left, verdict.right, all(verdict.premises)
     if verdict.relation is Relation.INDISTINGUISHABLE:
-        over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
-        return (
-            f"Every machine {left} has a twin {right}{over} with the same curve, special values"
-            " aside, and the reverse: what is measured here does not tell them apart."
-        )
+        return _the_same(verdict)
     if verdict.relation is Relation.SOMETIMES:
         return (
-            f"It depends on the machine: some curves fit both {left} and {right}, others only one"
+            f"It depends on the values: some responses fit both {left} and {right}, others only one"
             " of them."
         )
     match verdict.evidence:
         case Counts():
-            return _steeper(verdict.evidence, left, right)
+            return _steeper(verdict.evidence, left, right, machines)
         case Ranks():
-            return _more_laws(verdict.evidence, left, right)
+            return _more_equations(verdict.evidence, left, right, machines)
         case Forms():
             return _varying(verdict.evidence, left, right)
         case DeadTime(left_given=given):
@@ -52,53 +50,64 @@ def shown(verdict: Verdict) -> str:
         case None:
             return ""
         case _:
-            said = (
-                f"One of {left} and {right} has machines whose curve no machine of the other gives"
-            )
+            said = f"One of {left} and {right} has responses that the other never has"
             # one that is a limit of the other comes as close as one likes
             if verdict.closure is not Inclusion.NEITHER:
                 return f"{said}."
             return (
-                f"{said}: fitted to it, the wrong one leaves an error however well it is measured."
+                f"{said}: fitted to such a response, the wrong one leaves an error however well it"
+                " is measured."
             )
 
 
-def _steeper(found: Counts, left: str, right: str) -> str:
+def _the_same(verdict: Verdict) -> str:
+    left, right = verdict.left, verdict.right
+    over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
+    aside = ", special values aside" * verdict.has_exceptions
+    return (
+        f"For every {left} there is a {right}{over} with exactly the same response, and vice"
+        f" versa{aside}. What is measured here does not tell them apart."
+    )
+
+
+def _steeper(found: Counts, left: str, right: str, machines: bool) -> str:
     """Degrees n over m: towards high frequencies |G| falls by 20 (m - n) dB in a decade."""
     (n1, m1), (n2, m2) = found.first
     if n1 < 0 or n2 < 0:
         still, moves = (left, right) if n1 < 0 else (right, left)
-        return f"The sensor of {still} stands still, that of {moves} moves."
+        sensor = "sensor" if machines else "output"
+        return f"The {sensor} of {still} never moves, that of {moves} does."
     if m1 - n1 != m2 - n2:
         steep, flat = (left, right) if m1 - n1 > m2 - n2 else (right, left)
         fall = DECADE * abs((m1 - n1) - (m2 - n2))
         return (
-            f"Towards high frequencies the curve of {steep} falls by {fall} dB a decade more than"
-            f" that of {flat}{_zeros(n2 - n1 if flat == right else n1 - n2, flat)}."
+            f"Towards high frequencies the response of {steep} falls by {fall} dB a decade more"
+            f" than that of {flat}"
+            f"{_zeros(n2 - n1 if flat == right else n1 - n2, flat, machines)}."
         )
     more, poles = (left, m1 - m2) if m1 > m2 else (right, m2 - m1)
-    return f"The curve of {more} has {poles} {'pole' if poles == 1 else 'poles'} more."
+    return f"The response of {more} has {poles} {'pole' if poles == 1 else 'poles'} more."
 
 
-def _zeros(more: int, flat: str) -> str:
+def _zeros(more: int, flat: str, machines: bool) -> str:
     if more < 1:
         return ""
     zeros = "one zero" if more == 1 else f"{more} zeros"
-    pair = " (an antiresonance is a pair of them)" if more > 1 else ""
+    pair = " (an antiresonance is a pair of them)" if more > 1 and machines else ""
     return f": {flat} has {zeros} more{pair}"
 
 
-def _more_laws(found: Ranks, left: str, right: str) -> str:
+def _more_equations(found: Ranks, left: str, right: str, machines: bool) -> str:
     fewer, more = (left, right) if found.left < found.right else (right, left)
     count = abs(found.left - found.right)
-    laws = "one law" if count == 1 else f"{count} laws"
-    part = WHOLE
-    if not found.all_rows:
-        part = PARTS.get(frozenset(label[0] for label in found.rows), f"some of {WHOLE}")
-    broken = "it" if count == 1 else "them"
+    equations = "an equation" if count == 1 else f"{count} equations"
+    kinds = frozenset(label[0] for label in found.rows)
+    of_machines, of_others = PARTS.get(kinds, ("", ""))
+    where = of_machines if machines else of_others
+    every = f"{where}, every" if where and not found.all_rows else "Every"
     return (
-        f"The curve of {fewer} obeys {laws} more than that of {more} does, on {part}; a curve of"
-        f" {more} breaks {broken} unless its parameters happen to fit."
+        f"{every} {fewer} response satisfies {equations} that a {more} response satisfies only by"
+        " coincidence. That tells them apart."
     )
 
 
@@ -108,6 +117,6 @@ def _varying(found: Forms, left: str, right: str) -> str:
         return f"Towards high frequencies the phase of {delayed} falls without an end."
     fixed, free = (left, right) if found.only_right else (right, left)
     return (
-        f"A coefficient of the curve is one fixed number for every {fixed}; that of {free} changes"
-        " with its parameters."
+        f"A coefficient of the response is one fixed number for every {fixed}; that of {free}"
+        " changes with its parameters."
     )

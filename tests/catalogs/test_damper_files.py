@@ -166,7 +166,9 @@ def test_the_command_answers_from_the_shipped_file(tmp_path, capsys):
         " indistinguishable"
     )
     lines = target.read_text(encoding="utf-8").splitlines()
-    assert len(lines) == 3829 and lines[1] == "3:1,3:1+b1,distinguishable,1,complex"
+    assert (
+        len(lines) == 3829 and lines[1] == "3:1,3:1+b1,distinguishable,1,complex,true,acceleration"
+    )
 
 
 def test_models_that_are_not_there_are_refused():

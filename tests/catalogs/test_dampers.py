@@ -146,7 +146,15 @@ def test_bad_sets_are_refused():
 def test_csv_of_the_command(capsys):
     assert main(["dampers", "3:3", "--damped", "--csv", "-"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
-    assert list(rows[0]) == ["left", "right", "relation", "decided_by", "domain"]
+    assert list(rows[0]) == [
+        "left",
+        "right",
+        "relation",
+        "decided_by",
+        "domain",
+        "damped",
+        "quantity",
+    ]
     assert [(r["left"], r["right"]) for r in rows] == list(combinations("0123", 2))
     assert [r["relation"] for r in rows] == ["distinguishable"] * 3 + [
         "undecided",
@@ -176,7 +184,10 @@ def test_table_of_the_command(capsys, tmp_path):
     )
     assert "indistinguishable over complex parameters: 1 2 3 1+2 1+3 2+3 1+2+3" in shown
     lines = (tmp_path / "a3.csv").read_text().splitlines()
-    assert lines[7:9] == ["0,1+2+3,distinguishable,1,complex", "1,2,indistinguishable,7,complex"]
+    assert lines[7:9] == [
+        "0,1+2+3,distinguishable,1,complex,true,acceleration",
+        "1,2,indistinguishable,7,complex,true,acceleration",
+    ]
 
 
 def test_the_table_speaks_of_positive_parameters_and_says_what_is_known_of_complex_ones(capsys):

@@ -47,7 +47,7 @@ def test_some_pairs_are_decided_again_with_the_same_evidence(n, damped):
     """Pairs of every rule and relation, in all views."""
     c, witness, engine = catalog(n, damped=damped), Witness(), Engine()
     for left, right in map(sorted, SAMPLES[n, damped]):
-        subjects = [engine.subject(f"A{i}", c.family[i]) for i in (left, right)]
+        subjects = [engine.subject(f"{n}:{i}", c.family[i]) for i in (left, right)]
         for view in View:
             stored = c.verdict(left, right, view)
             assert engine.verdict(*subjects, Query(view)) == stored
@@ -124,7 +124,7 @@ def test_look_up_in_any_order_and_bad_pairs():
     c = catalog(4, damped=False)
     assert c.verdict(13, 11) == c.verdict(11, 13)
     assert c.verdict(11, 13, View.EXACT).decided_by == "7"
-    assert (c.verdict(28, 29).left, c.verdict(28, 29).right) == ("A28", "A29")
+    assert (c.verdict(28, 29).left, c.verdict(28, 29).right) == ("4:28", "4:29")
     for pair in ((1, 1), (0, 1), (1, 30), (-1, 2)):
         with pytest.raises(InputError, match="1 to 29"):
             c.verdict(*pair)
@@ -150,7 +150,8 @@ def test_csv_and_json_hold_every_pair():
     assert rows[0].startswith(
         "left,right,relation,decided_by,representation,certainty,error_bound,domain,image,closure,"
     )
-    assert rows[0].endswith(",left_positive,right_positive")
+    assert rows[0].endswith(",left_positive,right_positive,damped,quantity")
+    assert all(row.endswith(",false,acceleration") for row in rows[1:])
     assert len(rows) == 1 + 55
     data = json.loads(c.to_json(View.TF))
     assert len(data["verdicts"]) == 55

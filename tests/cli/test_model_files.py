@@ -60,7 +60,10 @@ def test_a_pair_that_is_left_open_is_told_with_its_reason(tmp_path):
     drives = [{"name": f"b{i}", "chain": f"3:1+b{i}", "damped": True} for i in (1, 3)]
     path.write_text(json.dumps({"models": drives}))
     told = called("verdicts", path, "--conditions", "8-9").stdout
-    assert "b1 and b3 are undecided over complex parameters: nothing settles them" in told
+    assert (
+        "b1 and b3, damped, acceleration, are undecided over complex parameters: nothing settles them"
+        in told
+    )
 
 
 def test_conditions_and_json_are_those_of_chains(models, tmp_path):

@@ -36,7 +36,9 @@ def test_answer_comes_first_with_what_is_needed(written):
         "not enough: 2:1+b2 is excluded with a probability of 75 % if the machine is 2:1+b1 (level"
         " 1 %); 1.68 times the periods are needed for 95 %"
     )
-    assert verdict.startswith("verdict: 2:1+b1 and 2:1+b2 are distinguishable over positive")
+    assert verdict.startswith(
+        "verdict: 2:1+b1 and 2:1+b2, damped, acceleration, are distinguishable over positive"
+    )
     text = "\n".join(rest)
     assert "  noise of a line at most 23 %\n  1.68 times the periods\n" in text
     assert "1 surplus parameter (within 2:1+b1+b2)" in text and ": agreed" in text

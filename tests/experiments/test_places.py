@@ -121,13 +121,17 @@ def test_command_line(capsys):
 def test_one_chain_is_told_apart_by_its_experiments(capsys):
     code, out = told(capsys, "3:1", "3:1", "--also", "sensor=2/3")
     first, second = "3:1 with sensor 2", "3:1 with sensor 3"
-    assert code == 0 and f"{first} and {second} are distinguishable" in out.out
+    assert code == 0 and out.out.startswith("DISTINGUISHABLE")
+    assert f"{first} (damped, acceleration, measured as it is and with sensor 2) and" in out.out
     assert f"  {first}  [1FS]=[2]=[3] | [1F]=[2S]=[3]\n" in out.out
     assert f"  {second}  [1FS]=[2]=[3] | [1F]=[2]=[3S]\n" in out.out
     assert "places     masses 2/3 of 3:1/3:1" in out.out
     code, out = told(capsys, "3:1", "3:1", "--also", "brake=2:1")
     assert out.out.startswith("DEPENDS ON THE PLACES: 3:1 and the other 3:1 are told apart or not")
-    assert "masses 2/1 of 3:1/the other 3:1: 3:1 with brake 1 at mass 2 and 3:1 with" in out.out
+    assert (
+        "masses 2/1 of 3:1/the other 3:1: 3:1 with brake 1 at mass 2 (damped, acceleration, "
+        in out.out
+    )
 
 
 @pytest.mark.parametrize(

@@ -100,10 +100,10 @@ def test_a_verdict_says_domain_certainty_and_what_it_rests_on():
     verdict = catalog(3, damped=True).verdict(2, 5)
     said = text(verdict._repr_html_())
     assert verdict.sentence in said
-    assert "Every machine A2 has a twin A5 with the same curve, special values aside" in said
-    assert "holds for generic positive parameters" in said
-    assert f"certainty {verdict.certainty}" in said and f"rests on {verdict.rule}" in said
-    assert "positive A2 always with a positive equivalent A5" in said
+    assert "For every 3:2 there is a 3:5 with exactly the same response, and vice versa." in said
+    assert "holds for all positive parameters" in said
+    assert "certainty proven (symmetry)" in said and f"rests on {verdict.rule}" in said
+    assert "positive 3:2 always with a positive equivalent 3:5" in said
 
 
 def test_a_large_catalogue_shows_its_first_models_and_where_the_rest_is():

@@ -123,7 +123,7 @@ def test_four_masses_at_random_as_compare_says(four):
 def test_names_and_places(four):
     assert [four.place(four.name(i)) for i in range(len(four))] == list(range(len(four)))
     assert four.text(four.place((3, (2,)))) == "4:3+b2"
-    assert next(four.csv_lines()) == "left,right,relation,decided_by,domain\n"
+    assert next(four.csv_lines()) == "left,right,relation,decided_by,domain,damped,quantity\n"
     for wrong in ((0, ()), (30, ()), (1, (5,)), (1, (1, 2))):
         with pytest.raises(InputError, match="models 1 to 29"):
             four.place(wrong)

@@ -98,7 +98,9 @@ def test_what_does_not_apply_is_not_called_abandoned(view: View) -> None:
     verdict = engine.verdict(left, right, Query(view))
     assert (verdict.relation, verdict.notes) == (Relation.UNDECIDED, ())
     assert (
-        verdict.sentence == "A1 and A8 are undecided over complex parameters: nothing settles them."
+        verdict.sentence
+        == "A1 and A8, damped, acceleration, are undecided over complex parameters:"
+        " nothing settles them."
     )
 
 

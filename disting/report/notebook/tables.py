@@ -25,8 +25,8 @@ from disting.report.fit.plan_words import chance
 from disting.report.fit.words import name, readable, response_unit, typeset
 from disting.report.notebook.curve import curve
 from disting.report.notebook.markup import LONGEST, block, facts, line, matrix, more, table
-from disting.report.words import headline, plural, probability, title
-from disting.verdict import Decisions, Verdict
+from disting.report.words import headline, plural, raised, title
+from disting.verdict import Decisions, Relation, Verdict
 from disting.verdict.further import Further
 from disting.verdict.further_words import anywhere, conclusion
 from disting.verdict.shown import shown as measured
@@ -40,11 +40,10 @@ def table_of(shown: Any) -> str:
 
 @table_of.register
 def _verdict(shown: Verdict) -> str:
-    bound = f", wrong with a probability of at most {probability(shown.error_bound)}"
-    sure = f"{shown.certainty or ''}{bound if shown.safety > 0 else ''}"
+    every = shown.relation is Relation.INDISTINGUISHABLE and not shown.has_exceptions
     rows = [
-        ("holds for", f"generic {shown.domain} parameters"),
-        ("certainty", sure),
+        ("holds for", f"{'all' if every else 'generic'} {shown.domain} parameters"),
+        ("certainty", raised(shown.sure)),
         ("rests on", shown.rule),
         ("equivalents exist", _inclusion(shown, shown.image)),
         ("limits exist", _inclusion(shown, shown.closure)),

@@ -1,6 +1,6 @@
 (() => {
   const data = JSON.parse(byId("data").textContent);
-  const NAMES = ["relation", "by", "representation", "certainty", "domain", "shown", "why", "formula", "rule"];
+  const NAMES = ["relation", "by", "representation", "certainty", "domain", "shown", "why", "formula", "rule", "more", "aside"];
   const RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
   const names = createNames(data), nameOf = names.name;
   const said = { above: byId("above"), below: byId("below") };
@@ -19,7 +19,7 @@
   const verdict = (i, j, view) => {
     const [low, high] = inOrder(i, j);
     const found = Object.fromEntries(NAMES.map((name, at) => [name, data.texts[data.entries[entry(i, j, view)][at]]]));
-    for (const part of ["shown", "why"]) found[part] = named(found[part], low, high);
+    for (const part of ["shown", "why", "more"]) found[part] = named(found[part], low, high);
     return found;
   };
   const short = (v) => (v.by ? `${data.said[v.relation]}, ${v.rule}` : data.said[v.relation]);
@@ -48,7 +48,7 @@
     return said ? `To measure next: ${said}` : "";
   };
   const explain = (v) => { // the algebra below the sentence, and what its symbols mean; open where there is no sentence
-    const meant = data.symbols.filter(([pattern]) => new RegExp(pattern, "u").test(`${v.why} ${v.formula}`)).map(([, words]) => words);
+    const meant = data.symbols.filter(([pattern]) => new RegExp(pattern, "u").test(`${v.why} ${v.more} ${v.formula}`)).map(([, words]) => words);
     slot("symbols").replaceChildren(...meant.map((words) => Object.assign(document.createElement("li"), { textContent: words })));
     slot("algebra").hidden = false;
     slot("algebra").open = !v.shown;
@@ -78,20 +78,22 @@
     caption.textContent = twoCurves(svg, models, numbers.map(nameOf));
     figure.hidden = !caption.textContent;
   };
-  const takeAway = (low, high, v) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
+  const takeAway = (low, high, v, view) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
     slot("takeaway").hidden = Boolean(data.names);
     if (data.names) return;
-    const [left, right] = [low, high].map(names.typed), kind = data.damped ? "damped" : "undamped";
+    const [left, right] = [low, high].map(names.typed);
+    const why = data.texts[data.entries[entry(low, high, view)][NAMES.indexOf("why")]].replace(/\{([LR])\}/g, (_, side) => (side === "L" ? left : right));
+    const cited = `${left} and ${right}, ${data.premise}, are ${data.said[v.relation]} over ${v.domain} parameters${v.aside}${v.by ? ` (${v.rule})` : ""}: ${why} ${v.certainty}`.trim();
     put({
-      shell: `disting compare ${left} ${right} --${kind}`,
+      shell: `disting compare ${left} ${right} --${data.damped ? "damped" : "undamped"}`,
       python: `disting.compare("${left}", "${right}", damped=${data.damped ? "True" : "False"})`,
-      cited: `disting ${data.version}: ${left} and ${right}, ${kind}, are ${v.relation} over ${v.domain} parameters. ${location.href.split("#")[0]}${names.hash([low, high])}`,
+      cited: `disting ${data.version}: ${cited} ${location.href.split("#")[0]}${names.hash([low, high])}`,
     });
     for (const button of slot("takeaway").querySelectorAll("[data-copy]")) button.textContent = "Copy";
   };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: v.why, formula: v.formula, link: "", next: further(low, high) });
+    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: `${v.why} ${v.more}`.trim(), formula: v.formula, link: "", next: further(low, high) });
     explain(v);
     compare([low, high], v);
     slot("sketches").replaceChildren(...sketches(`${low}-${high}`));
@@ -100,7 +102,7 @@
     slot("certainty").textContent = v.by ? v.certainty : "";
     if (limits) put({ limit: named(limits.sentence(low, high), low, high), reason: named(limits.why(low, high), low, high) });
     if (limits) slot("limits").hidden = !limits.why(low, high);
-    takeAway(low, high, v);
+    takeAway(low, high, v, view);
     const catalogue = names.catalogue(low, high);
     if (catalogue) slot("link").replaceChildren(linkTo(catalogue, "This pair in the catalogue of its size"));
     if (data.motion) slot("link").replaceChildren(linkTo(`${data.motion}#A${low}-A${high}`, "Both machines in motion"));
