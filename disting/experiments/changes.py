@@ -39,10 +39,12 @@ class Change(Generic[P]):
             """See the class."""
 
     def __post_init__(self) -> None:
-        if self.kind.is_port or self.kind.takes_size == (self.size is None):
-            raise InputError(f"{self.kind.name} is no change with the size {shown(self.size)}")
-        if self.size is not None:
+        if self.kind.is_port:
+            raise InputError(f"a {self.kind.name} is moved: that is no change of the machine")
+        if self.kind.takes_size:
             object.__setattr__(self, "size", number(self.kind.name, self.size))
+        elif self.size is not None:
+            raise InputError(f"a {self.kind.name} takes no size, not {shown(self.size)}")
 
     @property
     def text(self) -> str:

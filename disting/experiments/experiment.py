@@ -52,7 +52,7 @@ class Experiment:
         changes: Iterable[Change[int]] = (),
         **by_kind: object,
     ) -> None:
-        listed = in_order([*changes, *changes_of(by_kind)])
+        listed = [*changes, *changes_of(by_kind)]
         for change in listed:
             if type(change.place) is not int or change.place < 1:
                 raise InputError(
@@ -62,7 +62,7 @@ class Experiment:
             ("force", _place("force", force)),
             ("sensor", _place("sensor", sensor)),
             ("quantity", None if quantity is None else _quantity(quantity)),
-            ("changes", listed),
+            ("changes", in_order(listed)),
         ):
             object.__setattr__(self, name, value)
 

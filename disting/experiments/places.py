@@ -61,8 +61,10 @@ def named(text: str) -> Named:
             raise InputError(
                 f"an experiment has one {key}: repeat the whole option for another one"
             )
-        ends = value.split("-") if kind else ()
-        ports[key] = tuple(map(mass, ends)) if len(ends) > 1 else mass(value) if kind else value
+        ports[key] = value
+        if kind is not None:
+            ends = tuple(map(mass, value.split("-")))
+            ports[key] = ends if len(ends) > 1 else ends[0]
     agreed = _agreed(places)
     return Named(Experiment(**ports, changes=changes), agreed)
 

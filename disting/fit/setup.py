@@ -46,15 +46,15 @@ class Setup:
         changes: Iterable[Change[str]] = (),
         **by_kind: object,
     ) -> None:
-        listed = in_order([*changes, *changes_of(by_kind)])
+        listed = [*changes, *changes_of(by_kind)]
         for change in listed:
-            if not re.fullmatch(r"[1-9]\d*|last", change.place):
+            if not re.fullmatch(r"[1-9]\d*|last", str(change.place)):
                 raise InputError(f"a mass is a number or the word last, not {shown(change.place)}")
         if sign not in (1, -1):
             raise InputError(f"the sign of a sensor is 1 or -1, not {sign!r}")
         for name, value in (
             ("sensor", sensor),
-            ("changes", listed),
+            ("changes", in_order(listed)),
             ("sign", sign),
             ("delay", delay),
         ):

@@ -15,7 +15,7 @@ from disting import (
 from disting.experiments import Change, MeasuredChain
 from disting.experiments.polynomials import expanded, shape
 from disting.experiments.stacked_profiles import degrees
-from disting.model.kinds import LOCK
+from disting.model.kinds import BRAKE, LOCK, SENSOR
 from tests.experiments.plain_stack import S, coefficients, transfer
 
 A = Family(3, damped=True)
@@ -41,6 +41,10 @@ COMPLEX = Query(View.EXACT)
         ({"brakes": {1: 0}}, "a known brake is positive"),
         ({"brakes": {0: 1}}, "the place of a brake is mass 1, 2"),
         ({"brakes": [(1, 2), (1, 2)]}, "two known brakes at one mass"),
+        ({"brakes": {1: None}}, "a positive number or generic, not None"),
+        ({"locked": [[1]]}, "the place of a lock is mass 1, 2"),
+        ({"locked": "2"}, "the place of a lock is mass 1, 2"),
+        ({"inertias": [([1], 2)]}, "mass 1, 2"),
         ({"changes": [Change(LOCK, "last")]}, "mass 1, 2"),
         ({"inertias": {1: float("nan")}}, "a positive number or generic"),
         ({"inertias": {1: float("inf")}}, "a positive number or generic"),
@@ -50,6 +54,20 @@ COMPLEX = Query(View.EXACT)
 def test_what_is_no_experiment_is_refused(given, said):
     with pytest.raises(InputError, match=said):
         Experiment(**given)
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "said"),
+    [(LOCK, 2, "takes no size"), (SENSOR, None, "no change of the machine"), (BRAKE, None, "None")],
+)
+def test_what_is_no_change_is_refused(kind, size, said):
+    with pytest.raises(InputError, match=said):
+        Change(kind, 1, size)
+
+
+def test_an_argument_of_no_kind_is_none_of_an_experiment():
+    with pytest.raises(TypeError, match="no 'magnets'; what it changes: locked, inertias"):
+        Experiment(magnets={1: 2})
 
 
 @pytest.mark.parametrize(
