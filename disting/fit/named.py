@@ -13,13 +13,14 @@ from typing import Any
 from disting.errors import InputError
 from disting.files import read_json
 from disting.fit.candidates import as_listed, reference
-from disting.fit.selection_json import FIT_FILE, chain_from_dict, model_from_dict
+from disting.fit.selection_json import FIT_FILE, chain_from_dict, model_from_dict, number_of
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.verdict import Relation
 
 Values = dict[str, float]
+MOST_COUNTED = 10**7  # such as the lines of a response
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,14 +80,20 @@ def named_by(path: Path) -> Named:
             {c: v for c, v in _rivals(plain) if c != model and reference(c) not in same},
             same,
             tuple(_left(plain, model, values)),
-            float(plain["scatter"]),
-            float(range_of["low"]),
-            float(range_of["high"]),
-            int(range_of["lines"]),
+            number_of(plain["scatter"], 0.0),
+            number_of(range_of["low"], 0.0),
+            number_of(range_of["high"], 0.0),
+            _count(range_of["lines"]),
             len(plain.get("responses", [None])),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
-        raise InputError(f"{path} is no whole file of a fit: {reason} is missing") from None
+        raise InputError(
+            f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again"
+        ) from None
+
+
+def _count(value: Any) -> int:
+    return int(number_of(value, 0, MOST_COUNTED))
 
 
 def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
@@ -119,7 +126,7 @@ def _left(plain: dict[str, Any], model: Chain, values: Values) -> Iterator[Left]
         for twin in member["equivalents"]:
             other = add(twin["name"], chain)
             own[other].extend(_whole(twin["parameters"], other))
-            free[other] = max(free.get(other, 0), int(twin.get("free_choices", 0)))
+            free[other] = max(free.get(other, 0), _count(twin.get("free_choices", 0)))
     for found in plain["alternatives"]:
         if found["relation"] == Relation.INDISTINGUISHABLE:
             add(reference(chain_from_dict(found)), model)
@@ -140,7 +147,7 @@ def _whole(given: Values, chain: Chain) -> Iterator[Values]:
     """
     there = as_listed(chain).renaming
     if all(there[name] in given for name in chain.parameters):
-        yield {name: float(given[there[name]]) for name in chain.parameters}
+        yield {name: number_of(given[there[name]]) for name in chain.parameters}
 
 
 def _same(plain: dict[str, Any]) -> Iterator[tuple[str, str]]:

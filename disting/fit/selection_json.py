@@ -21,6 +21,7 @@ from disting.fit.telling import suspicions
 from disting.model.chain import Chain
 from disting.schemas import Format
 
+HUGE = 1e100  # more is no value of an element, and squares of it are no numbers any more
 FIT_FILE = "a file of 'disting fit --json'"
 
 
@@ -201,7 +202,7 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
     """
     chain = chain_from_dict(plain)
     try:
-        values = {name: float(plain["parameters"][name]) for name in chain.parameters}
+        values = {name: number_of(plain["parameters"][name]) for name in chain.parameters}
     except (KeyError, TypeError, ValueError) as reason:
         raise _no_model(reason) from None
     return chain, values
@@ -226,6 +227,13 @@ def chain_from_dict(plain: dict[str, Any]) -> Chain:
         )
     except (KeyError, TypeError, ValueError) as reason:
         raise _no_model(reason) from None
+
+
+def number_of(value: Any, least: float = -HUGE, most: float = HUGE) -> float:
+    """A number of a file, finite and between two others; raises ValueError."""
+    if type(value) in (int, float) and least <= value <= most:
+        return float(value)
+    raise ValueError(f"{shown(value)}, where a number from {least:g} to {most:g} belongs,")
 
 
 def _no_model(reason: Exception) -> InputError:

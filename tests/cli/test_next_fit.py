@@ -56,6 +56,44 @@ def test_the_group_is_told_what_next_tells_of_its_names(said):
         assert line in said
 
 
+WRONG = [1e308, 10**400, float("inf"), float("nan"), True, "1", None]
+PLACES = [
+    ("selected", "parameters", "m1"),
+    ("not_excluded", 0, "parameters", "k12"),
+    ("not_excluded", 0, "equivalents", 0, "parameters", "m1"),
+    ("not_excluded", 0, "equivalents", 0, "free_choices"),
+    ("scatter",),
+    ("frequencies", "low"),
+    ("frequencies", "high"),
+    ("frequencies", "lines"),
+]
+
+
+@pytest.mark.parametrize("command", ["next", "plan"])
+@pytest.mark.parametrize("way", PLACES, ids=str)
+def test_numbers_that_no_fit_writes_are_refused(path, tmp_path, way, command):
+    for value in WRONG:
+        plain = json.loads(path.read_text(encoding="utf-8"))
+        place = plain
+        for key in way[:-1]:
+            place = place[key]
+        place[way[-1]] = value
+        file = tmp_path / "wrong.json"
+        file.write_text(json.dumps(plain), encoding="utf-8")
+        done = called(command, file)
+        assert done.returncode == 2 and done.stdout == ""
+        assert "missing or wrong" in done.stderr and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["next", "plan"])
+def test_a_deep_file_is_no_file_of_a_fit(tmp_path, command):
+    file = tmp_path / "deep.json"
+    for content in ("[" * 10**5, '{"selected": ' * 10**5):
+        file.write_text(content, encoding="utf-8")
+        done = called(command, file)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1
+
+
 def test_costs_change_what_is_cheapest(path):
     done = called("next", path, "--cost", "sensor=9,move=9,lock=0.5")
     (twin,) = [line for line in done.stdout.splitlines() if line.startswith("3:11: ")]
