@@ -10,7 +10,7 @@ responses elsewhere differ, and are those of the twin's own values, of a family 
 The margins are those of a controller around the sensor of the data (`loop`).
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import inf, isfinite, log10, pi
@@ -183,7 +183,7 @@ def _roots(drawn: Sequence[_Drawn], band: tuple[float, float]) -> Iterator[State
         nominal = [oscillating(_roots_at(one, roots_of, 0)) for one in drawn]
         inside = [r for r in nominal[0] if band[0] <= abs(r) / (2 * pi) <= band[1]]
         for number, root in enumerate(inside, 1):
-            near = [(one, _nearest(roots, root)) for one, roots in zip(drawn, nominal, strict=True)]
+            near = [(one, nearest(roots, root)) for one, roots in zip(drawn, nominal, strict=True)]
             having = [(one, own) for one, own in near if own is not None]
             follow = [_followed(one, roots_of, own) for one, own in having]
             numbers = (sum(one.alike for one, _ in having), total)
@@ -202,13 +202,13 @@ def _roots_at(one: _Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
 def _followed(one: _Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
     """The root in all draws in which it is still there."""
     found = (
-        _nearest(oscillating(_roots_at(one, roots_of, k)), root, inf) for k in range(len(one.p))
+        nearest(oscillating(_roots_at(one, roots_of, k)), root, inf) for k in range(len(one.p))
     )
     return [r for r in found if r is not None]
 
 
-def _nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> complex | None:
-    """The root of the nearest frequency, if its ratio is no larger."""
+def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> complex | None:
+    """The root of the nearest frequency, if their ratio is no larger; None if there is none."""
     apart = [(max(abs(r) / abs(root), abs(root) / abs(r)), r) for r in roots]
     size, nearest = min(apart, key=lambda x: x[0], default=(inf, root))
     return nearest if size <= ratio and isfinite(size) else None
@@ -238,14 +238,19 @@ def _at_the_load(left: Sequence[Member], omega: Real) -> Statement:
     """How far the positions of the loads per force lie apart, of fitted structures and twins."""
     models = [(m.candidate.chain, m.candidate.estimate.parameters) for m in left]
     models += [(twin.chain, twin.parameters) for m in left for twin in m.twins]
-    responses = [
-        Plant(load, omega).response(np.array([values[n] for n in load.parameters]))
-        for load, values in ((_at_load(chain), values) for chain, values in models)
-    ]
+    responses = [position_of_load(chain, values, omega) for chain, values in models]
     return _apart("position of the load per force", responses, omega, len(models))
 
 
-def _at_load(chain: Chain) -> Structure:
+def position_of_load(chain: Chain, values: Mapping[str, float], omega: Real) -> Complex:
+    """Position per force of the mass of the free row that is farthest from the force, shape (n_f,),
+    at angular frequencies [rad/s].
+    """
+    load = _load(chain)
+    return Plant(load, omega).response(np.array([values[n] for n in load.parameters]))
+
+
+def _load(chain: Chain) -> Structure:
     """The structure with the position of the mass of the free row that is farthest from the force
     for its sensor.
     """

@@ -68,7 +68,8 @@ class Selection(Shown):
 
     `explanation` is that of the selected candidate, else of the best one; `members`: the
     structures that the data do not exclude, the selected one first, none where nothing explains
-    the data; `readings`: what would fit then; `relied_on`: what holds for all members; `better`:
+    the data; `readings`: what would fit then; `relied_on`: what holds for all members, around which
+    `controller` closes the loop; `better`:
     excluded candidates that fit better than the selected one by more than noise. `margin` is what
     the selected candidate may lose by to the best one; `saved` counts the candidates that were not
     fitted because one with the same positive models was (`same_as`, by candidate); `validation`
@@ -90,6 +91,7 @@ class Selection(Shown):
     members: tuple[Member, ...]
     readings: tuple[Reading, ...]
     relied_on: tuple[Statement, ...]
+    controller: Controller | None
     better: tuple[Candidate, ...]
     silent: tuple[str, ...]
     task: Task = field(repr=False)
@@ -193,6 +195,7 @@ def select(
         members=left,
         readings=_readings(misread, task, engine.store, executor, progress),
         relied_on=statements(left, task, controller),
+        controller=controller,
         better=chosen.better,
         silent=tuple(silent),
         task=task,

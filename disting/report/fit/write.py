@@ -18,6 +18,7 @@ from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
+from disting.report.fit.left_figure import left_figure
 from disting.report.fit.onward import Site, beside
 from disting.report.fit.residuals import residuals
 from disting.report.fit.responses import responses
@@ -84,6 +85,7 @@ def fit_figures(
                 residuals(selection, one.train, one.test, one.at),
             )
         ),
+        left_figure(selection, train),
         parameters_by_threshold(selection.candidates, thresholds),
         models_by_threshold(selection.candidates, thresholds),
         importance_bars(candidate, thresholds),

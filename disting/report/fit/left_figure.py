@@ -1,0 +1,135 @@
+"""The structures that a fit leaves, side by side: what they show at the sensor and at the load,
+their poles and zeros with their uncertainty, and the loop of a controller.
+"""
+
+from collections.abc import Sequence
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disting.fit.fitted import response_of
+from disting.fit.loop import loop_gain
+from disting.fit.members import Member
+from disting.fit.modes import oscillating, poles, zeros
+from disting.fit.plant import Real
+from disting.fit.reliance import draws, nearest, position_of_load
+from disting.fit.select import Selection
+from disting.measurement import FrequencyResponse
+from disting.report.fit.axes import logarithmic
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.words import response_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LINES = 600  # frequencies of a curve
+CLOUD = 60  # draws of a structure
+TONES = (Tone.FIRST, Tone.SECOND, Tone.THIRD, Tone.FOURTH, Tone.MUTED)
+DASHES = ("-", "--", "-.", ":")
+NYQUIST = 3.0  # half width of the Nyquist diagram
+TWINS = 6  # equivalents that are drawn
+
+
+def left_figure(selection: Selection, measured: FrequencyResponse) -> Drawn | None:
+    """None where nothing is left to compare: one structure without equivalents, no controller."""
+    left = selection.members
+    if not left or (len(left) == 1 and not left[0].twins and selection.controller is None):
+        return None
+    omega = np.geomspace(measured.omega[0], measured.omega[-1], LINES)
+
+    def draw(figure: "Figure") -> None:
+        """Panels in two columns, on a phone one below the other."""
+        count = 3 + (selection.controller is not None)
+        rows = count if is_narrow(figure) else 2
+        panels = list(np.ravel(figure.subplots(rows, count // rows + (count % rows > 0))))
+        _sensor(panels[0], selection, measured, omega)
+        _load(panels[1], left, omega)
+        _roots(panels[2], selection, (float(omega[0]), float(omega[-1])))
+        if selection.controller is not None:
+            _nyquist(panels[3], selection)
+        for empty in panels[count:]:
+            empty.set_axis_off()
+        heading(figure, "The structures that are left")
+        figure.legend(
+            *panels[1].get_legend_handles_labels(),
+            loc="outside lower center",
+            ncols=1 if is_narrow(figure) else 4,
+            fontsize=8,
+        )
+
+    names = ", ".join(m.name for m in left)
+    title = f"Responses at the sensor and at the load, poles and zeros of {names}"
+    rows = 3 + (selection.controller is not None)
+    return drawn("structures", title, (7.4, 3.0 * rows), draw)
+
+
+def _style(k: int) -> dict[str, Any]:
+    return {"color": TONES[k % len(TONES)], "linestyle": DASHES[k // len(TONES) % len(DASHES)]}
+
+
+def _sensor(panel: "Axes", selection: Selection, measured: FrequencyResponse, omega: Real) -> None:
+    """Amplitudes of what was fitted."""
+    for k, m in enumerate(selection.members):
+        level = np.abs(response_of(m.candidate, selection.task, omega))
+        panel.loglog(omega / (2 * pi), level, linewidth=1.4, **_style(k))
+    _amplitudes(panel, omega)
+    panel.set_title("At the sensor")
+    unit = response_unit(measured)
+    panel.set_ylabel(f"Amplitude [{unit}]" if unit else "Amplitude")
+
+
+def _load(panel: "Axes", left: Sequence[Member], omega: Real) -> None:
+    """Amplitudes at the load, of equivalents too."""
+    models = [(m.name, m.candidate.chain, m.candidate.estimate.parameters) for m in left]
+    twins = [(t.name, t.chain, t.parameters) for m in left for t in m.twins][:TWINS]
+    for k, (name, chain, values) in enumerate([*models, *twins]):
+        level = np.abs(position_of_load(chain, values, omega))
+        label = name if k < len(models) else f"{name} (equivalent)"
+        panel.loglog(omega / (2 * pi), level, linewidth=1.4, label=label, **_style(k))
+    _amplitudes(panel, omega)
+    panel.set_title("Position of the load per force")
+
+
+def _amplitudes(panel: "Axes", omega: Real) -> None:
+    logarithmic(panel.xaxis, omega[0] / (2 * pi), omega[-1] / (2 * pi))
+    logarithmic(panel.yaxis, *panel.get_ylim())
+    panel.set_xlabel("Frequency [Hz]")
+
+
+def _roots(panel: "Axes", selection: Selection, band: tuple[float, float]) -> None:
+    """Frequency and damping ratio of what oscillates in the band, with draws around it."""
+    for k, m in enumerate(selection.members):
+        structure = m.candidate.chain.structure
+        sets = draws(m.candidate, selection.task, CLOUD)[:, : len(structure.parameters)]
+        for roots_of, marker in ((poles, "x"), (zeros, "o")):
+            own, *others = ([*oscillating(roots_of(structure, p))] for p in sets)
+            own = [r for r in own if band[0] <= abs(r) <= band[1]]
+            near = [n for roots in others for r in own if (n := nearest(roots, r)) is not None]
+            for roots, size, alpha in ((near, 2.5, 0.35), (own, 7.0, 1.0)):
+                at = [abs(r) / (2 * pi) for r in roots], [100 * -r.real / abs(r) for r in roots]
+                tone = TONES[k % len(TONES)]
+                panel.plot(*at, marker, ms=size, mfc="none", alpha=alpha, color=tone)
+    panel.set_xscale("log")
+    panel.set_xlim(band[0] / (2 * pi), band[1] / (2 * pi))
+    logarithmic(panel.xaxis, *panel.get_xlim())
+    panel.set_ylim(bottom=0.0)
+    panel.set_title("Resonances × and antiresonances ○")
+    panel.set_xlabel("Frequency [Hz]")
+    panel.set_ylabel("Damping ratio [%]")
+
+
+def _nyquist(panel: "Axes", selection: Selection) -> None:
+    """L of every fitted structure near the critical point."""
+    assert selection.controller is not None
+    omega = np.geomspace(selection.test.omega[0] / 10, selection.test.omega[-1] * 3, 10 * LINES)
+    for k, m in enumerate(selection.members):
+        p = np.array([m.candidate.estimate.parameters[n] for n in m.candidate.chain.parameters])
+        gain = loop_gain(m.candidate.chain, p, selection.controller, omega)
+        panel.plot(gain.real, gain.imag, linewidth=1.2, **_style(k))
+    panel.plot([-1], [0], "+", ms=10, color=Tone.INK)
+    panel.set(xlim=(-NYQUIST, NYQUIST), ylim=(-NYQUIST, NYQUIST), aspect="equal")
+    panel.set_title("Loop gain (Nyquist)")
+    panel.set_xlabel("Real part")
+    panel.set_ylabel("Imaginary part")

@@ -1,0 +1,50 @@
+"""The figure of the structures that are left: what is drawn is what was fitted, and its equivalents."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from disting.fit.loop import Controller, loop_gain
+from disting.fit.reliance import position_of_load
+from disting.fit.select import select
+from disting.model.chain import Chain
+from disting.report.fit.left_figure import left_figure
+from tests.fit.drives import response
+
+ROW = Chain(3, damped=True)
+VALUES = {"m1": 1.0, "m2": 0.6, "m3": 0.4, "k12": 3e4, "k23": 2e4, "d12": 8.0, "d23": 3.0}
+LAW = Controller(P=60.0)
+
+
+@pytest.fixture(scope="module")
+def left():
+    train, test = (response(ROW, VALUES, noise=0.01, seed=s) for s in (1, 2))
+    return train, select(train, [ROW], test=test, controller=LAW)
+
+
+def test_every_structure_and_equivalent_is_named_in_the_files(left):
+    train, found = left
+    drawn = left_figure(found, train)
+    assert drawn is not None and drawn.name == "structures"
+    for part in (drawn.svg, drawn.png, drawn.pdf, drawn.narrow):
+        assert len(part) > 10_000
+    assert "3:1" in drawn.title
+
+
+def test_one_structure_without_equivalents_needs_no_figure(left):
+    train, found = left
+    alone = replace(found.members[0], twins=())
+    assert left_figure(replace(found, members=(alone,), controller=None), train) is None
+    assert left_figure(replace(found, members=(), controller=None), train) is None
+    assert left_figure(replace(found, members=(alone,)), train) is not None
+
+
+def test_the_load_of_a_row_is_its_last_mass():
+    omega = np.array([3.0, 50.0])
+    s2 = -(omega**2)
+    rigid = position_of_load(ROW, VALUES | {"k12": 1e8, "k23": 1e8}, omega)
+    np.testing.assert_allclose(rigid, 1 / (2.0 * s2), rtol=1e-3)
+    p = np.array(list(VALUES.values()))
+    slow = np.array([1e-2])
+    np.testing.assert_allclose(loop_gain(ROW, p, LAW, slow), 60 / (2.0 * 1e-2j), rtol=1e-6)
