@@ -8,8 +8,8 @@ from disting.conditions.rule import EXACT, Rule
 from disting.evidence.kinds import evidence_from
 from disting.evidence.plain import to_dict
 
-# what the files have in the place of the rule: the exact decision comes after the nine conditions
-# of the paper
+# what the files have in the place of the rule where a decision found it, since the first of them:
+# a mark, and no place in the table of conditions, of which one called 10 is written as text
 WRITTEN = 10
 
 

@@ -11,6 +11,8 @@ from disting import CatalogError, Engine, InputError, Query, Relation, View, cat
 from disting.catalogs.damper_family import damper_family
 from disting.catalogs.damper_files import (
     SHIPPED_SIZES,
+    _read,
+    _written,
     damper_catalog,
     name_of,
     read,
@@ -210,3 +212,9 @@ def assert_settled(known, pairs):
     chains = {str(c): c for c in canonicals}
     for names in pairs:
         assert Witness().confirms(known[names].evidence, "fibre", *(chains[n] for n in names))
+
+
+def test_a_condition_of_any_name_is_read_as_it_was_written():
+    names = ["1", "9", "10", "11", "marked", "exact"]
+    plain = json.loads(json.dumps(list(map(_written, names))))
+    assert plain[-1] == 10 and list(map(_read, plain)) == names
