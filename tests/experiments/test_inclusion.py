@@ -202,3 +202,19 @@ def test_condition_9_is_not_asked_under_experiments():
     found = compare(a, b, experiments=[Experiment(), Experiment(sensor=3)], query=query)
     assert found.relation.value == "undecided"
     assert len(findings(a, b)) > 8
+
+
+def test_a_dead_time_on_one_side_under_experiments():
+    """Td -> 0 is a limit; what has a dead time is no limit of what has none."""
+    small, large = Chain(2, damped=False), Chain(2, ground_dampers=(1, 2))
+    for first, second, inclusion in (
+        (small, replace(large, dead_time=True), Inclusion.LEFT_IN_RIGHT),
+        (replace(small, dead_time=True), large, Inclusion.NEITHER),
+    ):
+        sides = [measured(chain) for chain in (first, second)]
+        assert profile_of(sides[0]).rank < profile_of(sides[1]).rank
+        found = inclusions_under(*sides, profile_of).closure
+        assert found.inclusion is inclusion and confirms_inclusion(found.evidence, *sides)
+        back = inclusions_under(*sides[::-1], profile_of).closure
+        assert back.inclusion is inclusion.turned
+        assert confirms_inclusion(back.evidence, *sides[::-1])
