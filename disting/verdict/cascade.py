@@ -18,6 +18,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import Role, Stage
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
+from disting.evidence.positive import PositiveFinding, Share
 from disting.model.domain import Domain
 from disting.model.shown import summary
 from disting.questions.inclusion import Inclusion, Inclusions
@@ -108,9 +109,16 @@ def _with_shares(verdict: Verdict, left: Compared, right: Compared) -> Verdict:
     there = verdict.closure in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
     return replace(
         verdict,
-        left_positive=left.positive(right) if here else None,
-        right_positive=right.positive(left) if there else None,
+        left_positive=said_of(left.positive(right), verdict.image) if here else None,
+        right_positive=said_of(right.positive(left), verdict.image) if there else None,
     )
+
+
+def said_of(found: PositiveFinding, image: Inclusion) -> PositiveFinding | None:
+    """What is found of positive equivalents; nothing is open of models that have none with finite
+    elements.
+    """
+    return None if found.share is Share.UNKNOWN and image is Inclusion.NEITHER else found
 
 
 def with_inclusion(

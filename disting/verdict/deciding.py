@@ -18,7 +18,7 @@ from disting.conditions.table import NECESSARY, STRUCTURAL, SUFFICIENT
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.questions.same.real_and_positive import resting_on
-from disting.verdict.cascade import Step
+from disting.verdict.cascade import Step, said_of
 from disting.verdict.compared import Ask, Compared
 from disting.verdict.decisions import NUMBERS, STAGES, Decisions, markov_count
 from disting.verdict.query import Query
@@ -96,7 +96,10 @@ def _positive(result: Decisions, ask: Ask) -> None:
     if ways:
         subjects[0].prepare_positive([(subjects[i], subjects[j]) for i, j in ways], ask)
     for i, j in ways:
-        result.shares[i, j] = subjects[i].positive(subjects[j])
+        image = result.inclusion(min(i, j), max(i, j), Sense.IMAGE)
+        said = said_of(subjects[i].positive(subjects[j]), image)
+        if said is not None:
+            result.shares[i, j] = said
 
 
 def _is_asked(result: Decisions, i: int, j: int) -> bool:

@@ -95,6 +95,7 @@ def test_a_limit_that_the_relative_degree_denied_does_not_hold(also: Any) -> Non
     sides = (Chain(2), Chain(2, lag=True))
     data = plain(*sides, **({} if also is None else {"experiments": also}))
     assert verify(data).sentence == "holds"
+    assert not data["left_positive"]  # no finite elements do it, so no positive ones
     counts = {"kind": "counts", "left": [2, 2], "right": [2, 3]}
     lie = {
         "inclusion": "neither",
