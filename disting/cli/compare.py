@@ -348,5 +348,5 @@ def _why(found: InclusionFinding, verdict: Verdict) -> str:
     """Grade and evidence of one statement, or why it is not known."""
     if found.evidence is None:
         return f"not known: {found.reason}"
-    sure = f" ({found.certainty.in_words(found.safety)})" if found.certainty else ""
+    sure = f", {found.certainty.in_words(found.safety)}" if found.certainty else ""
     return f"{found.inclusion}{sure}: {found.evidence.sentence(verdict.left, verdict.right)}"
