@@ -14,11 +14,12 @@ LONGEST_MESSAGE = 1500  # whatever a message is made of
 
 class DistingError(Exception):
     """Base of every error that this package raises on purpose; the message names the cause and
-    the remedy.
+    the remedy. `detail`: lines to show below it, such as a table.
     """
 
-    def __init__(self, message: object = "") -> None:
+    def __init__(self, message: object = "", detail: str = "") -> None:
         super().__init__(brief(str(message)))
+        self.detail = printable(detail)
 
 
 class ConstraintViolation(DistingError):

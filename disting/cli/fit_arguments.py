@@ -8,9 +8,10 @@ from typing import Any
 from disting.cli.arguments import add_json, add_work, frequency_range
 from disting.cli.paths import written_folder
 from disting.errors import shown
+from disting.model.chain import Sensor
 
 WEIGHTS = ("auto", "none", "std", "coherence")
-UNITS = ("frequency", "phase", "input", "output")
+UNITS = ("frequency", "phase", "magnitude", "input", "output")
 SIGNS = ("+", "-", "auto")
 RULES = ("determined", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
@@ -60,8 +61,8 @@ def _responses(group: argparse._ArgumentGroup) -> None:
 def _reading(group: argparse._ArgumentGroup) -> None:
     """What of the files is read."""
     text = (
-        "header of the response's first column (default: the first response); all: they are repeats"
-        " of one"
+        "any column of the response, by header or number (default: the first response); a column"
+        " that belongs to none is taken as gain; all: they are repeats of one"
     )
     group.add_argument("--column", metavar="HEADER", help=text)
     text = (
@@ -80,7 +81,13 @@ def _reading(group: argparse._ArgumentGroup) -> None:
 def _quantities(group: argparse._ArgumentGroup) -> None:
     """What the numbers of the files mean, and which of them count."""
     text = (
-        "unit of frequency, phase, input or output, such as frequency=rad/s, input=A, output=deg;"
+        "what the sensor shows (default: what the file says, else acceleration; of a record in time"
+        " position)"
+    )
+    group.add_argument("--quantity", choices=[s.value for s in Sensor], help=text)
+    text = (
+        "unit of frequency, phase, magnitude, input or output, such as frequency=rad/s,"
+        " magnitude=dB, input=A, output=deg;"
         " may be repeated"
     )
     group.add_argument(

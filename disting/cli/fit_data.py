@@ -20,6 +20,7 @@ from disting.model.kinds import CHANGES
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
 MANY, ENOUGH = 10_000, 2000  # lines: more than the first are advised to be thinned to the second
+OF_READER = ("frequency", "phase", "magnitude")  # units that a reader takes
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
 CHANGED = {kind.name: kind for kind in CHANGES}
 FORM = (
@@ -71,10 +72,11 @@ def _check(options: argparse.Namespace) -> None:
     several = len(sensors(options)) > 1 or options.experiment
     if options.demo == bool(options.train):
         raise InputError("give a file with measured data, or --demo for simulated data, not both")
-    if options.demo and (options.test or options.read or options.column or several):
+    own = options.test or options.read or options.column or options.quantity
+    if options.demo and (own or several):
         raise InputError(
-            "--demo brings its own data: leave --test, --read, --column, --experiment and several"
-            " sensors away"
+            "--demo brings its own data: leave --test, --read, --column, --quantity, --experiment"
+            " and several sensors away"
         )
     if options.family and several:
         raise InputError("--family moves the sensor: leave it away where several are fitted")
@@ -137,7 +139,8 @@ def measured(
     """
     units = dict(options.unit)
     settings = dict(options.read) | ({"column": options.column} if options.column else {})
-    settings |= {f"{name}_unit": units[name] for name in ("frequency", "phase") if name in units}
+    settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
+    settings |= {"sensor": options.quantity} if options.quantity else {}
     if count > 1:
         settings = _of_one(settings, which, count)
     if column:

@@ -7,6 +7,7 @@ from math import isfinite
 from typing import Any
 
 from disting.fit.each import explanations
+from disting.fit.measured import read_in_words
 from disting.fit.members import Disagreement, Member
 from disting.fit.modes import Result, physical
 from disting.fit.select import Selection
@@ -30,6 +31,8 @@ OTHERWISE = {
 
 def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The result for people: what they must know in at most five lines, then the rest."""
+    yield from (read_in_words(part.measured) for part in found.task.cost.parts)
+    yield ""
     yield from first_lines(found)
     yield ""
     n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]

@@ -55,6 +55,8 @@ def _run(arguments: Sequence[str] | None) -> int:
         return 0
     except DistingError as reason:
         complain(reason)
+        if reason.detail:
+            print(reason.detail, file=sys.stderr)
         return 2
     except OSError as reason:
         complain(f"{reason.strerror or reason}: {_name(reason.filename)}".rstrip(": "))

@@ -34,6 +34,7 @@ from disting.fit.explained import Explanation
 from disting.fit.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.fit.judged import FOLDS, Candidate, judged
 from disting.fit.loop import Controller
+from disting.fit.measured import other_quantities
 from disting.fit.members import Member, members
 from disting.fit.plant import Complex, Real
 from disting.fit.practical import Thresholds
@@ -75,7 +76,8 @@ class Selection(Shown):
     fitted because one with the same positive models was (`same_as`, by candidate); `validation`
     says where the test cost comes from, `judging` is that cost. Where several responses are
     fitted, `test` is the data of the first one, and `silent` names those that are zero, from which
-    nothing is learned.
+    nothing is learned. `quantities`: sentences on the sensor quantities that explain the data as
+    well as the assumed one.
     """
 
     selected: Candidate | None
@@ -97,6 +99,7 @@ class Selection(Shown):
     task: Task = field(repr=False)
     test: FrequencyResponse = field(repr=False)
     judging: AnyCost = field(repr=False)
+    quantities: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         found = "none is admissible" if self.selected is None else reference(self.selected.chain)
@@ -201,6 +204,7 @@ def select(
         task=task,
         test=test or train,
         judging=test_cost or task.cost,
+        quantities=other_quantities(chosen.candidates, task, engine.store, executor),
     )
 
 

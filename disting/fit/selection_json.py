@@ -14,10 +14,12 @@ from disting.fit.each import explanations
 from disting.fit.explained import Explanation
 from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
+from disting.fit.measured import is_assumed
 from disting.fit.members import Member
 from disting.fit.reliance import Statement
 from disting.fit.select import Selection
 from disting.fit.telling import suspicions
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.schemas import Format
 
@@ -50,6 +52,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "not_excluded": [member_to_dict(m) for m in found.members],
         "relied_on": [_statement_to_dict(s) for s in found.relied_on],
         "suspicions": list(suspicions(found)),
+        "data": [_data(one) for one in _measured(found)],
         "rule": found.rule.value,
         "validation": found.validation,
         "repeatability": found.repeatability.typical,
@@ -100,6 +103,24 @@ def _explained(said: Explanation) -> dict[str, Any]:
         "chi2_per_line": said.chi2,
         "scatter": said.scatter.typical,
         "residual_correlation": said.correlation,
+    }
+
+
+def _measured(found: Selection) -> list[FrequencyResponse]:
+    """All responses: those that are fitted, then those that they are tested on."""
+    train = [part.measured for part in found.task.cost.parts]
+    tests = [part.measured for part in found.judging.parts]
+    return [*train, *(one for one in tests if all(one is not other for other in train))]
+
+
+def _data(measured: FrequencyResponse) -> dict[str, Any]:
+    """How a response was read, and what was assumed or changed."""
+    return {
+        "origin": measured.origin,
+        "reading": measured.reading,
+        "quantity": measured.sensor.value,
+        "quantity_assumed": is_assumed(measured),
+        "notes": list(measured.notes),
     }
 
 

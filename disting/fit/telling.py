@@ -14,6 +14,7 @@ from disting.fit.candidates import as_listed, reference
 from disting.fit.each import correlations, partners
 from disting.fit.explained import LARGEST
 from disting.fit.joint import AnyCost
+from disting.fit.measured import bad_lines, outside
 from disting.fit.members import Disagreement
 from disting.fit.scatter import between, scatter
 from disting.fit.select import Selection
@@ -30,6 +31,7 @@ def first_lines(found: Selection) -> tuple[str, ...]:
     """
     return (
         _verdict(found),
+        *found.quantities,
         *(_explained(found) if found.explanation.explains else _unexplained(found)),
     )[:5]
 
@@ -39,12 +41,16 @@ def suspicions(found: Selection) -> tuple[str, ...]:
     nothing does.
     """
     said = [
+        *found.quantities,
         *([] if found.explanation.explains else [_verdict(found), *_unexplained(found)]),
         *_better(found),
         *(_disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements),
         *_changed(found),
         *_hanging(found),
         *_weak(found),
+        *outside(found.described, found.task.cost.measured),
+        *_doubled(found),
+        *_bad(found),
         *_suspicious(found.task.cost),
         *learned(found),
     ]
@@ -102,6 +108,24 @@ def _suspicious(cost: AnyCost) -> Iterator[str]:
         yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
 
 
+def _doubled(found: Selection) -> Iterator[str]:
+    """Test data that are the training data once more."""
+    train = found.task.cost.measured
+    if found.test is not train and found.test == train:
+        yield (
+            "training and test data are the same numbers: nothing is validated; measure again, or"
+            " leave --test away"
+        )
+
+
+def _bad(found: Selection) -> tuple[str, ...]:
+    """Single lines that make most of a misfit."""
+    if found.explanation.explains and not found.better:
+        return ()
+    said = bad_lines(found.candidates, found.described, found.task)
+    return () if said is None else (said,)
+
+
 def _verdict(found: Selection) -> str:
     """The first line."""
     said, best = found.explanation, reference(found.described.chain)
@@ -147,14 +171,16 @@ def _explained(found: Selection) -> Iterator[str]:
 def _unexplained(found: Selection) -> Iterator[str]:
     if found.explanation.misses:
         yield f"missed most at {', at '.join(m.sentence for m in found.explanation.misses)}"
-    if found.readings:
+    if _bad(found):
+        yield from _bad(found)
+    elif found.readings:
         yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
     elif _is_joint(found):
         yield (
             "fit each response alone: what explains one and not all of them points to a wrong"
             " place, a wrong sign or a machine that changed between the measurements"
         )
-    elif not found.explanation.noisy:
+    elif not found.explanation.noisy and not found.quantities:
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
             " mass makes it fit much better: is the loop closed, is the machine a chain, are other"

@@ -109,8 +109,7 @@ def reversed_sensor(omega: Real, response: Complex, missing: int) -> str | None:
         return None
     return (
         "at low frequencies the acceleration is opposite to the force, as of a free mass seen by a"
-        " reversed sensor; if the sensor counts the other way round, use sign_reversed() (option"
-        " sign=-1)"
+        " reversed sensor; if the sensor counts the other way round, give --sign=-"
     )
 
 
@@ -121,12 +120,12 @@ def phase_unit(phase: Real, unit: str, said: bool) -> str | None:
     largest = float(np.max(np.abs(phase), initial=0.0))
     if unit == "rad" and largest > LARGEST_RADIAN:
         return (
-            f'phases reach {largest:.4g} rad: degrees read as radians? then give phase_unit="deg"'
+            f"phases reach {largest:.4g} rad: degrees read as radians? then give --unit phase=deg"
         )
     if unit == "deg" and said and largest <= LARGEST_SMALL_DEGREE and np.ptp(phase) > np.pi / 2:
         return (
             f"all phases lie within {largest:.3g} degrees: radians read as degrees? then give"
-            ' phase_unit="rad"'
+            " --unit phase=rad"
         )
     return None
 

@@ -34,7 +34,7 @@ def follows_output(u: Real, y: Real) -> str | None:
     return (
         f"the input follows the past output (correlation {past:.2g}, {past * np.sqrt(len(one)):.0f}"
         " times that of chance): a closed loop? then the response is biased; give the controller's"
-        " reference signal, reference="
+        " reference signal, --read reference=NAME"
     )
 
 

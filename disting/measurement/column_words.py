@@ -1,91 +1,203 @@
-"""What a column means, from the words of its header."""
+"""What a column means: its role from the words of its header, its unit from what is stated there.
+
+A unit stands in brackets behind the name, behind a stroke, a comma or "in", or is the last word:
+`f [Hz]`, `Gain (dB)`, `phi/°`, `Frequency in Hz`, `Freq_Hz`, `MagdB`.
+"""
 
 import re
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
-WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[Ωω]")
-DECIBEL = re.compile(r"(?<![a-z])db(?![a-z])")
-RADIAN_PER_SECOND = re.compile(r"rad\s*/\s*s|rad_?per_?s|rads")
-
-
-class Meaning(StrEnum):
-    """Role and unit of one column; the values are the words of the option `columns`."""
-
-    HERTZ = "Hz"
-    KILOHERTZ = "kHz"
-    RADIAN_PER_SECOND = "rad/s"
-    REAL = "re"
-    IMAGINARY = "im"
-    MAGNITUDE = "magnitude"
-    DECIBEL = "dB"
-    PHASE = "phase"
-    DEGREE = "deg"
-    RADIAN = "rad"
-    COHERENCE = "coherence"
-    DEVIATION = "std"
-    OTHER = "-"
-
-
-FREQUENCIES = (Meaning.HERTZ, Meaning.KILOHERTZ, Meaning.RADIAN_PER_SECOND)
-PHASES = (Meaning.PHASE, Meaning.DEGREE, Meaning.RADIAN)
-
-_WORDS = (
-    (Meaning.COHERENCE, {"coh", "coherence", "kohaerenz", "kohärenz"}),
-    (Meaning.DEVIATION, {"std", "sd", "sigma", "stdev", "deviation", "uncertainty"}),
-    (Meaning.PHASE, {"phase", "phas", "ph", "arg", "deg", "degree", "degrees"}),
-    (Meaning.IMAGINARY, {"im", "imag", "imaginary"}),
-    (Meaning.REAL, {"re", "real"}),
-    (
-        Meaning.MAGNITUDE,
-        {"mag", "magnitude", "amp", "ampl", "amplitude", "abs", "gain", "modulus", "betrag"},
-    ),
-    (
-        Meaning.HERTZ,
-        {
-            "f",
-            "freq",
-            "frequency",
-            "frequencies",
-            "frequenz",
-            "frequenza",
-            "hz",
-            "khz",
-            "w",
-            "omega",
-            "ω",
-        },
-    ),
+from disting.measurement.units import (
+    FREQUENCIES,
+    LEVELS,
+    PHASES,
+    TIMES,
+    drive,
+    gain,
+    known_unit,
+    motion,
 )
+from disting.measurement.units import omega_per as omega_per
 
 
-def meaning(header: str) -> Meaning:
-    """Role of a column, `OTHER` where no word is known.
+class Role(StrEnum):
+    """What a column holds."""
 
-    >>> [meaning(h).value for h in ("f_Hz", "ReG_mot", "MagdB", "Phase [rad]", "gamma2_coh")]
-    ['Hz', 're', 'dB', 'rad', 'coherence']
+    FREQUENCY = "frequency"
+    REAL = "real part"
+    IMAGINARY = "imaginary part"
+    GAIN = "gain"
+    PHASE = "phase"
+    COHERENCE = "coherence"
+    DEVIATION = "standard deviation"
+    SIGNAL = "level of a signal"
+    OTHER = "not used"
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """Role and unit of a column: "" where none is stated; `unknown` = a stated unit that is not
+    known.
     """
-    spaced = header.replace("dB", " dB ")
-    words, lower = {w.lower() for w in WORD.findall(spaced)}, spaced.lower()
-    role = next((role for role, known in _WORDS if words & known), Meaning.OTHER)
-    if role in (Meaning.MAGNITUDE, Meaning.OTHER) and DECIBEL.search(lower):
-        return Meaning.DECIBEL
-    if role is Meaning.PHASE:
-        return _phase(words, lower)
-    if role is Meaning.HERTZ:
-        return _frequency(words, lower)
-    return role
+
+    role: Role
+    unit: str = ""
+    unknown: str = ""
+
+    @property
+    def in_words(self) -> str:
+        """Such as: gain in dB."""
+        unit = self.unit or self.unknown
+        return f"{self.role} in {unit}" if unit not in ("", "1") else self.role.value
 
 
-def _phase(words: set[str], lower: str) -> Meaning:
-    if words & {"deg", "degree", "degrees", "grad"} or "°" in lower:
-        return Meaning.DEGREE
-    return Meaning.RADIAN if words & {"rad", "radian", "radians"} else Meaning.PHASE
+WORDS = {
+    Role.COHERENCE: ("coh", "coherence", "kohaerenz", "kohärenz"),
+    Role.DEVIATION: ("std", "sd", "sigma", "stdev", "deviation", "uncertainty"),
+    Role.PHASE: ("phase", "phas", "ph", "arg", "phi", "φ", "ϕ", "angle", "winkel"),
+    Role.IMAGINARY: ("im", "imag", "imaginary"),
+    Role.REAL: ("re", "real"),
+    Role.GAIN: (
+        "mag", "magnitude", "amp", "ampl", "amplitude", "abs", "gain", "modulus", "betrag",
+    ),
+    Role.FREQUENCY: (
+        "f", "freq", "frequency", "frequencies", "frequenz", "frequenza", "w", "omega", "ω",
+    ),
+}  # fmt: skip
+CIRCULAR = {"w", "omega", "ω"}
+# of a file without units in its names: what stands for role and unit
+SHORT = {"hz": Role.FREQUENCY, "khz": Role.FREQUENCY, "db": Role.GAIN, "deg": Role.PHASE}
+WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[Ωωφϕ]")
+MODULUS = re.compile(r"\|[^|]+\|")
+LOGARITHM = re.compile(r"\b(?:log|log10|ln|lg)\b", re.IGNORECASE)
+TWENTY = re.compile(r"20\s*\*?\s*(?:log|lg)", re.IGNORECASE)
+SQUARE = re.compile(r"(.*?)\s*\[([^\[\]]*)\]\s*$")
+SAID_IN = re.compile(r"(.+?)\s+in\s+(.+)$")
+# units within names, such as f_Hz, MagdB, omega_rad_per_s
+INSIDE = re.compile(
+    r"([GMkmµ]?[Hh][Zz]|[Mkm]?rad\s*/\s*s(?:ec)?|rad_?(?:per_?)?s(?![a-z])|rpm|dB|"
+    r"(?<![a-z])db(?![a-z])|(?<=mag)db|(?<=gain)db|[Dd]eg(?:rees?)?(?![a-z])|"
+    r"(?<![a-z])m?rad(?![a-z])|gon|°|(?<=phase)deg|(?<=phase)rad)"
+)
+UNITS_OF = {Role.FREQUENCY: FREQUENCIES, Role.PHASE: PHASES, Role.COHERENCE: LEVELS}
 
 
-def _frequency(words: set[str], lower: str) -> Meaning:
-    if words & {"khz"} or "khz" in lower:
-        return Meaning.KILOHERTZ
-    if "hz" in lower:
-        return Meaning.HERTZ
-    circular = words & {"w", "omega", "ω"} or RADIAN_PER_SECOND.search(lower)
-    return Meaning.RADIAN_PER_SECOND if circular else Meaning.HERTZ
+def meaning(header: str) -> Column:
+    """Role and unit of a column, `OTHER` where no word is known.
+
+    >>> [meaning(h).in_words for h in ("f_Hz", "ReG_mot", "MagdB", "Phase [mrad]", "A/dB")]
+    ['frequency in Hz', 'real part', 'gain in dB', 'phase in mrad', 'gain in dB']
+    >>> meaning("f [Furlong]").unknown, meaning("Amplitude (Vpp)").role.value
+    ('Furlong', 'level of a signal')
+    """
+    name, stated = parted(header)
+    role = _role(name) or _role_of_unit(stated or header)
+    if LOGARITHM.search(header) and Role.FREQUENCY in (role, _role(stated or "")):
+        return Column(Role.FREQUENCY, unknown=header.strip())
+    if stated is None:
+        inside = INSIDE.findall(header.replace("_per_", "/"))
+        hertz = [text for text in inside if text.lower().endswith("hz")]
+        known = [text for text in inside if _known(role, text) is not None]
+        stated = (known or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
+    if role is Role.FREQUENCY and stated is None and CIRCULAR & set(_words(name)):
+        return Column(role, "rad/s")
+    if TWENTY.search(header) and role in (Role.GAIN, Role.OTHER):
+        return Column(Role.GAIN, "dB")
+    if not stated or role is Role.OTHER:
+        return Column(role)
+    return _with_unit(role, stated, name)
+
+
+def parted(header: str) -> tuple[str, str | None]:
+    """Name of a column and the unit that is stated behind it, None where there is none.
+
+    >>> parted("Gain (rad/s^2/(Nm))"), parted("f/Hz"), parted("Re G_mot")
+    (('Gain', 'rad/s^2/(Nm)'), ('f', 'Hz'), ('Re G_mot', None))
+    """
+    text = header.strip()
+    square = SQUARE.match(text)
+    if square:
+        return square[1], square[2].strip()
+    if text.endswith(")") and _opening(text) >= 0:
+        at = _opening(text)
+        return text[:at].strip(), text[at + 1 : -1].strip()
+    if _is_unit(text):
+        return "", text
+    said = SAID_IN.match(text)
+    if said:
+        return said[1], said[2]
+    for mark in (",", " ", "/"):
+        for at in (i for i, c in enumerate(text) if c == mark):
+            if _is_unit(text[at + 1 :].strip()):
+                return text[:at].strip(), text[at + 1 :].strip()
+    return text, None
+
+
+def _opening(text: str) -> int:
+    """Where the last bracket of a text opens; -1 where it does not."""
+    depth = 0
+    for at in range(len(text) - 1, -1, -1):
+        depth += {")": 1, "(": -1}.get(text[at], 0)
+        if not depth:
+            return at
+    return -1
+
+
+def _is_unit(text: str) -> bool:
+    """Whether a text is a unit that needs no brackets to be known as one."""
+    units = (*PHASES, *TIMES, *LEVELS[1:])
+    known = omega_per(text) is not None or known_unit(text, units) is not None
+    found = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
+    return (known or found is not None) and text != "*"
+
+
+def _words(name: str) -> list[str]:
+    return [word.lower() for word in WORD.findall(name.replace("dB", " dB "))]
+
+
+def _role(name: str) -> Role | None:
+    words = set(_words(name))
+    whole = {word.removesuffix(unit) for word in words for unit in ("", "db", "deg", "rad", "hz")}
+    found = next((role for role, known in WORDS.items() if whole & set(known)), None)
+    if found in (None, Role.FREQUENCY) and MODULUS.search(name):
+        return Role.GAIN
+    return found
+
+
+def _role_of_unit(text: str) -> Role:
+    """What a column without a name, or of a name that says nothing, is by its unit."""
+    level = gain(text)
+    if omega_per(text) is not None and motion(text) is None:
+        return Role.FREQUENCY
+    if known_unit(text, ("deg",)):
+        return Role.PHASE
+    if level is not None and level.level in ("dB", "Np"):
+        return Role.GAIN
+    words = set(_words(text))
+    return next((role for word, role in SHORT.items() if word in words), Role.OTHER)
+
+
+def _known(role: Role, text: str) -> str | None:
+    """The name of a unit for a role; None where it is none for it."""
+    if role is Role.FREQUENCY:
+        if re.fullmatch(r"rad_?(?:per_?)?s|rad\s+s", text):
+            return "rad/s"
+        return text if omega_per(text) is not None else None
+    if role in UNITS_OF:
+        return known_unit(text, UNITS_OF[role])
+    return text if gain(text) is not None else None
+
+
+def _with_unit(role: Role, stated: str, name: str) -> Column:
+    """The column with its unit, or with one that is not known."""
+    if role is Role.FREQUENCY:
+        if omega_per(stated) is None and (motion(stated) or drive(stated)):
+            return Column(Role.OTHER)  # F [N], w [m]
+        if known_unit(stated, FREQUENCIES) == "rad/s" and "rad" not in stated.lower():
+            return Column(role, "rad/s" if CIRCULAR & set(_words(name)) else "Hz")  # in 1/s
+    found = _known(role, stated)
+    if found is None:
+        return replace(Column(role), unknown=stated)
+    unit = gain(found) if role in (Role.GAIN, Role.REAL, Role.IMAGINARY) else None
+    return Column(Role.SIGNAL if unit and unit.signal else role, found)

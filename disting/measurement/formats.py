@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from disting.errors import InputError, listed
-from disting.measurement.column_words import FREQUENCIES, meaning
+from disting.measurement.column_words import Role, meaning
 from disting.measurement.matlab import responses, variables
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.source import Source
@@ -141,7 +141,7 @@ def _is_text_record(file: Source, options: Options) -> bool:
         return False
     headers = _table(file).headers
     return any(map(is_time, headers)) and not any(
-        meaning(header) in FREQUENCIES for header in headers
+        meaning(header).role is Role.FREQUENCY for header in headers
     )
 
 

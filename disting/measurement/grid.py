@@ -8,21 +8,13 @@ by 2 pi, and is not round itself, is in rad/s.
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
+from disting.measurement.units import FREQUENCIES, known_unit, omega_per
 
-UNIT = {"Hz": 2 * np.pi, "kHz": 2e3 * np.pi, "rad/s": 1.0, "rpm": 2 * np.pi / 60}
 DIGITS = 5  # of a round number
 SLOWEST = 1e-100  # frequency, and the inverse of the fastest one; damaged numbers lie beyond
 EXACT = 1e-7  # relative error of a number in a file
-SPELLINGS = {
-    "hertz": "Hz",
-    "hz": "Hz",
-    "khz": "kHz",
-    "rad/sec": "rad/s",
-    "rad/second": "rad/s",
-    "1/s": "rad/s",
-}
 
 
 def in_omega(
@@ -35,32 +27,43 @@ def in_omega(
     Raises InputError for a unit that is none.
     """
     if asked is not None:
-        return values * UNIT[known(asked)], None
-    unit = known(said or default)
+        return values * factor(asked), None
+    unit = said or default
+    plain = known_unit(unit, FREQUENCIES)
     round_, round_in_hertz = is_round(values), is_round(values / (2 * np.pi))
-    if unit == "Hz" and round_in_hertz and not round_:
+    if plain == "Hz" and round_in_hertz and not round_:
         return values, (
             f"{who}: frequencies taken as rad/s{' although Hz is said' if said else ''}, in which"
             " they are the round numbers"
-            f' {_first(values / (2 * np.pi))} Hz; if not, give frequency_unit="Hz"'
+            f" {_first(values / (2 * np.pi))} Hz; if not, give --unit frequency=Hz"
         )
-    if said and unit == "rad/s" and round_ and not round_in_hertz:
+    if said and plain == "rad/s" and round_ and not round_in_hertz:
         return (
             values,
             (
                 f"{who}: frequencies taken as rad/s, but {_first(values)} are round; if Hz, give"
-                ' frequency_unit="Hz"'
+                " --unit frequency=Hz"
             ),
         )
-    return values * UNIT[unit], None if said else f"frequencies of {who} taken as {unit}"
+    return values * factor(unit), None if said else f"frequencies of {who} taken as {unit}"
 
 
-def known(unit: str) -> str:
-    """The name of a unit in `UNIT`; raises InputError for another."""
-    name = SPELLINGS.get(unit.lower(), unit)
-    if name not in UNIT:
-        raise InputError(f'frequency_unit is "Hz", "kHz", "rad/s" or "rpm", not {shown(unit)}')
-    return name
+def factor(unit: str) -> float:
+    """What a frequency of 1 in a unit is in rad/s; raises InputError for another unit."""
+    found = omega_per(unit)
+    if found is None:
+        raise InputError(
+            f"{shown(unit)} is no unit of frequency that is known; known are {listed(FREQUENCIES)}:"
+            " give --unit frequency=Hz"
+        )
+    return found
+
+
+def taken_unit(omega: Real, values: Real, said: str = "") -> str:
+    """The unit in which frequencies were read: the one that was `said`, where it is that."""
+    one = float(omega[0] / values[0]) if values[0] else 0.0
+    alike = [name for name, own in FREQUENCIES.items() if np.isclose(own, one, rtol=1e-9)]
+    return said if known_unit(said, alike) or not alike else alike[0]
 
 
 def is_round(values: Real) -> bool:

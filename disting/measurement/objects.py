@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.measurement.grid import UNIT, known
+from disting.measurement.grid import factor
 from disting.measurement.response import FrequencyResponse, Signal, as_sign
 from disting.measurement.table import Table
 from disting.measurement.table_series import time_series
@@ -28,10 +28,10 @@ def from_arrays(
     sensor: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
-    """Response from arrays of shape (n_f,): `frequency` in "Hz", "kHz" or "rad/s", complex
-    `response`.
+    """Response from arrays of shape (n_f,): `frequency` in a unit of `units.FREQUENCIES`,
+    complex `response`.
     """
-    omega = _numbers(frequency, "frequency") * UNIT[known(frequency_unit)]
+    omega = _numbers(frequency, "frequency") * factor(frequency_unit)
     values = _numbers(response, "response") * as_sign(sign)
     return FrequencyResponse(
         omega=omega,

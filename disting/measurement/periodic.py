@@ -94,8 +94,8 @@ def detected_period(u: Real) -> int:
     best = first + int(np.argmax(likeness[first:])) if first < len(likeness) else 0
     if not best or likeness[best] < LIKENESS:
         raise InputError(
-            "the input does not repeat itself, so no period was found; give period= [samples], or,"
-            " where the excitation is not periodic, segment= [samples] for Welch's method"
+            "the input does not repeat itself, so no period was found; give --read period=SAMPLES,"
+            " or, where the excitation is not periodic, --read segment=SAMPLES for Welch's method"
         )
     enough = likeness[best] - EXCESS * (1 - likeness[best]) - ROUNDING
     shorter = (round(best / parts) for parts in range(best // max(first, 1), 1, -1))

@@ -45,8 +45,15 @@ def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
     mean = replace(first, G=values.mean(axis=0), deviation=deviation, coherence=None)
     relative = float(np.median(deviation * np.sqrt(n) / np.abs(mean.G)))
     said = dict.fromkeys(note for one in repeats for note in one.notes)
-    return replace(mean, notes=tuple(said)).noted(
-        f"mean of {n} repeats, which scatter by {100 * relative:.2g} % (median of the lines)"
+    doubts = [doubt for one in repeats for doubt in one.doubts]
+    if len(set(repeats)) < n:
+        doubts.append("some repeats are the same numbers: they scatter less than the machine does")
+    return (
+        replace(mean, notes=tuple(said))
+        .noted(
+            f"mean of {n} repeats, which scatter by {100 * relative:.2g} % (median of the lines)"
+        )
+        .doubted(*doubts)
     )
 
 

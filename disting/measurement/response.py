@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ASSUMED_ACCELERATION = (
-    'sensor quantity taken as acceleration; if not, give sensor="position" or sensor="velocity"'
+    "sensor quantity taken as acceleration; if not, give --quantity position or --quantity velocity"
 )
 SORTED = "the frequencies were not in rising order and have been sorted"
 
@@ -58,7 +58,8 @@ class FrequencyResponse(Shown):
     Re G + var Im G), shape (n_f,), in the unit of G, or None; `coherence` = ordinary coherence
     gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows; `origin` = file
     and columns; `notes` = what was assumed or changed while reading; `distortion` = what the lines
-    without excitation of a periodic record show, or None. Frequencies out of order are sorted,
+    without excitation of a periodic record show, or None; `doubts` = what looked wrong while
+    reading; `reading` = which columns were read as what. Frequencies out of order are sorted,
     with a note. Raises InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
@@ -77,6 +78,8 @@ class FrequencyResponse(Shown):
     origin: str = ""
     notes: tuple[str, ...] = ()
     distortion: Distortion | None = None
+    doubts: tuple[str, ...] = ()
+    reading: str = ""
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -157,7 +160,7 @@ class FrequencyResponse(Shown):
         nothing does.
         """
         found = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
-        return () if found is None else (found,)
+        return (*self.doubts, *([] if found is None else [found]))
 
     def subset(self, lines: Any) -> "FrequencyResponse":
         """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer
@@ -232,6 +235,14 @@ class FrequencyResponse(Shown):
     def noted(self, *notes: str | None) -> "FrequencyResponse":
         """The same response with further notes; None and repetitions are left out."""
         return replace(self, notes=tuple(dict.fromkeys([*self.notes, *(n for n in notes if n)])))
+
+    def doubted(self, *doubts: str) -> "FrequencyResponse":
+        """The same response with further doubts; repetitions are left out."""
+        return replace(self, doubts=tuple(dict.fromkeys([*self.doubts, *doubts])))
+
+    def read_as(self, words: str) -> "FrequencyResponse":
+        """The same response with words on which columns were read as what."""
+        return replace(self, reading=words)
 
 
 def as_sign(value: int) -> int:

@@ -49,14 +49,14 @@ def guessed(names: Iterable[str], origin: str) -> tuple[str, str, str]:
     )
     if len(inputs) != 1 or len(outputs) != 1 or inputs == outputs:
         raise InputError(
-            f"{origin}: which signal is the input, which the output? give input= and output=; there"
-            f" are {listed(sorted(known))}"
+            f"{origin}: which signal is the input, which the output? give --read"
+            f" input=NAME --read output=NAME; there are {listed(sorted(known))}"
         )
     return (
         inputs[0],
         outputs[0],
         (
             f"input taken as {inputs[0]}, output as {outputs[0]}, by their names; if not, give"
-            " input=, output="
+            " --read input=NAME --read output=NAME"
         ),
     )

@@ -11,7 +11,7 @@ import numpy as np
 from disting.errors import InputError, listed, shown
 from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.grid import in_omega
+from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -110,7 +110,10 @@ def from_stored(
         output=found.outputs[output],
         origin=f"{origin}, {name}",
     )
-    return chosen.noted(None if sensor else ASSUMED_ACCELERATION, noted)
+    unit = taken_unit(omega, found.frequency)
+    words = f"frequency in {unit}, complex response of the object {name}"
+    assumed = None if sensor else ASSUMED_ACCELERATION
+    return chosen.noted(assumed).doubted(*([noted] if noted else [])).read_as(words)
 
 
 def chosen_response(found: Mapping[str, Stored], asked: str | None, origin: str) -> str:
@@ -124,7 +127,9 @@ def chosen_response(found: Mapping[str, Stored], asked: str | None, origin: str)
         if asked
         else "holds several frequency responses"
     )
-    raise InputError(f"{origin} {wrong}; choose one by response=: {listed(sorted(found))}")
+    raise InputError(
+        f"{origin} {wrong}; choose one by --read response=NAME: {listed(sorted(found))}"
+    )
 
 
 def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, Stored]:

@@ -11,7 +11,7 @@ from disting.measurement.arrays import Real
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
     """Columns of numbers, shape (rows, columns), their headers ("" without one), the line
-    number of each row, the comments.
+    number of each row, the comments; `transposed`: the file has a line for each column.
     """
 
     headers: tuple[str, ...]
@@ -19,6 +19,7 @@ class Table:
     lines: tuple[int, ...]
     comments: tuple[str, ...]
     origin: str
+    transposed: bool = False
 
     def column(self, at: int) -> Real:
         """Numbers of column `at` (from 0); raises InputError naming the line of one that is not
@@ -48,6 +49,8 @@ class Table:
             for i, h in enumerate(self.headers)
             if isinstance(column, str) and h and h == column.strip()
         ]
+        if not found and isinstance(column, str) and column.isdecimal():
+            return self.at(int(column))
         if len(found) != 1:
             raise InputError(
                 f"{self.origin}: {len(found) or 'no'} columns are called {shown(column)}; headers:"

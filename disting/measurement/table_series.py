@@ -4,12 +4,13 @@ import re
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.measurement.arrays import Real
+from disting.measurement.column_words import parted
 from disting.measurement.response import Signal, as_sign
 from disting.measurement.table import Table
 from disting.measurement.time_series import TimeSeries, said
-from disting.measurement.units import drive, motion
+from disting.measurement.units import TIMES, drive, known_unit, motion
 from disting.model.chain import Sensor
 
 BRACKETED = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
@@ -40,10 +41,10 @@ def time_series(
         )
         if at is None:
             raise InputError(
-                f"{table.origin}: give sampling_rate= [Hz] or time= (a column); headers:"
+                f"{table.origin}: give --read sampling_rate=HZ or --read time=COLUMN; headers:"
                 f" {table.listed()}"
             )
-        sampling_rate = rate_of(table.column(at), table.origin)
+        sampling_rate = rate_of(table.column(at) * _seconds(table, at), table.origin)
     u, y = table.at(input), table.at(output)
     labels = named(table.headers[u]), named(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
@@ -72,10 +73,24 @@ def rate_of(time: Real, origin: str) -> float:
     steps = np.diff(time)
     if not len(steps) or np.any(steps <= 0) or np.ptp(steps) > 1e-3 * np.mean(steps):
         raise InputError(
-            f"{origin}: the times are not equidistant and rising; resample, or give sampling_rate="
-            " [Hz]"
+            f"{origin}: the times are not equidistant and rising; resample, or give --read"
+            " sampling_rate=HZ"
         )
     return float(len(steps) / (time[-1] - time[0]))
+
+
+def _seconds(table: Table, at: int) -> float:
+    """What a time of 1 in the unit of a column is in seconds; raises InputError for a stated unit
+    that is not known.
+    """
+    unit = parted(table.headers[at])[1] or "s"
+    name = known_unit(unit, TIMES)
+    if name is None:
+        raise InputError(
+            f"{table.origin}, {table.named(at)}: {shown(unit)} is no unit of time that is known;"
+            f" known are {', '.join(TIMES)}: give --read sampling_rate=HZ"
+        )
+    return TIMES[name]
 
 
 def is_time(header: str) -> bool:

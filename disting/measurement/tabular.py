@@ -1,16 +1,24 @@
-"""Frequency responses from a table of columns: which column is what."""
+"""Frequency responses from a table of columns: the numbers in SI units, and what was assumed."""
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from disting.errors import InputError, listed, shown
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.column_words import FREQUENCIES, PHASES, Meaning, meaning
-from disting.measurement.grid import in_omega
+from disting.measurement.column_words import Column, Role
+from disting.measurement.columns import (
+    Group,
+    chosen,
+    columns_of,
+    frequency_column,
+    groups,
+    level_of,
+)
+from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -19,7 +27,7 @@ from disting.measurement.response import (
     as_sign,
 )
 from disting.measurement.table import Table
-from disting.measurement.units import ratio
+from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, motion, ratio
 from disting.model.chain import Sensor, as_sensor
 
 SENSOR_WORDS = {
@@ -35,19 +43,13 @@ ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backsl
 # words for what is never negative; a magnitude or gain may well be in dB
 LINEAR = re.compile(r"abs|modulus|betrag")
 NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
+# a linear gain above it on all lines, of one order of magnitude, may be one in dB without a sign
+HIGH, NARROW = 40.0, 10.0
+LINEAR_OF = {"1": 1.0, "%": 0.01}
+NAME = re.compile(
+    r"[A-Za-z]\w{3,}[\w ]*|[A-Z]\w?\d*(?:\(.*\))?|[a-z]+\d+(?:/[a-z]+\d+)?"
+)  # no unit
 MARK = "frequency response, written by disting"
-
-
-@dataclass(slots=True)
-class _Group:
-    """Columns of one response, by their roles."""
-
-    columns: dict[Meaning, int] = field(default_factory=dict)
-
-    @property
-    def first(self) -> int:
-        """The first of its columns."""
-        return min(self.columns.values())
 
 
 def frequency_response(
@@ -59,57 +61,222 @@ def frequency_response(
     sign: int = 1,
     phase_unit: str | None = None,
     frequency_unit: str | None = None,
+    magnitude_unit: str | None = None,
 ) -> FrequencyResponse:
-    """The first response of a table, or the one that begins at `column` (header, or number from
-    1); "all": the mean of all.
+    """The first response of a table, or that of `column` (header, or number from 1); "all": the
+    mean of all.
 
-    `columns` = the role of every column (values of `Meaning`, "-" for none) instead of the words
-    in the headers; `sensor` and `phase_unit` ("deg", "rad"), `frequency_unit` ("Hz", "kHz",
-    "rad/s", "rpm") where the file does not say them, or says them wrongly; `sign` = -1 for a
-    reversed sensor. Raises InputError where columns are missing; the message lists the headers.
+    `columns` = what every column is ("re", "im", "magnitude", "phase", "coherence", "std", "-" for
+    none, or a unit of frequency, gain or phase) instead of its header; `sensor`, `phase_unit`
+    ("deg", "rad", "gon", ..), `frequency_unit` ("Hz", "rad/s", ..), `magnitude_unit` ("dB", "%",
+    "Np", "1") where the file does not say them, or says them wrongly; `sign` = -1 for a reversed
+    sensor. Raises InputError where columns are missing, with the table's first rows as `detail`,
+    and for a stated unit that is not known.
     """
-    notes: list[str] = []
-    roles = _roles(table, columns, notes)
-    at = _frequency_column(table, roles)
+    notes, doubts = list[str](), list[str]()
+    if table.transposed:
+        notes.append("the table has a line for each quantity: it is read by its columns")
+    roles = columns_of(table, columns, notes)
+    at = frequency_column(table, roles)
     ours = _written(table.comments)
-    said = (
-        None
-        if roles[at] is Meaning.HERTZ and not any("hz" in h.lower() for h in table.headers)
-        else roles[at].value
-    )
-    grid, doubt = in_omega(
-        table.column(at), said, (said if ours else None) or frequency_unit, table.named(at)
-    )
-    notes += [doubt] if doubt else []
-    quantity = _quantity(table, sensor or ours.get("sensor"), notes)
-    units = ("", "") if ours else ratio((*table.headers, *table.comments)) or ("", "")
-    groups = _groups(table, roles)
-    chosen = (
-        groups
-        if column == "all" and "all" not in table.headers
-        else [_chosen(table, groups, column)]
-    )
+    grid = _grid(table, at, roles[at], roles[at].unit if ours else frequency_unit, notes, doubts)
+    found = groups(table, roles)
+    several = column == "all" and "all" not in table.headers
+    used = found if several else [chosen(table, roles, found, column)]
+    said = _units(table, roles, used[0], ours)
+    quantity = _quantity(table, sensor or ours.get("sensor"), said[0], notes)
+    reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
     responses = [
         FrequencyResponse(
             grid,
-            _complex(table, group, phase_unit, notes, guess=columns is None) * as_sign(sign),
-            _beside(table, group, Meaning.DEVIATION),
-            _beside(table, group, Meaning.COHERENCE),
+            reading.numbers(group) * as_sign(sign),
+            reading.beside(group, Role.DEVIATION),
+            reading.beside(group, Role.COHERENCE),
             sensor=quantity,
-            input=_signal(ours, "input", Signal("", units[1])),
-            output=_signal(ours, "output", Signal(table.headers[group.first], units[0])),
+            input=_signal(ours, "input", Signal("", said[1])),
+            output=_signal(ours, "output", Signal(table.headers[group.first], said[0])),
             origin=f"{table.origin}, {table.named(group.first)}",
         )
-        for group in chosen
+        for group in used
     ]
-    return mean_of(responses).noted(*notes)
+    unit = taken_unit(grid, table.column(at), roles[at].unit)
+    words = f"frequency in {unit} (column {at + 1})"
+    return mean_of(responses).noted(*notes).doubted(*doubts).read_as(f"{words}, {reading.words}")
 
 
 def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:
-    """Columns, from 1, at which the responses of a table begin; `columns` = their roles. Raises
+    """Columns, from 1, at which the responses of a table begin; `columns` = what they are. Raises
     InputError.
     """
-    return tuple(group.first + 1 for group in _groups(table, _roles(table, columns, [])))
+    return tuple(group.first + 1 for group in groups(table, columns_of(table, columns, [])))
+
+
+@dataclass(slots=True)
+class _Reading:
+    """How numbers become a response; what is assumed goes to `notes`, what looks wrong to
+    `doubts`. `guess`: nobody said what the columns are but their headers.
+    """
+
+    table: Table
+    roles: Sequence[Column]
+    phase_unit: str | None
+    magnitude_unit: str | None
+    guess: bool
+    notes: list[str]
+    doubts: list[str]
+    words: str = ""
+
+    def numbers(self, group: Group) -> Complex:
+        """The response of a group of columns."""
+        columns = group.columns
+        if Role.REAL in columns:
+            real, imaginary = columns[Role.REAL], columns[Role.IMAGINARY]
+            scale = self._scale(real), self._scale(imaginary)
+            self.words = f"real part (column {real + 1}), imaginary part (column {imaginary + 1})"
+            return np.asarray(
+                self.table.column(real) * scale[0] + 1j * self.table.column(imaginary) * scale[1]
+            )
+        at = columns[Role.PHASE]
+        unit = self._phase_unit(at)
+        size, level = self._size(columns[Role.GAIN], guess=self.guess and unit == "deg")
+        told = "" if level == "1" else f" in {level}"
+        self.words = (
+            f"gain{told} (column {columns[Role.GAIN] + 1}), phase in"
+            f" {'degrees' if unit == 'deg' else unit} (column {at + 1})"
+        )
+        return np.asarray(size * np.exp(1j * PHASES[unit] * self.table.column(at)))
+
+    def beside(self, group: Group, role: Role) -> Real | None:
+        """A column of deviations or coherences, None where there is none."""
+        if role not in group.columns:
+            return None
+        at = group.columns[role]
+        self._known(at)
+        if role is Role.DEVIATION and level_of(self.roles[at]) in LEVELS[2:]:
+            self.doubts.append(f"{self.table.named(at)} is in dB or Np and is not used")
+            return None
+        return self.table.column(at) * (0.01 if level_of(self.roles[at]) == "%" else 1.0)
+
+    def _known(self, at: int) -> None:
+        """Raise InputError where the unit that a column states is not known."""
+        unknown, header = self.roles[at].unknown, self.table.headers[at]
+        if unknown and header.rstrip().endswith(")") and NAME.fullmatch(unknown):
+            self.notes.append(f"{self.table.named(at)}: ({unknown}) is taken as part of its name")
+        elif unknown:
+            phase = self.roles[at].role is Role.PHASE
+            known = listed(PHASES) if phase else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
+            remedy = "phase=deg" if phase else "magnitude=1, which takes the numbers as they are"
+            raise InputError(
+                f"{self.table.origin}, {self.table.named(at)}: the unit {shown(unknown)} is not"
+                f" known; known are {known}; else give --unit {remedy}"
+            )
+
+    def _scale(self, at: int) -> float:
+        """Factor of a real or imaginary part."""
+        level = self._level(at)
+        if level in LEVELS[2:]:
+            raise InputError(
+                f"{self.table.origin}, {self.table.named(at)}: a real or imaginary part is not in"
+                f" {level}"
+            )
+        return 0.01 if level == "%" else 1.0
+
+    def _level(self, at: int) -> str:
+        """The level that is asked for or stated."""
+        if self.magnitude_unit is None:
+            self._known(at)
+            return level_of(self.roles[at])
+        level = known_unit(str(self.magnitude_unit), LEVELS)
+        if level is None:
+            raise InputError(
+                f"the unit of a magnitude is {', '.join(LEVELS)}, not {shown(self.magnitude_unit)}"
+            )
+        return level
+
+    def _size(self, at: int, *, guess: bool) -> tuple[Real, str]:
+        """Gains and their level; where a column of which nobody said it has negative numbers, they
+        are dB.
+        """
+        size, level = self.table.column(at), self._level(at)
+        told = self.magnitude_unit is not None or self.roles[at].unit != ""
+        if level == "1" and not told:
+            level = self._likely_level(size, at, guess)
+        if np.any(size < 0) and level in LEVELS[:2]:
+            raise InputError(
+                f"{self.table.origin}: a magnitude is negative; is the column in dB? then give"
+                " --unit magnitude=dB"
+            )
+        with np.errstate(over="ignore"):
+            if level == "dB":
+                return np.asarray(10.0 ** (size / 20)), level
+            return np.asarray(np.exp(size) if level == "Np" else size * LINEAR_OF[level]), level
+
+    def _likely_level(self, size: Real, at: int, guess: bool) -> str:
+        """Of a gain without a unit."""
+        name, linear = self.table.named(at), LINEAR.search(self.table.headers[at].lower())
+        if guess and linear is None and np.mean(size < 0) >= NEGATIVE:
+            self.notes.append(
+                f"{name} has negative magnitudes, with phases in degrees: taken as dB"
+            )
+            return "dB"
+        note = f"{name} says no unit: taken as linear; if dB, give --unit magnitude=dB"
+        high = bool(np.all(size > HIGH) and np.ptp(size) < NARROW * HIGH)
+        if linear is None and not np.any(size < 0):
+            (self.doubts if guess and high else self.notes).append(note)
+        return "1"
+
+    def _phase_unit(self, at: int) -> str:
+        """The unit that the caller named, or the header, or the more likely one."""
+        column, phase = self.roles[at], self.table.column(at)
+        if self.phase_unit is not None:
+            asked = known_unit(str(self.phase_unit), PHASES)
+            if asked is None:
+                raise InputError(
+                    f"{shown(self.phase_unit)} is no unit of phase that is known; known are"
+                    f" {listed(PHASES)}: give --unit phase=deg"
+                )
+            return asked
+        self._known(at)
+        unit = column.unit or checks.likely_phase_unit(phase)
+        doubt = checks.phase_unit(phase, unit, said=bool(column.unit))
+        if not column.unit:
+            other = "deg" if unit == "rad" else "rad"
+            self.notes.append(
+                f"phases taken as {unit}, by their size; if not, give --unit phase={other}"
+            )
+        self.doubts += [doubt] if doubt else []
+        return unit
+
+
+def _grid(
+    table: Table,
+    at: int,
+    column: Column,
+    asked: str | None,
+    notes: list[str],
+    doubts: list[str],
+) -> Real:
+    """Frequencies [rad/s]; what is assumed, or contradicts the numbers, is said."""
+    if column.unknown and asked is None:
+        raise InputError(
+            f"{table.origin}, {table.named(at)}: {shown(column.unknown)} is no unit of frequency"
+            f" that is known; known are {listed(FREQUENCIES)}: give --unit frequency=Hz"
+        )
+    grid, said = in_omega(table.column(at), column.unit or None, asked, table.named(at))
+    (doubts if column.unit else notes).extend([said] if said else [])
+    return grid
+
+
+def _units(
+    table: Table, roles: Sequence[Column], group: Group, ours: Mapping[str, str]
+) -> tuple[str, str]:
+    """Units of output and input of a response, "" where nothing says them."""
+    if ours:
+        return "", ""
+    own = gain(roles[group.columns.get(Role.GAIN, group.first)].unit)
+    if own is not None and own.output:
+        return own.output, own.input
+    return ratio((*table.headers, *table.comments)) or ("", "")
 
 
 def _written(comments: Sequence[str]) -> dict[str, str]:
@@ -123,171 +290,16 @@ def _signal(ours: Mapping[str, str], role: str, foreign: Signal) -> Signal:
     return Signal(ours.get(f"{role} label", ""), ours.get(f"{role} unit", "")) if ours else foreign
 
 
-def _beside(table: Table, group: _Group, role: Meaning) -> Real | None:
-    return table.column(group.columns[role]) if role in group.columns else None
-
-
-def _roles(table: Table, columns: Sequence[str] | None, notes: list[str]) -> list[Meaning]:
-    if columns is not None:
-        return _given(table, columns)
-    if any(table.headers):
-        roles = [meaning(header) for header in table.headers]
-        return roles
-    if len(table.headers) != 3:
-        raise InputError(
-            f"{table.origin} has {len(table.headers)} columns, no header; say what they are, as"
-            ' columns=["Hz", "re", "im"]'
-        )
-    notes.append("no header: columns taken as frequency [Hz], real part, imaginary part")
-    return [Meaning.HERTZ, Meaning.REAL, Meaning.IMAGINARY]
-
-
-def _given(table: Table, columns: Sequence[str]) -> list[Meaning]:
-    try:
-        roles = [Meaning(word) for word in columns]
-    except (ValueError, TypeError) as error:
-        raise InputError(f"columns are named by {', '.join(Meaning)}; {error}") from None
-    if len(roles) != len(table.headers):
-        raise InputError(
-            f"{table.origin} has {len(table.headers)} columns, of which {len(roles)} are named"
-        )
-    return roles
-
-
-def _frequency_column(table: Table, roles: list[Meaning]) -> int:
-    found = [i for i, role in enumerate(roles) if role in FREQUENCIES]
-    if not found:
-        raise InputError(
-            f"{table.origin}: no column is a frequency; give columns=; headers: {table.listed()}"
-        )
-    return found[0]
-
-
-def _groups(table: Table, roles: list[Meaning]) -> list[_Group]:
-    """Responses in the order of their columns: the n-th real part with the n-th imaginary part,
-    and so on.
-    """
-    pairs = [*_pairs(table, roles, (Meaning.REAL,), (Meaning.IMAGINARY,)), *_sizes(table, roles)]
-    if not pairs:
-        raise InputError(
-            f"{table.origin}: no real and imaginary part, no magnitude and phase; give columns=;"
-            f" headers: {table.listed()}"
-        )
-    groups = sorted(
-        (_Group({roles[i]: i for i in pair}) for pair in pairs), key=lambda group: group.first
-    )
-    for i, role in enumerate(roles):
-        if role in (Meaning.COHERENCE, Meaning.DEVIATION):
-            owner = next((g for g in reversed(groups) if g.first < i), groups[0])
-            if role in owner.columns:
-                raise InputError(
-                    f"{table.origin}: {role} occurs twice for one response; give columns=; headers:"
-                    f" {table.listed()}"
-                )
-            owner.columns[role] = i
-    return groups
-
-
-def _sizes(table: Table, roles: list[Meaning]) -> list[tuple[int, int]]:
-    """Magnitudes and phases; where a file gives every magnitude in dB too, the one that is not."""
-    phases = sum(role in PHASES for role in roles)
-    firsts = (
-        (Meaning.MAGNITUDE,)
-        if phases == roles.count(Meaning.MAGNITUDE)
-        else (Meaning.MAGNITUDE, Meaning.DECIBEL)
-    )
-    return _pairs(table, roles, firsts, PHASES) if phases else []
-
-
-def _pairs(
-    table: Table, roles: list[Meaning], first: tuple[Meaning, ...], second: tuple[Meaning, ...]
-) -> list[tuple[int, int]]:
-    left, right = ([i for i, role in enumerate(roles) if role in kind] for kind in (first, second))
-    if len(left) != len(right):
-        raise InputError(
-            f"{table.origin}: columns for {' or '.join(first)}: {len(left)}, for"
-            f" {' or '.join(second)}: {len(right)}; give columns=; headers: {table.listed()}"
-        )
-    return list(zip(left, right, strict=True))
-
-
-def _chosen(table: Table, groups: list[_Group], column: str | int | None) -> _Group:
-    if column is None:
-        return groups[0]
-    at = table.at(column)
-    found = next((g for g in groups if at in g.columns.values()), None)
-    if found is None:
-        firsts = listed(table.named(g.first) for g in groups)
-        raise InputError(
-            f"{table.origin}: column {shown(column)} belongs to no response; responses begin at"
-            f" {firsts}"
-        )
-    return found
-
-
-def _complex(
-    table: Table, group: _Group, phase_unit: str | None, notes: list[str], *, guess: bool
-) -> Complex:
-    columns = group.columns
-    if Meaning.REAL in columns:
-        return np.asarray(
-            table.column(columns[Meaning.REAL]) + 1j * table.column(columns[Meaning.IMAGINARY])
-        )
-    role = next(p for p in PHASES if p in columns)
-    phase = table.column(columns[role])
-    unit = _phase_unit(phase, role, phase_unit, notes)
-    size = _size(table, columns, notes, guess=guess and unit == "deg")
-    return np.asarray(size * np.exp(1j * (np.deg2rad(phase) if unit == "deg" else phase)))
-
-
-def _size(table: Table, columns: Mapping[Meaning, int], notes: list[str], *, guess: bool) -> Real:
-    """Magnitudes; where a column of them has negative numbers, and may be guessed about, they
-    are dB.
-    """
-    if Meaning.DECIBEL in columns:
-        at, decibel = columns[Meaning.DECIBEL], True
-    else:
-        at = columns[Meaning.MAGNITUDE]
-        negative = (
-            np.mean(table.column(at) < 0) >= NEGATIVE
-            and LINEAR.search(table.headers[at].lower()) is None
-        )
-        decibel = bool(guess and negative)
-        notes += [
-            f"{table.named(at)} has negative magnitudes, with phases in degrees: taken as dB"
-        ] * decibel
-    size = table.column(at)
-    if np.any(size < 0) and not decibel:
-        raise InputError(f"{table.origin}: a magnitude is negative; is the column in dB?")
-    with np.errstate(over="ignore"):
-        return np.asarray(10.0 ** (size / 20) if decibel else size)
-
-
-def _phase_unit(phase: Real, role: Meaning, asked: str | None, notes: list[str]) -> str:
-    """The unit that the caller named, or the header, or the more likely one; what is doubtful
-    goes to `notes`.
-    """
-    if asked is not None:
-        if asked not in ("deg", "rad"):
-            raise InputError(f'phase_unit is "deg" or "rad", not {shown(asked)}')
-        return asked
-    unit = checks.likely_phase_unit(phase) if role is Meaning.PHASE else role.value
-    doubt = checks.phase_unit(phase, unit, said=role is not Meaning.PHASE)
-    if role is Meaning.PHASE:
-        notes.append(
-            f"phases taken as {unit}, by their size; if not, give"
-            f' phase_unit="{"deg" if unit == "rad" else "rad"}"'
-        )
-    notes += [doubt] if doubt else []
-    return unit
-
-
-def _quantity(table: Table, sensor: Sensor | str | None, notes: list[str]) -> Sensor:
+def _quantity(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
+    """The quantity that is asked for, or that words or the unit of the output say."""
     if sensor is not None:
         return as_sensor(sensor)
     text = " ".join((*table.headers, *table.comments)).lower()
     found = [quantity for quantity, words in SENSOR_WORDS.items() if words.search(text)]
     if len(found) == 1:
         return found[0]
+    own = motion(unit)
+    if not found and own is not None:
+        return own.sensor
     notes.append(ASSUMED_ACCELERATION)
     return Sensor.ACCELERATION

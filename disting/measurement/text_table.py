@@ -11,10 +11,12 @@ from collections import Counter
 import numpy as np
 
 from disting.errors import InputError, shown
-from disting.measurement.column_words import FREQUENCIES, meaning
+from disting.measurement.checks import FEWEST
+from disting.measurement.column_words import Role, meaning
 from disting.measurement.table import Table
 
 DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (" ", "."), (" ", ","))
+MOST_QUANTITIES = 7  # lines of a table that has one for each quantity: fewer than a response has
 SAMPLE = 60  # lines from the end by which the dialect is chosen: a header is at the beginning
 # No two parts can match the same digits, so that a cell of many digits is read in linear time.
 NUMBER = re.compile(
@@ -51,6 +53,10 @@ def table(text: str, origin: str) -> Table:
     ]
     comments = [line.lstrip("#% ") for _, line in numbered if line[0] in "#%"]
     rows = [(n, line) for n, line in numbered if line[0] not in "#%"]
+    if 1 < len(rows) <= MOST_QUANTITIES:
+        turned = _turned([line for _, line in rows], origin, tuple(comments))
+        if turned is not None:
+            return turned
     delimiter, decimal = _dialect([line for _, line in rows], origin)
     split = [(n, _fields(line, delimiter)) for n, line in rows]
     width = _width([fields for _, fields in split if _count(fields, decimal) == len(fields)])
@@ -68,6 +74,33 @@ def table(text: str, origin: str) -> Table:
         comments=(*comments, *outside),
         origin=origin,
     )
+
+
+def _turned(lines: list[str], origin: str, comments: tuple[str, ...]) -> Table | None:
+    """The table of a few long lines, one for each quantity, the first of them rising or falling
+    frequencies; each may begin with its name. None for any other.
+    """
+    for named in (0, 1):
+        for delimiter, decimal in DIALECTS:
+            split = [_fields(line, delimiter) for line in lines]
+            cells = [fields[named:] for fields in split]
+            width = len(cells[0])
+            whole = all(
+                len(row) == width >= FEWEST and _count(row, decimal) == width for row in cells
+            )
+            headers = tuple(fields[0] if named else "" for fields in split)
+            if not whole or (named and any(_count([h], decimal) for h in headers)):
+                continue
+            values = np.array([_plain_numbers(row, decimal) for row in cells]).T
+            steps = np.diff(values[:, 0])
+            if np.all(values[:, 0] > 0) and (np.all(steps > 0) or np.all(steps < 0)):
+                lines_of = tuple(range(1, width + 1))
+                return Table(headers, values, lines_of, comments, origin, transposed=True)
+    return None
+
+
+def _plain_numbers(fields: list[str], decimal: str) -> list[float]:
+    return [float(re.sub("[dD]", "e", _with_point(field, decimal))) for field in fields]
 
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
@@ -166,7 +199,7 @@ def _is_header(fields: list[str], delimited: bool) -> bool:
     the word frequency.
     """
     return not _count(fields, ".") and (
-        delimited or any(meaning(field) in FREQUENCIES for field in fields)
+        delimited or any(meaning(field).role is Role.FREQUENCY for field in fields)
     )
 
 

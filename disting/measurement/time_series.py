@@ -108,7 +108,7 @@ class TimeSeries:
             if segment is None:
                 if least_coherence is not None:
                     raise InputError(
-                        "least_coherence belongs to Welch's method: give segment= [samples] too"
+                        "least_coherence belongs to Welch's method: give --read segment=SAMPLES too"
                     )
                 excitation = self.u if self.reference is None else self.reference
                 found = periodic.estimate(*given, period, transient, lines, band, excitation)
@@ -133,6 +133,7 @@ class TimeSeries:
             origin=self.origin,
             notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
             distortion=found.distortion,
+            reading=f"record in time, input {self.input}, output {self.output}",
         )
         return response if sensor is None else response.to_quantity(sensor)
 
@@ -144,7 +145,7 @@ def said(sensor: Sensor | str | None) -> tuple[Sensor, tuple[str, ...]]:
     if sensor is not None:
         return as_sensor(sensor), ()
     return Sensor.POSITION, (
-        'output taken as a position; if not, give sensor="velocity" or sensor="acceleration"',
+        "output taken as a position; if not, give --quantity velocity or --quantity acceleration",
     )
 
 

@@ -62,15 +62,19 @@ def read_uff(
         data = np.asarray(chosen["data"], dtype=complex)
         if len(data) != chosen["num_pts"]:
             raise ValueError(f"{len(data)} values where {chosen['num_pts']} are said")
-        return FrequencyResponse(
-            2 * np.pi * np.asarray(chosen["x"], dtype=float),
-            data if as_sign(sign) > 0 else -data,
-            coherence=_coherence(records, chosen),
-            sensor=quantity,
-            input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
-            output=Signal(_node(chosen, "rsp"), _unit(chosen, "ordinate_axis_units_lab")),
-            origin=f"{file.name}, {_place(chosen)}",
-        ).noted(note)
+        return (
+            FrequencyResponse(
+                2 * np.pi * np.asarray(chosen["x"], dtype=float),
+                data if as_sign(sign) > 0 else -data,
+                coherence=_coherence(records, chosen),
+                sensor=quantity,
+                input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
+                output=Signal(_node(chosen, "rsp"), _unit(chosen, "ordinate_axis_units_lab")),
+                origin=f"{file.name}, {_place(chosen)}",
+            )
+            .noted(note)
+            .read_as("frequency in Hz, complex response of a data set 58")
+        )
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"{file.name}, {_place(chosen)}: damaged data set ({error})") from None
 

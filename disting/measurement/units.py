@@ -27,23 +27,52 @@ class Motion(NamedTuple):
 
 
 MOTIONS = {
-    "m": Motion("m", 0, 1.0),
-    "cm": Motion("m", 0, 1e-2),
-    "mm": Motion("m", 0, 1e-3),
-    **dict.fromkeys(("um", "µm", "μm"), Motion("m", 0, 1e-6)),
-    "rad": Motion("rad", 0, 1.0),
-    "mrad": Motion("rad", 0, 1e-3),
-    **dict.fromkeys(("deg", "°"), Motion("rad", 0, pi / 180)),
-    **dict.fromkeys(("rev", "turn"), Motion("rad", 0, 2 * pi)),
-    **dict.fromkeys(("rpm", "1/min", "min^-1"), Motion("rad", 1, pi / 30)),
+    **{name: Motion("m", 0, size) for name, size in (
+        ("km", 1e3), ("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6),
+        ("μm", 1e-6), ("nm", 1e-9), ("in", 0.0254), ("inch", 0.0254),
+    )},
+    **{name: Motion("rad", 0, size) for name, size in (
+        ("krad", 1e3), ("rad", 1.0), ("mrad", 1e-3), ("urad", 1e-6), ("µrad", 1e-6), ("μrad", 1e-6),
+        ("deg", pi / 180), ("°", pi / 180), ("mdeg", pi / 180e3), ("gon", pi / 200),
+        ("arcmin", pi / 10800), ("arcsec", pi / 648000), ("rev", 2 * pi), ("turn", 2 * pi),
+        ("turns", 2 * pi),
+    )},
+    **dict.fromkeys(("rpm", "1/min", "min^-1", "U/min"), Motion("rad", 1, pi / 30)),
     "g": Motion("m", 2, 9.80665),
-}
+}  # fmt: skip
 # a space stands where a dot or a star may stand too, or nothing
 DRIVES = {
-    "N": ("N", 1.0), "mN": ("N", 1e-3), "kN": ("N", 1e3),
+    "N": ("N", 1.0), "mN": ("N", 1e-3), "kN": ("N", 1e3), "MN": ("N", 1e6),
     "N m": ("Nm", 1.0), "mN m": ("Nm", 1e-3), "kN m": ("Nm", 1e3), "N cm": ("Nm", 1e-2),
     "A": ("A", 1.0), "mA": ("A", 1e-3), "V": ("V", 1.0), "mV": ("V", 1e-3),
 }  # fmt: skip
+# of a frequency, to rad/s
+FREQUENCIES = {
+    "mHz": 2e-3 * pi, "Hz": 2 * pi, "kHz": 2e3 * pi, "MHz": 2e6 * pi, "GHz": 2e9 * pi,
+    "mrad/s": 1e-3, "rad/s": 1.0, "krad/s": 1e3, "Mrad/s": 1e6, "deg/s": pi / 180,
+    "rpm": pi / 30, "1/min": pi / 30,
+}  # fmt: skip
+# of a phase, to rad
+PHASES = {
+    "rad": 1.0, "mrad": 1e-3, "deg": pi / 180, "mdeg": pi / 180e3, "gon": pi / 200,
+    "turns": 2 * pi,
+}  # fmt: skip
+TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
+LEVELS = ("1", "%", "dB", "Np")  # of a gain
+SPELLINGS = {
+    "hertz": "Hz", "cycles/s": "Hz", "cps": "Hz", "rev/s": "Hz", "1/s": "rad/s", "s^-1": "rad/s",
+    "rad/second": "rad/s", "rads": "rad/s", "rad*s^-1": "rad/s", "°/s": "deg/s", "min^-1": "1/min",
+    "u/min": "rpm", "r/min": "rpm", "rev/min": "rpm", "cpm": "rpm",
+    "radian": "rad", "radians": "rad", "°": "deg", "º": "deg", "*": "deg", "degree": "deg",
+    "degrees": "deg", "grd": "deg", "gons": "gon", "turn": "turns", "rev": "turns",
+    "revolutions": "turns", "cycles": "turns",
+    "µs": "us", "μs": "us", "second": "s", "seconds": "s", "milliseconds": "ms", "minutes": "min",
+    "hours": "h", "sek": "s", "sec": "s", "msec": "ms",
+    "lin": "1", "linear": "1", "abs": "1", "-": "1", "a.u.": "1", "percent": "%", "pct": "%",
+    "decibel": "dB", "neper": "Np",
+}  # fmt: skip
+POWER = re.compile(r"(?:10\s*(?:\^|\*\*)\s*|1e)([+-]?\d{1,2})\s*[*·x]?\s*(.+)")
+REFERRED = re.compile(r"(dB|Np|%)(?:\s+re[fl]?\.?:?)?(?:\s+1?\s*|(?=\())(.+)", re.IGNORECASE)
 BETWEEN = r"[\s.*·]"
 PER_TIME = {"*s^2": -2, "*s": -1, "": 0, "/s": 1, "/s^2": 2}
 SUFFIX = {steps: text for text, steps in PER_TIME.items()}
@@ -72,6 +101,92 @@ def motion(text: str) -> Motion | None:
     Motion(base='rad', order=1, factor=0.10471975511965977)
     """
     return _parted(text)[0]
+
+
+def known_unit(text: str, kind: Iterable[str]) -> str | None:
+    """The name in `kind` of a unit of frequency, phase, time or level, None for what is none; in
+    capitals where these leave no doubt.
+
+    >>> [known_unit(text, FREQUENCIES) for text in ("HZ", "KHz", "rad / sec", "MHZ", "Ms")]
+    ['Hz', 'kHz', 'rad/s', None, None]
+    """
+    plain = _plain(text)
+    names = tuple(kind)
+    if plain in names:
+        return plain
+    spelled = SPELLINGS.get(plain.lower())
+    if spelled in names:
+        return spelled
+    alike = [name for name in names if name.lower() == plain.lower()]
+    return alike[0] if len(alike) == 1 else None
+
+
+def omega_per(text: str) -> float | None:
+    """What a frequency of 1 in a unit is in rad/s, with a power of ten before it; None where the
+    unit is not known.
+
+    >>> omega_per("10^3 rad/s"), omega_per("furlong")
+    (1000.0, None)
+    """
+    power = POWER.fullmatch(text.strip())
+    unit = known_unit(power[2] if power else text, FREQUENCIES)
+    return None if unit is None else FREQUENCIES[unit] * 10.0 ** int(power[1] if power else 0)
+
+
+class Gain(NamedTuple):
+    """Unit of a column of gains, or of their parts: its level, one of `LEVELS`, and the units of
+    output and input, "" where they are not said. `signal`: that of a signal alone, as a
+    generator's level has it, rather than of an output per input.
+    """
+
+    level: str
+    output: str = ""
+    input: str = ""
+    signal: bool = False
+
+
+def gain(text: str) -> Gain | None:
+    """The unit of a gain, None for what is none.
+
+    >>> gain("deg/s^2/A"), gain("dB re 1 mm/s/N").level, gain("k"), gain("Vpp").signal
+    (Gain(level='1', output='deg/s^2', input='A', signal=False), 'dB', None, True)
+    """
+    level = known_unit(text, LEVELS)
+    if level is not None:
+        return Gain(level)
+    referred = REFERRED.fullmatch(text.strip())
+    rest = (referred[2] if referred else text).strip()
+    if rest.startswith("(") and rest.endswith(")") and referred:
+        rest = rest[1:-1]
+    said = _per(_products(rest))
+    name = known_unit(referred[1], LEVELS) if referred else "1"
+    return None if said is None or name is None else said._replace(level=name)
+
+
+def _per(text: str) -> Gain | None:
+    """The unit of an output per input, of an output, or of a signal."""
+    before, _, behind = (part.strip(" ()") for part in text.replace(" per ", "/").rpartition("/"))
+    if motion(before) is not None and drive(behind) is not None:
+        return Gain("1", before, behind)
+    if motion(text) is not None:
+        return Gain("1", text)
+    if drive(before) and drive(before) == drive(behind):
+        return Gain("1")
+    volts = re.sub(r"(?:pp|pk|rms|_?peak|eff)$", "", text, flags=re.IGNORECASE)
+    return Gain("1", signal=True) if drive(volts) else None
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"\s", "", text).replace("sec", "s").replace("⁻¹", "^-1").replace("−", "-")
+
+
+def _products(text: str) -> str:
+    """A product of powers as a quotient: rad s^-2 A^-1 is rad/s^2/A."""
+    plain = text.replace("⁻", "^-").replace("−", "-").replace("²", "2").replace("¹", "1")
+    plain = re.sub(r"(?<=[/ ])sec?(?=\b|\^|\d)", "s", plain)
+    plain = re.sub(r"\^\(?-([12])\)?", r"^-\1", plain)
+    plain = re.sub(r"[\s*·.]*\b(s)\^?-2", "/s^2", plain)
+    return re.sub(r"[\s*·.]+([A-Za-z]+)\^?-1", r"/\1", plain)
 
 
 def differentiated(text: str, sensor: Sensor, wanted: Sensor) -> str:

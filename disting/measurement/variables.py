@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
-from disting.measurement.grid import in_omega
+from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
@@ -76,7 +76,8 @@ def from_variables(
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
     )
-    return found.noted(None if sensor else ASSUMED_ACCELERATION, taken)
+    words = f"frequency in {taken_unit(values, grid)} ({name}), complex response ({chosen})"
+    return found.noted(None if sensor else ASSUMED_ACCELERATION, taken).read_as(words)
 
 
 def holds_response(arrays: Arrays) -> bool:
@@ -149,8 +150,8 @@ def row(
     ):
         shape = " x ".join(map(str, several.shape[:-1]))
         raise InputError(
-            f"{name} holds {shape} responses; choose one by index= ({several.ndim - 1} numbers"
-            " from 0)"
+            f"{name} holds {shape} responses; choose one, from 1, as"
+            f" --read response={name}[{','.join('1' * (several.ndim - 1))}]"
         )
     return np.asarray(several[at])
 
@@ -160,7 +161,7 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
         found = next((name for name in usual if name in arrays), None)
         if found is None:
             raise InputError(
-                f"{origin}: which variable is the {role}? give {role}=; variables:"
+                f"{origin}: which variable is the {role}? give --read {role}=NAME; variables:"
                 f" {_listed(arrays)}"
             )
         return found
@@ -237,7 +238,7 @@ def _rate(arrays: Arrays, asked: float | str | None, time: str | None, origin: s
 def _scalar(arrays: Arrays, name: str, origin: str) -> float:
     values = _numeric(arrays, name, origin)
     if values.size != 1 or np.iscomplexobj(values) or not values.item() > 0:
-        raise InputError(f"{origin}: {name} is no positive number; give sampling_rate= [Hz]")
+        raise InputError(f"{origin}: {name} is no positive number; give --read sampling_rate=HZ")
     return float(values.item())
 
 

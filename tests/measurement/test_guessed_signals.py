@@ -46,7 +46,7 @@ def test_names_tell_input_and_output_of_a_matlab_file(tmp_path):
 
 def test_names_of_the_real_axis_do_not_tell():
     with pytest.raises(
-        InputError, match="give input= and output=; there are gtau, kp, kv, qg, qm, t, vir"
+        InputError, match="--read output=NAME; there are gtau, kp, kv, qg, qm, t, vir"
     ):
         read(measured_data("EMPS.mat"))
 

@@ -51,7 +51,7 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
     assert peak.omega[np.argmax(np.abs(peak.to_quantity("velocity").G))] == pytest.approx(
         193.5, abs=0.1
     )  # pole of its model: 191
-    assert any("taken as rad/s although Hz is said" in note for note in found.notes)
+    assert any("taken as rad/s although Hz is said" in said for said in found.suspicions)
     assert (
         read(path, response="frf.Pp[1,1]", sensor="position")
         == found
@@ -60,7 +60,8 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
     told = read(path, response="frf.Pv[1]", frequency_unit="Hz", sensor="velocity")
     assert told.notes == () and told.frequency[0] == pytest.approx(0.2 * np.pi)
     with pytest.raises(
-        InputError, match=r"several frequency responses; choose one by response=: frf\.Pp, frf\.Pv"
+        InputError,
+        match=r"several frequency responses; choose one by --read response=NAME: frf\.Pp, frf\.Pv",
     ):
         read(path)
     with pytest.raises(InputError, match=r"2 x 1 responses \(outputs x inputs\); choose one"):
@@ -87,16 +88,18 @@ def test_round_numbers_are_held_against_the_unit(tmp_path):
     circular = read(
         stored(tmp_path, frd(2 * np.pi * HERTZ, FrequencyUnit_="Hz")), response="frf[1]"
     )
-    assert np.allclose(circular.frequency, HERTZ) and any(ROUND in note for note in circular.notes)
+    assert np.allclose(circular.frequency, HERTZ) and any(
+        ROUND in said for said in circular.suspicions
+    )
     doubtful = read(stored(tmp_path, frd(HERTZ)), response="frf[1]")
     assert np.array_equal(doubtful.omega, HERTZ) and any(
-        "if Hz, give frequency_unit" in note for note in doubtful.notes
+        "if Hz, give --unit frequency=Hz" in said for said in doubtful.suspicions
     )
     assert np.allclose(
         read(stored(tmp_path, frd(HERTZ)), response="frf[1]", frequency_unit="Hz").frequency, HERTZ
     )
     for wrong in ("furlong", "rpm with time in minutes"):
-        with pytest.raises(InputError, match="frequency_unit is"):
+        with pytest.raises(InputError, match="is no unit of frequency that is known"):
             read(stored(tmp_path, frd(FrequencyUnit_=wrong)), response="frf[1]")
 
 

@@ -67,10 +67,7 @@ def test_matlab_files_of_scipy(tmp_path, format, compressed):
     )
     assert np.allclose(found.frequency, FREQUENCY, rtol=1e-15) and found.output.label == "G"
     assert found.notes == (
-        (
-            'sensor quantity taken as acceleration; if not, give sensor="position" or'
-            ' sensor="velocity"'
-        ),
+        "sensor quantity taken as acceleration; if not, give --quantity position or --quantity velocity",
         "frequencies of 'f' taken as Hz",
     )
     assert read(path, sensor="position", frequency_unit="Hz").notes == ()
@@ -96,7 +93,9 @@ def test_several_responses_in_one_matlab_array(tmp_path):
     assert np.array_equal(found.G, 6 * G) and np.array_equal(found.omega, FREQUENCY)
     assert np.array_equal(found.deviation, np.abs(6 * G))
     for index in (None, 1, (2, 0), (0, 0, 0)):
-        with pytest.raises(InputError, match="2 x 3 responses; choose one by index="):
+        with pytest.raises(
+            InputError, match=r"2 x 3 responses; choose one, .* --read response=several\[1,1\]"
+        ):
             read(path, response="several", index=index)
     for name in ("name", "parts"):
         with pytest.raises(InputError, match=f"{name} .*no array of numbers"):
@@ -130,7 +129,7 @@ def test_time_series_of_a_matlab_file(tmp_path):
     with pytest.raises(InputError, match="no positive number"):
         read_time_series(path, "u", "y", sampling_rate="u")
     scipy.io.savemat(path, signals)
-    with pytest.raises(InputError, match="give sampling_rate="):
+    with pytest.raises(InputError, match="give --read sampling_rate="):
         read_time_series(path, "u", "y")
 
 

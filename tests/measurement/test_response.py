@@ -154,8 +154,8 @@ def test_a_reversed_sensor_is_suspected_at_a_free_mass_and_not_at_a_mass_on_a_sp
     sprung = FrequencyResponse(OMEGA, s**2 / (2 * s**2 + 3 * s + 1e5))
     assert abs(np.angle(sprung.G[0])) > 3
     assert free.suspicions == () == sprung.suspicions
-    assert "sign_reversed" in free.sign_reversed().suspicions[0]
-    assert "sign_reversed" in free.sign_reversed().to_quantity("position").suspicions[0]
+    assert "--sign=-" in free.sign_reversed().suspicions[0]
+    assert "--sign=-" in free.sign_reversed().to_quantity("position").suspicions[0]
     assert free.sign_reversed().sign_reversed() == free
 
 

@@ -129,12 +129,14 @@ def test_columns_named_by_the_caller(tmp_path):
         (i, f, 0.5, abs(g), np.angle(g)) for i, (f, g) in enumerate(zip(FREQUENCY, G, strict=True))
     ]
     path = written(tmp_path / "a.csv", lines(rows))
-    with pytest.raises(InputError, match="5 columns, no header; say what they are"):
+    with pytest.raises(
+        InputError, match=r"5 columns, no header; say what the columns are: .*columns=-,Hz,-,re,im;"
+    ):
         read(path)
     found = read(path, columns=["-", "Hz", "coherence", "magnitude", "rad"])
     np.testing.assert_allclose(found.G, G, rtol=1e-14)
     assert np.array_equal(found.coherence, np.full(12, 0.5))
-    for wrong in (["Hz"], ["Hz", "re", "im", "-", "degrees"], ["-"] * 5):
+    for wrong in (["Hz"], ["Hz", "re", "im", "-", "furlongs"], ["-"] * 5):
         with pytest.raises(InputError, match="column"):
             read(path, columns=wrong)
 
@@ -142,17 +144,19 @@ def test_columns_named_by_the_caller(tmp_path):
 def test_phases_in_a_doubtful_unit_are_said(tmp_path):
     degrees = lines([(f, 1.0, 30 * f - 180) for f in FREQUENCY])
     radians = lines([(f, 1.0, 0.5 * f - 3) for f in FREQUENCY])
-    said = read(written(tmp_path / "a.csv", ["f [Hz],abs,phase [rad]", *degrees])).notes
-    assert any('degrees read as radians? then give phase_unit="deg"' in note for note in said)
-    said = read(written(tmp_path / "b.csv", ["f [Hz],abs,phase [deg]", *radians])).notes
-    assert any('radians read as degrees? then give phase_unit="rad"' in note for note in said)
+    said = read(written(tmp_path / "a.csv", ["f [Hz],abs,phase [rad]", *degrees])).suspicions
+    assert any("degrees read as radians? then give --unit phase=deg" in note for note in said)
+    said = read(written(tmp_path / "b.csv", ["f [Hz],abs,phase [deg]", *radians])).suspicions
+    assert any("radians read as degrees? then give --unit phase=rad" in note for note in said)
     for text, unit in ((degrees, "deg"), (radians, "rad")):
         path = written(tmp_path / "c.csv", ["f [Hz],abs,phase", *text])
         assert any(f"phases taken as {unit}, by their size" in note for note in read(path).notes)
         assert read(path) == read(path, phase_unit=unit) and not any(
             "phases" in n for n in read(path, phase_unit=unit).notes
         )
-    with pytest.raises(InputError, match="phase_unit"):
+    with pytest.raises(
+        InputError, match="'grad' is no unit of phase that is known; known are rad, mrad, deg"
+    ):
         read(path, phase_unit="grad")
 
 
@@ -193,12 +197,15 @@ def test_the_sensor_is_taken_from_words_or_said_to_be_assumed(tmp_path):
         (["f,Re,Im", *lines(ROWS[:7])], "7 frequencies are too few"),
         (["f,Re,Im", "0,1,1", *lines(ROWS)], "not positive"),
         (["f,Re,Im", *lines(ROWS), "3,1,1"], "occurs twice"),
-        (["a,Re,Im", *lines(ROWS)], "no column is a frequency; give columns=; headers: a, Re, Im"),
+        (
+            ["a,Re,Im", *lines(ROWS)],
+            "no column is a frequency; say what .* --read columns=Hz,re,im; headers: a, Re, Im",
+        ),
         (
             ["f,Re,b", *lines(ROWS)],
-            "columns for re: 1, for im: 0; give columns=; headers: f, Re, b",
+            "columns for real parts: 1, for imaginary parts: 0; .* columns=Hz,re,im; headers: f, Re, b",
         ),
-        (["f,a,b", *lines(ROWS)], "no real and imaginary part, no magnitude and phase"),
+        (["f,a,b", *lines(ROWS)], "no real and imaginary part, no gain and phase are known"),
         (["f,abs,deg", "1,-1,3", *lines(ROWS[1:])], "a magnitude is negative"),
         (["f,Re,Im,coh", *(f"{line},50" for line in lines(ROWS))], "coherence lies in 0..1"),
         (["f,Re,Im,coh,coh", *(f"{line},1,1" for line in lines(ROWS))], "coherence occurs twice"),

@@ -8,6 +8,7 @@ from disting.files import __version__
 from disting.fit.alternatives import Alternative
 from disting.fit.explained import LARGEST
 from disting.fit.judged import Candidate
+from disting.fit.measured import read_in_words
 from disting.fit.modes import Result
 from disting.fit.select import Selection
 from disting.fit.telling import first_lines, suspicions
@@ -102,6 +103,7 @@ def fit_page(
         folded=FOLDED,
         first=FIRST,
         name=name,
+        read_in_words=read_in_words,
         readable=readable,
         percent=percent,
         plural=plural,
