@@ -112,8 +112,8 @@ def _names(decided: Decisions) -> Sequence[int | str]:
     """Numbers from 1 for the numbered chains of one size, else the subjects' names."""
     names = [s.name for s in decided.subjects]
     numbers = range(1, len(names) + 1)
-    numbered = len(set(decided.sizes)) == 1 and names == [f"A{number}" for number in numbers]
-    return numbers if numbered else names
+    whole = [[f"{size}:{number}" for number in numbers] for size in set(decided.sizes)]
+    return numbers if whole == [names] else names
 
 
 def _cell(name: int | str) -> int | str:

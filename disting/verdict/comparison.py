@@ -164,11 +164,14 @@ def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, 
 
 def names_of(left: Chain, right: Chain) -> tuple[str, str]:
     """What two chains are called beside each other: by their names, those that have one name, of
-    which one is damped, in full.
+    which one is damped, with damping and quantity.
+
+    >>> names_of(Chain(9), Chain(9, damped=False))
+    ('9:1 (damped, acceleration)', '9:1 (undamped, acceleration)')
     """
     names = name_of(left), name_of(right)
     if names[0] == names[1] and left != right:
-        return f"the model with {left}", f"the model with {right}"
+        return f"{names[0]} ({left.premise})", f"{names[1]} ({right.premise})"
     return names
 
 

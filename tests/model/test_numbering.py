@@ -79,7 +79,7 @@ def test_sentences_of_large_chains_have_their_names(pair):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("compare", "9:1", "9:2"), "9:1 and 9:2 are distinguishable"),
+        (("compare", "9:1", "9:2"), "9:1 and 9:2, damped, acceleration, are distinguishable"),
         (("compare", "8:1", "9:1", "--undamped"), "8:1 is a limit of 9:1"),
         (("next", "9:1", "9:2"), "9:1 and 9:2 are told apart by the present"),
         (("simulate", "9:1"), "the parameters of 9:1 are m1, m2"),
@@ -90,3 +90,9 @@ def test_commands_call_large_chains_by_their_names(words, said):
     done = called(*words)
     assert said in done.stdout + done.stderr
     assert "masses, gap" not in done.stdout + done.stderr
+
+
+def test_one_number_of_two_machines_is_told_apart_by_damping_and_quantity():
+    found = compare(Chain(9), Chain(9, damped=False, sensor=Sensor.VELOCITY)).sentence
+    assert found.startswith("9:1 (damped, acceleration) and 9:1 (undamped, velocity) are dist")
+    assert "masses, gap" not in found
