@@ -109,7 +109,7 @@ def share_text(found: PositiveFinding | None) -> str:
 
 
 def _names(decided: Decisions) -> Sequence[int | str]:
-    """Numbers from 1 for the numbered chains of one size, named 3:1, 3:2, .. or A1, A2, .., else the
+    """Numbers from 1 for the numbered chains of one size, named 3:1, .. or A1, .., else the
     subjects' names.
     """
     names, sizes = [s.name for s in decided.subjects], set(decided.sizes)
