@@ -127,11 +127,12 @@ def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
         mid = (mid - change).mid()
         if bool(change.abs_upper() <= near * mid.abs_upper()):
             break  # the next change is about the square of this one
-    error = 4 * (p(mid) / slope(mid)).abs_upper() + mid.abs_upper() * arb(2) ** (4 - ctx.prec)
+    value = p(mid)
+    error = 4 * (value / slope(mid)).abs_upper() + mid.abs_upper() * arb(2) ** (4 - ctx.prec)
     spread = arb(0, error.upper())
     box = mid + acb(spread, spread)
     steep = slope(box)
-    step = mid - p(mid) / steep
+    step = mid - value / steep
     proven = not steep.contains(0) and z.contains(box) and box.contains(step)
     return step if proven else None
 
