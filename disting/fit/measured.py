@@ -22,6 +22,7 @@ from disting.fit.judged import Candidate
 from disting.fit.plant import Real
 from disting.measurement import FrequencyResponse
 from disting.measurement.response import ASSUMED_ACCELERATION
+from disting.measurement.time_series import ASSUMED_POSITION
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
 
@@ -31,6 +32,7 @@ NOTHING = 1e-300  # a cost that is as good as zero
 SHARE = 0.8  # of the misfit, from which on single lines are named
 BESIDE = 0.1  # of theirs, that their neighbours may miss
 MOST_LINES = 2  # that are named
+ASSUMED = {ASSUMED_ACCELERATION: Sensor.ACCELERATION, ASSUMED_POSITION: Sensor.POSITION}
 FEWEST = 12  # lines, from which on one of them is not many
 
 
@@ -40,13 +42,18 @@ def read_in_words(measured: FrequencyResponse) -> str:
     """
     origin = f"{measured.origin}: " if measured.origin else ""
     reading = f"{measured.reading}; " if measured.reading else ""
-    assumed = " (assumed)" * is_assumed(measured)
-    return f"{origin}{reading}sensor: {measured.sensor.value}{assumed}"
+    quantity = assumed(measured)
+    told = "" if quantity is None else " (assumed)"
+    if quantity is not None and quantity is not measured.sensor:
+        told = f", from a {quantity.value} (assumed)"
+    return f"{origin}{reading}sensor: {measured.sensor.value}{told}"
 
 
-def is_assumed(measured: FrequencyResponse) -> bool:
-    """Whether nobody said which quantity the sensor shows."""
-    return ASSUMED_ACCELERATION in measured.notes
+def assumed(measured: FrequencyResponse) -> Sensor | None:
+    """The quantity that the sensor, or the recorded output, is taken to show; None where somebody
+    said it.
+    """
+    return next((quantity for note, quantity in ASSUMED.items() if note in measured.notes), None)
 
 
 def other_quantities(
@@ -59,27 +66,26 @@ def other_quantities(
     where nothing is assumed, several responses are fitted, or the cost is not of logarithms.
     """
     cost = task.cost
-    if isinstance(cost, JointCost) or not is_assumed(cost.measured):
+    if isinstance(cost, JointCost) or cost.case is not Case.LOGARITHM:
         return ()
-    if cost.case is not Case.LOGARITHM:
+    taken = assumed(cost.measured)
+    if taken is None:
         return ()
     before = min(_criterion(c.estimate, task) for c in candidates)
     found = []
     for quantity in Sensor:
-        if quantity is cost.measured.sensor:
+        if quantity is taken:
             continue
-        other = replace(cost, measured=replace(cost.measured, sensor=quantity))
+        other = replace(cost, measured=_shifted(cost.measured, taken.order - quantity.order))
         seen = replace(task, cost=other)
-        chains = [replace(chain, sensor=quantity) for chain in _small(candidates)]
-        fits = estimates(chains, seen, store=store, executor=executor).values()
+        fits = estimates(_small(candidates), seen, store=store, executor=executor).values()
         best = min(fits, key=lambda fit: _criterion(fit, seen))
         if _criterion(best, seen) <= before + AS_WELL:
             found.append((_criterion(best, seen), quantity, best))
     return tuple(
         f"read as {quantity.value}, {reference(fit.chain)} explains the data as well or better"
         f" (J = {fit.j:.3g} with {len(fit.parameters)} parameters): that it is"
-        f" {cost.measured.sensor.value} is assumed; give --quantity {quantity.value}, or --quantity"
-        f" {cost.measured.sensor.value}"
+        f" {taken.value} is assumed; give --quantity {quantity.value}, or --quantity {taken.value}"
         for _, quantity, fit in sorted(found, key=lambda one: one[0])
     )
 
@@ -130,6 +136,16 @@ def _criterion(fit: Estimate, task: Task) -> float:
     n = task.cost.n_residuals
     free = sum(name not in task.fixed for name in fit.parameters)
     return n * log(max(fit.j, NOTHING) / n) + free * log(n)
+
+
+def _shifted(measured: FrequencyResponse, steps: int) -> FrequencyResponse:
+    """The response differentiated so many times more."""
+    deviation = measured.deviation
+    return replace(
+        measured,
+        G=measured.G * (1j * measured.omega) ** steps,
+        deviation=None if deviation is None else deviation * measured.omega**steps,
+    )
 
 
 def _small(candidates: Sequence[Candidate]) -> tuple[Chain, ...]:

@@ -14,7 +14,7 @@ from disting.fit.each import explanations
 from disting.fit.explained import Explanation
 from disting.fit.fitted import fit_percent
 from disting.fit.judged import Candidate
-from disting.fit.measured import is_assumed
+from disting.fit.measured import assumed
 from disting.fit.members import Member
 from disting.fit.reliance import Statement
 from disting.fit.select import Selection
@@ -119,7 +119,7 @@ def _data(measured: FrequencyResponse) -> dict[str, Any]:
         "origin": measured.origin,
         "reading": measured.reading,
         "quantity": measured.sensor.value,
-        "quantity_assumed": is_assumed(measured),
+        "quantity_assumed": assumed(measured) is not None,
         "notes": list(measured.notes),
     }
 

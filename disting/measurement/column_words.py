@@ -80,6 +80,11 @@ INSIDE = re.compile(
     r"(?<![a-z])db(?![a-z])|(?<=mag)db|(?<=gain)db|[Dd]eg(?:rees?)?(?![a-z])|"
     r"(?<![a-z])m?rad(?![a-z])|gon|°|(?<=phase)deg|(?<=phase)rad)"
 )
+# in round brackets, or behind a stroke: a name rather than a unit
+NAME = re.compile(
+    r"[A-Za-z]\w{3,}[\w ]*|[A-Z]\w?\d*(?:\(.*\))?|[a-z]+\d+(?:/[a-z]+\d+)?|[A-Z]\w*/[A-Z]\w*"
+)  # no unit
+STROKE = re.compile(r"(.+?)\s*/\s*([^/\s()|]+)$")
 UNITS_OF = {Role.FREQUENCY: FREQUENCIES, Role.PHASE: PHASES, Role.COHERENCE: LEVELS}
 
 
@@ -131,6 +136,9 @@ def parted(header: str) -> tuple[str, str | None]:
         for at in (i for i, c in enumerate(text) if c == mark):
             if _is_unit(text[at + 1 :].strip()):
                 return text[:at].strip(), text[at + 1 :].strip()
+    stroke = STROKE.match(text)
+    if stroke and not NAME.fullmatch(stroke[2]) and len(stroke[2]) > 1:
+        return stroke[1], stroke[2]
     return text, None
 
 

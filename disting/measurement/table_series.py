@@ -48,7 +48,7 @@ def time_series(
     u, y = table.at(input), table.at(output)
     labels = named(table.headers[u]), named(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
-    quantity, notes = said(sensor)
+    quantity, notes = said(sensor, labels[1].unit)
     wanted = None if reference is None else table.column(table.at(reference))
     samples = table.column(u), table.column(y) * as_sign(sign)
     return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, notes, wanted)

@@ -9,7 +9,7 @@ import numpy as np
 from disting.errors import InputError, listed, shown
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.column_words import Column, Role
+from disting.measurement.column_words import NAME, Column, Role
 from disting.measurement.columns import (
     Group,
     chosen,
@@ -46,9 +46,7 @@ NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
 # a linear gain above it on all lines, of one order of magnitude, may be one in dB without a sign
 HIGH, NARROW = 40.0, 10.0
 LINEAR_OF = {"1": 1.0, "%": 0.01}
-NAME = re.compile(
-    r"[A-Za-z]\w{3,}[\w ]*|[A-Z]\w?\d*(?:\(.*\))?|[a-z]+\d+(?:/[a-z]+\d+)?"
-)  # no unit
+MINUS = re.compile(r"\s*[-−]\s*[A-Za-z]")
 MARK = "frequency response, written by disting"
 
 
@@ -134,7 +132,7 @@ class _Reading:
             scale = self._scale(real), self._scale(imaginary)
             self.words = f"real part (column {real + 1}), imaginary part (column {imaginary + 1})"
             return np.asarray(
-                self.table.column(real) * scale[0] + 1j * self.table.column(imaginary) * scale[1]
+                self._signed(real) * scale[0] + 1j * self._signed(imaginary) * scale[1]
             )
         at = columns[Role.PHASE]
         unit = self._phase_unit(at)
@@ -144,7 +142,14 @@ class _Reading:
             f"gain{told} (column {columns[Role.GAIN] + 1}), phase in"
             f" {'degrees' if unit == 'deg' else unit} (column {at + 1})"
         )
-        return np.asarray(size * np.exp(1j * PHASES[unit] * self.table.column(at)))
+        return np.asarray(size * np.exp(1j * PHASES[unit] * self._signed(at)))
+
+    def _signed(self, at: int) -> Real:
+        """The numbers of a column, reversed where its header has a minus before its name."""
+        if not MINUS.match(self.table.headers[at]):
+            return self.table.column(at)
+        self.notes.append(f"{self.table.named(at)} is taken with the opposite sign, as its header")
+        return np.asarray(-self.table.column(at))
 
     def beside(self, group: Group, role: Role) -> Real | None:
         """A column of deviations or coherences, None where there is none."""

@@ -10,8 +10,13 @@ from disting.measurement import checks, periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.closed_loop import follows_output
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
+from disting.measurement.units import motion
 from disting.model.chain import Sensor, as_sensor
 from disting.model.shown import plural, summary
+
+ASSUMED_POSITION = (
+    "output taken as a position; if not, give --quantity velocity or --quantity acceleration"
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,15 +143,14 @@ class TimeSeries:
         return response if sensor is None else response.to_quantity(sensor)
 
 
-def said(sensor: Sensor | str | None) -> tuple[Sensor, tuple[str, ...]]:
-    """Sensor quantity of a recorded output, position where nobody said it, and the note that
-    says so then.
+def said(sensor: Sensor | str | None, unit: str = "") -> tuple[Sensor, tuple[str, ...]]:
+    """Sensor quantity of a recorded output: as asked for, or that of its unit, else position, with
+    the note that says so.
     """
     if sensor is not None:
         return as_sensor(sensor), ()
-    return Sensor.POSITION, (
-        "output taken as a position; if not, give --quantity velocity or --quantity acceleration",
-    )
+    own = motion(unit)
+    return (Sensor.POSITION, (ASSUMED_POSITION,)) if own is None else (own.sensor, ())
 
 
 def _refuse_few(found: periodic.Estimated, band: tuple[float, float] | None) -> None:

@@ -210,7 +210,7 @@ def agree(text: str, sensor: Sensor) -> None:
     if found is not None and found.sensor is not sensor:
         raise InputError(
             f"the output in {text} is a {found.sensor.value}, the response is read as that of a"
-            f" {sensor.value}: give sensor={found.sensor.value}, or another unit"
+            f" {sensor.value}: give --quantity {found.sensor.value}, or another unit"
         )
 
 

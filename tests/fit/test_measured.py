@@ -149,3 +149,35 @@ def test_a_file_that_is_not_understood_shows_its_rows(tmp_path):
     assert done.returncode == 2
     assert "disting fit a.csv --read columns=Hz,dB,deg" in done.stderr
     assert "  1 Punkt" in done.stderr and "1, 2, 3, .." in done.stderr
+
+
+def record(path, quantity, header, seed=3):
+    """Three periods of 1 s of a multisine from 5 to 200 Hz, and what the sensor shows of it."""
+    lines = np.arange(5, 201)
+    chain = Chain(2, damped=True, ground_dampers=(1,), sensor=quantity)
+    exact = response(chain, VALUES, omega=2 * np.pi * lines)
+    source, spectrum = np.random.default_rng(seed), np.zeros(501, dtype=complex)
+    spectrum[lines] = np.exp(2j * np.pi * source.random(len(lines)))
+    u = np.tile(np.fft.irfft(spectrum, 1000), 3)
+    spectrum[lines] *= exact.G
+    y = np.tile(np.fft.irfft(spectrum, 1000), 3)
+    y += 0.003 * y.std() * source.normal(size=len(y))
+    rows = zip(np.arange(3000) / 1000, u.tolist(), y.tolist(), strict=True)
+    path.write_text("\n".join([header, *(f"{t},{a},{b}" for t, a, b in rows), ""]))
+    return path
+
+
+def test_a_recorded_speed_that_is_taken_as_a_position_is_suspected(tmp_path):
+    path = record(tmp_path / "a.csv", "velocity", "t [s],u,y")
+    measured = read(path, input="u", output="y", period=1000, to="acceleration")
+    assert read_in_words(measured).endswith("sensor: acceleration, from a position (assumed)")
+    found = select(measured, chosen_ports((1, 2), "1", "1", 0, measured.sensor))
+    assert "that it is position is assumed; give --quantity velocity" in suspicions(found)[0]
+
+
+def test_the_unit_of_a_recorded_output_says_its_quantity(tmp_path):
+    path = record(tmp_path / "a.csv", "velocity", "t [s],u [A],y [rad/s]")
+    measured = read(path, input="u [A]", output="y [rad/s]", period=1000, to="acceleration")
+    assert read_in_words(measured).endswith("; sensor: acceleration")
+    exact = response(Chain(2, damped=True, ground_dampers=(1,)), VALUES, omega=measured.omega)
+    assert np.median(np.abs(measured.G / exact.G - 1)) < 0.02

@@ -104,13 +104,26 @@ def test_parts_in_degrees_are_parts_and_no_phases(tmp_path):
     assert (found.output.unit, found.input.unit) == ("rad/s^2", "A")
 
 
-@pytest.mark.parametrize("header", ["re [k],im [k]", "Re [Ohm],Im [Ohm]", "Re [dBm],Im [dBm]"])
+@pytest.mark.parametrize(
+    "header", ["re [k],im [k]", "Re(Z)/Ohm,-Im(Z)/Ohm", "Re [Ohm],Im [Ohm]", "Re [dBm],Im [dBm]"]
+)
 def test_a_unit_of_parts_that_is_not_known_is_refused(tmp_path, header):
     path = written(tmp_path / "a.csv", f"f [Hz],{header}", F, G.real, G.imag)
     said, _ = refused(path)
     assert "is not known; known are 1, %, dB, Np, rad/s^2/A" in said
     assert "give --unit magnitude=1, which takes the numbers as they are" in said
-    np.testing.assert_allclose(read(path, magnitude_unit="1").G, G, rtol=1e-14)
+    found = read(path, magnitude_unit="1").G
+    np.testing.assert_allclose(found.conj() if "-Im" in header else found, G, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "header", ["f [Hz],Re,-Im", "f/Hz,Re(Z)/-,−Im(Z)/-", "f [Hz],abs,-phase [rad]"]
+)
+def test_a_minus_before_a_name_turns_its_numbers_and_is_said(tmp_path, header):
+    columns = (np.abs(G), np.angle(G)) if "abs" in header else (G.real, G.imag)
+    found = read(written(tmp_path / "a.csv", header, F, *columns))
+    np.testing.assert_allclose(found.G, G.conj(), rtol=1e-12)
+    assert any("is taken with the opposite sign" in note for note in found.notes)
 
 
 def test_a_unit_of_phase_that_is_not_known_is_refused(tmp_path):

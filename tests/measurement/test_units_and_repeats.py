@@ -94,7 +94,7 @@ def test_a_record_in_turns_is_one_in_radians(tmp_path):
 def test_a_unit_that_contradicts_the_quantity_is_not_lost():
     """The speed of a record that is taken as a position was differentiated twice without a word."""
     said = {"sensor": "position", "output": Signal("w", "rad/s")}
-    with pytest.raises(InputError, match=r"in rad/s is a velocity, .* give sensor=velocity"):
+    with pytest.raises(InputError, match=r"in rad/s is a velocity, .* give --quantity velocity"):
         FrequencyResponse(2 * np.pi * FREQUENCY, G, **said).to_quantity("acceleration")
 
 
