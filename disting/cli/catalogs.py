@@ -9,6 +9,7 @@ from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import shipped_folder
 from disting.cli.arguments import add_masses, add_out, add_work
+from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.workers import engine_for
 from disting.verdict import Engine, Progress
 
@@ -54,6 +55,9 @@ def build(options: argparse.Namespace) -> int:
     """Compute catalogues."""
     from disting.catalogs.build import build, write
 
+    for damped in (False, True):
+        counts = pairs_by_size(options.masses, across=False)
+        announced(pairs_work(damped), counts, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses:
             pair = [

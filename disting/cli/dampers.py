@@ -14,6 +14,7 @@ from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
 from disting.cli.common import relations_in_words
+from disting.cli.effort import Work, announced
 from disting.cli.output import emitted, emitted_lines
 from disting.cli.paths import written_file
 from disting.cli.workers import engine_for
@@ -21,7 +22,7 @@ from disting.conditions.table import RULES
 from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
-from disting.model.family import MOST_MASSES
+from disting.model.family import MOST_MASSES, Family
 from disting.model.names import chains_named, extras_of, name_of
 from disting.verdict import Relation, classes_safety, joint_in_words
 
@@ -171,6 +172,7 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
     which = DamperSets(options.sets)
     if n in SHIPPED_SIZES and which is DamperSets.ALL:
         return damper_catalog(n, damped=is_damped(options))
+    announced(Work.DAMPERS, {n: len(Family(n)) * len(which.of(n))}, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         return damper_family(
             n,

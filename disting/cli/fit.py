@@ -8,6 +8,7 @@ import shlex
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from disting.cli.effort import Work, announced
 from disting.cli.fit_data import Data, data, sensors
 from disting.cli.fit_told import told
 from disting.cli.output import emitted
@@ -26,6 +27,7 @@ from disting.fit.selection_json import selection_to_dict
 from disting.fit.swarm import by_swarm
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.family import Family
 
 WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
@@ -37,6 +39,7 @@ def run(options: argparse.Namespace) -> int:
     controller = controller_named(options.controller) if options.controller else None
     given = data(options)
     train, test = given.train, given.test
+    announced(Work.FITS, _counted(options), options.jobs or cores())
     candidates = _candidates(options, given)
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
     with engine_for(options) as (engine, pool, progress):
@@ -88,6 +91,14 @@ def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real]
     if options.weights != "auto":
         return WEIGHTS[options.weights]
     return lines_by_coherence if "segment" in dict(options.read) else None
+
+
+def _counted(options: argparse.Namespace) -> dict[int, int]:
+    """Candidates by number of masses, before they are made: each structure with any dampers to the
+    ground, lag and dead time.
+    """
+    known = {n: len(Family(n)) if options.family else 1 for n in options.masses}
+    return {n: count * 2 ** (n + 2) for n, count in known.items()}
 
 
 def _candidates(options: argparse.Namespace, given: Data) -> tuple[Chain, ...]:

@@ -10,6 +10,7 @@ from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import add_damped, add_work, is_damped, size_or_file
+from disting.cli.effort import Work, announced
 from disting.cli.plain import keep_apart
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
@@ -59,6 +60,9 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"models of at most {MOST_LISTED} masses are listed")
     family = Family(options.masses, is_damped(options))
     also = [_one_model(text) for text in options.also]
+    if also or (options.identifiability and family.n_masses not in SHIPPED_SIZES):
+        work = Work.UNDER_EXPERIMENTS if also else Work.IDENTIFIABILITY
+        announced(work, {family.n_masses: len(family) * max(1, len(also))}, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         asked = bool(also) or options.ranks or options.identifiability or family.n_masses <= AT_ONCE
         # no dependences are shown, which are dear

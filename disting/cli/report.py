@@ -12,6 +12,7 @@ from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import add_out, add_work, size_or_file
 from disting.cli.common import relations_in_words
+from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
@@ -81,6 +82,9 @@ def _catalogues(options: argparse.Namespace) -> None:
     from disting.report.write import write_report
 
     choices = _choices(options)
+    for damped in choices:
+        new = [n for n in options.masses if n not in SHIPPED_SIZES]
+        announced(pairs_work(damped), pairs_by_size(new, across=False), options.jobs)
     with engine_for(options) as (engine, pool, progress):
         catalogs = [
             _catalog(n, damped, engine, pool, progress)

@@ -18,6 +18,7 @@ from disting.cli.arguments import (
     whole,
 )
 from disting.cli.common import VIEWS, query, relations_in_words, rules_in_words
+from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.output import emitted
 from disting.cli.paths import written_file
 from disting.cli.plain import keep_apart
@@ -68,6 +69,8 @@ def run(options: argparse.Namespace) -> int:
     if file:
         refuse_chain_options(options, "prove")
     models = list_of(file) if file else None
+    if not file:
+        announced(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
     with engine_for(options) as (engine, pool, progress):
         subjects: Sequence[Compared] = (
             [engine.general_subject(model.name, model) for model in models]

@@ -1,0 +1,78 @@
+"""Long work says so before it begins: how much, how long about, and how there would be less."""
+
+import os
+import re
+import signal
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from disting import Family
+from disting.cli.effort import LONG, Work, announced, pairs_by_size
+from disting.measurement import write_csv
+from disting.simulation import demo
+from tests.cli.process import COMMAND, called
+
+SAID = re.compile(
+    r"disting: (\d+) (pairs|models with dampers|models|candidates), which may take (.*); less to do: (.*); Ctrl-C stops it\n"
+)
+LARGE = [
+    ("verdicts 8", 574 * 573 // 2),
+    ("report 9 --undamped --out pages", 993 * 992 // 2),
+    ("models 7 --also spring=1:3 --also lock=2", 2 * 314),
+    ("dampers 8 --sets all", 574 * 2**8),
+    ("fit demo.csv --masses 9", 2**11),
+    ("fit demo.csv --masses 9 --family", 993 * 2**11),
+]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
+@pytest.mark.parametrize(("command", "count"), LARGE)
+def test_long_work_is_told_before_it_begins_and_can_be_stopped(
+    tmp_path: Path, command: str, count: int
+) -> None:
+    write_csv(demo(0).response("acceleration"), tmp_path / "demo.csv")
+    process = subprocess.Popen(
+        [*COMMAND, *command.split()],
+        stdin=subprocess.DEVNULL,  # nothing is asked
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=tmp_path,
+        env=os.environ | {"DISTING_CACHE": "off"},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert process.stderr is not None
+    first = SAID.fullmatch(process.stderr.readline())
+    process.send_signal(signal.SIGINT)
+    said, rest = process.communicate(timeout=60)
+    assert first is not None and int(first[1]) == count
+    assert (process.returncode, said) == (130, "") and rest.startswith("disting: interrupted")
+
+
+@pytest.mark.parametrize(
+    "command", ["verdicts 3", "models 5", "models 3 --also lock=2", "report 1 --undamped --out {}"]
+)
+def test_work_that_ends_soon_is_done_without_a_word(tmp_path: Path, command: str) -> None:
+    assert called(*command.format(tmp_path).split()).stderr == ""
+
+
+def test_more_workers_take_less_time(capsys: pytest.CaptureFixture[str]) -> None:
+    seconds = 3 * LONG
+    count = round(seconds / Work.PAIRS.value.of(5))
+    announced(Work.PAIRS, {5: count}, 1)
+    announced(Work.PAIRS, {5: count}, 4)
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_pairs_are_counted_as_they_are_decided() -> None:
+    sizes = [1, 2, 4]
+    chains = sum(len(Family(n)) for n in sizes)
+    assert sum(pairs_by_size(sizes).values()) == chains * (chains - 1) // 2
+
+
+@pytest.mark.parametrize("work", Work)
+def test_more_masses_take_longer(work: Work) -> None:
+    seconds = [work.value.of(n) for n in range(1, 12)]
+    assert seconds == sorted(seconds) and seconds[-1] > seconds[0] > 0
