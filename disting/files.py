@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from disting.errors import CatalogError, InputError, printable
+from disting.errors import CatalogError, InputError, printable, shown
 
 PROVENANCE = "provenance.json"
 STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
@@ -87,12 +87,26 @@ def read_bounded(path: Path, wanted: str, most: int = LARGEST) -> bytes:
 
 
 def read_json(path: Path, wanted: str) -> Any:
-    """What a JSON file holds, of at most 50 MB; raises InputError."""
+    """What a JSON file holds, of at most 50 MB, no key twice; raises InputError."""
     content = read_bounded(path, wanted)
     try:
-        return json.loads(content.decode("utf-8-sig"))
+        return json.loads(content.decode("utf-8-sig"), object_pairs_hook=once)
+    except InputError as reason:
+        raise InputError(f"{printable(str(path))}: {reason}") from None
     except (ValueError, RecursionError):  # the second: brackets by the thousand
         raise InputError(f"{printable(str(path))} holds no JSON; name {wanted}") from None
+
+
+def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object in which no key is doubled: of two values one would be lost."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        name = next((value for key, value in pairs if key == "name"), None)
+        where = f"model {shown(name)}: " if name is not None else ""
+        doubled = next(key for key in keys if keys.count(key) > 1)
+        raise InputError(f"{where}{shown(doubled)} is given twice; leave one of them away")
+    return found
 
 
 def _at_most(path: Path, size: int, most: int) -> bytes:

@@ -41,5 +41,5 @@ def run(options: argparse.Namespace) -> int:
     if is_file and options.also:
         raise InputError("the file names its experiments: leave --also away")
     found = verify(options.what[0] if is_file else file_of(options.what, options))
-    print(f"{' and '.join(options.what)}: {found.sentence}")
+    print(f"{' and '.join(options.what)}: {found.text}")
     return STATUS[found.standing]

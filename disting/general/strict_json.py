@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NoReturn
 
 from disting.errors import InputError, listed, shown
+from disting.files import once
 
 Plain = Mapping[str, Any]
 
@@ -20,7 +21,7 @@ def plain_of(content: bytes) -> object:
     try:
         return json.loads(
             content.decode("utf-8-sig"),
-            object_pairs_hook=_once,
+            object_pairs_hook=once,
             parse_float=Number,
             parse_int=Number,
             parse_constant=_refuse_constant,
@@ -34,18 +35,6 @@ def plain_of(content: bytes) -> object:
         ) from None
     except RecursionError:
         raise InputError("brackets are nested too deeply; the guide shows a whole file") from None
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """A JSON object in which no key is doubled: of two values one would be lost."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        name = next((value for key, value in pairs if key == "name"), None)
-        where = f"model {shown(name)}: " if name is not None else ""
-        doubled = next(key for key in keys if keys.count(key) > 1)
-        raise InputError(f"{where}{shown(doubled)} is given twice; leave one of them away")
-    return found
 
 
 def _refuse_constant(text: str) -> NoReturn:

@@ -5,7 +5,7 @@ for every way to place them, each a whole file of its own.
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from disting.errors import DistingError, InputError
+from disting.errors import DistingError, InputError, shown
 from disting.experiments import Experiment, Named
 from disting.files import __version__
 from disting.model.chain import Chain, Sensor
@@ -17,6 +17,7 @@ from disting.verdict.query import Query
 from disting.verdict.verdict_file import (
     DAMAGED,
     MOST_EXPERIMENTS,
+    VERSION,
     Stored,
     plain_experiment,
     read_experiment,
@@ -59,7 +60,7 @@ def everywhere_file(
 def read_everywhere(data: Mapping[str, Any]) -> tuple[Stored, ...]:
     """All verdicts of such a file; raises InputError for what is damaged."""
     try:
-        return tuple(read_file(one) for one in data["verdicts"])
+        return tuple(read_file(one, ("places",)) for one in data["verdicts"])
     except DAMAGED as reason:
         raise InputError(f"the file of the verdicts is damaged ({reason})") from None
 
@@ -88,12 +89,17 @@ def differing_everywhere(data: Mapping[str, Any], stored: Sequence[Stored]) -> s
     if [one["places"] for one in files] != places:
         return "places"
     again = _whole(asked, files)
+    if not VERSION.fullmatch(str(data.get("program"))):
+        return "program"
+    unknown = [name for name in data if name not in again]
+    if unknown:
+        return f"{shown(unknown[0])} is no key of it"
     kept = [name for name in again if name not in ("program", "verdicts")]
     return next((name for name in kept if not same_plain(data.get(name), again[name])), "")
 
 
 def _whole(asked: Sequence[Named], files: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    found = Everywhere(tuple(((), read_file(one).verdict) for one in files))
+    found = Everywhere(tuple(((), read_file(one, ("places",)).verdict) for one in files))
     return {
         "format": FORMAT,
         "program": __version__,

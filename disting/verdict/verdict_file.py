@@ -7,8 +7,9 @@ trust: of every field the type is looked at, and what asks for too much work is 
 """
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -24,7 +25,7 @@ from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
 from disting.model.names import name_of, names_another
 from disting.model.settings import Settings
-from disting.questions.inclusion import Inclusion
+from disting.questions.inclusion import Inclusion, Inclusions
 from disting.schemas import Format
 from disting.verdict.comparison import Sides, both_places, compare, models_named, sides_of
 from disting.verdict.engine import Engine
@@ -35,6 +36,7 @@ FORMAT = Format.VERDICT.value
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known
 MOST_POINTS, MOST_SUBSETS, MOST_MARKOV, LONGEST_SEED = 100, 10**9, 1000, 1000
 MOST_EXPERIMENTS = 50
+VERSION = re.compile(r"\d{1,4}(\.\d{1,4}){1,3}[a-z0-9.+]{0,12}")  # of the program that wrote it
 DAMAGED = (KeyError, TypeError, ValueError, AttributeError, LookupError, ArithmeticError)
 Places = Sequence[Experiment | tuple[Experiment, Experiment]]
 
@@ -87,8 +89,11 @@ def verdict_file(
 
 
 def as_file(stored: Stored) -> dict[str, Any]:
-    """The file of a verdict that is there: lists, texts, numbers, as they are read again."""
-    query, over_complex = stored.query, stored.over_complex
+    """The file of a verdict that is there: lists, texts, numbers, as they are read again.
+
+    Words that no check compares are left out: what was given up, and why something is not known.
+    """
+    query, beside = stored.query, stored.over_complex
     asked = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
     pairs = [
         {"left": plain_experiment(here), "right": plain_experiment(there)}
@@ -101,11 +106,20 @@ def as_file(stored: Stored) -> dict[str, Any]:
         **({"experiments": pairs} if pairs else {}),  # older files of chains as they are have none
         "query": asked,
         "settings": stored.settings.to_dict(),
-        **stored.verdict.to_dict(),
-        "over_complex": {} if over_complex is None else over_complex.to_dict(),
+        **_compared(stored.verdict).to_dict(),
+        "over_complex": {} if beside is None else _compared(beside).to_dict(),
     }
     plain: dict[str, Any] = json.loads(json.dumps(data))
     return plain
+
+
+def _compared(verdict: Verdict) -> Verdict:
+    """The verdict without words that nothing compares."""
+    both = verdict.inclusions
+    if both is not None:
+        both = Inclusions(replace(both.image, reason=""), replace(both.closure, reason=""))
+    notes = () if verdict.evidence is None else verdict.notes
+    return replace(verdict, notes=notes, inclusions=both)
 
 
 def has_more(verdict: Verdict) -> bool:
@@ -119,14 +133,20 @@ def exact(query: Query) -> Query:
     return Query(View.EXACT, query.conditions, query.markov, query.inclusion)
 
 
-def read_file(data: object) -> Stored:
-    """Inverse of `verdict_file`. Raises InputError for what is no such file, or is damaged."""
+def read_file(data: object, beside: Collection[str] = ()) -> Stored:
+    """Inverse of `verdict_file`. Raises InputError for what is no such file, or is damaged, and for
+    keys that it has not; `beside` = those that stand there for another reason.
+    """
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         known = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
         what = "holds a verdict without its models" if known else "is no file of a verdict"
         raise InputError(f"it {what}; 'disting compare N:I M:J --json' writes one")
     try:
-        return _stored(data)
+        stored = _stored(data)
+        unknown = [key for key in data if key not in (*as_file(stored), *beside)]
+        if unknown:
+            raise InputError(f"{shown(unknown[0])} is no key of it")
+        return stored
     except (*DAMAGED, DistingError, RecursionError) as reason:
         why = f"{shown(str(reason))} is missing" if isinstance(reason, KeyError) else reason
         raise InputError(
@@ -135,9 +155,9 @@ def read_file(data: object) -> Stored:
         ) from None
 
 
-def differing(data: dict[str, Any], stored: Stored, names: tuple[str, str]) -> str:
+def differing(data: dict[str, Any], stored: Stored, sides: Sides) -> str:
     """What a file tells otherwise than what it tells follows from, such as its sentence; "" if
-    nothing. `names` are those of the two sides.
+    nothing. `sides` are what its models are, beside each other.
     """
     again = as_file(stored)
     missing = object()
@@ -147,8 +167,10 @@ def differing(data: dict[str, Any], stored: Stored, names: tuple[str, str]) -> s
         if name != "program" and not same_plain(data.get(name, missing), again[name])
     ]
     told = [v for v in (stored.verdict, stored.over_complex) if v is not None]
-    if any((v.left, v.right) != names for v in told):
+    if any((v.left, v.right) != (sides.left.name, sides.right.name) for v in told):
         found.append("names")
+    if any(v.premises != (sides.left.premise, sides.right.premise) for v in told):
+        found.append("damping, quantity and experiments")
     return ", ".join(found)
 
 
@@ -196,6 +218,8 @@ def _stored(data: dict[str, Any]) -> Stored:
     experiments = tuple(
         (read_experiment(pair["left"]), read_experiment(pair["right"])) for pair in pairs
     )
+    if not VERSION.fullmatch(data["program"]):
+        raise InputError(f"{shown(data['program'])} is no version")
     beside = data["over_complex"]
     return Stored(
         models=(a, b),

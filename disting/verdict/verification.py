@@ -14,11 +14,12 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.errors import DistingError, InputError, NotSeenError
+from disting.errors import DistingError, InputError, NotSeenError, shown
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.files import read_json
+from disting.model.chain import Chain
 from disting.model.domain import Domain
 from disting.model.shown import summary
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
@@ -33,10 +34,19 @@ from disting.verdict.proof import prove
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.seen_again import Pair, pair_of
-from disting.verdict.verdict_file import DAMAGED, Stored, differing, exact, has_more, read_file
+from disting.verdict.verdict_file import (
+    DAMAGED,
+    Stored,
+    as_file,
+    differing,
+    exact,
+    has_more,
+    read_file,
+)
 
 SECONDS = 60.0  # for a proof that took ten
 WANTED = "a file of a verdict, as 'disting compare N:I M:J --json' writes it"
+LIMITS, SHARES = "which is a limit of the other", "positive equivalents"
 Told = tuple[Certainty | None, int, Evidence | None]
 
 
@@ -50,10 +60,19 @@ class Standing(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """What was found, and why it is not "holds"."""
+    """What was found, and why it is not "holds".
+
+    `verdicts`: the sentences of the verdicts, none where one does not hold; `models`: whose models
+    they are on; `found_again`: what was checked; `as_written`: what the file says and no check can
+    show.
+    """
 
     standing: Standing
     reason: str = ""
+    verdicts: tuple[str, ...] = ()
+    models: str = ""
+    found_again: tuple[str, ...] = ()
+    as_written: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return summary(self, self.sentence)
@@ -66,6 +85,18 @@ class Verification:
         """In one sentence, without a subject."""
         because = {Standing.HOLDS: "", Standing.FAILS: ": ", Standing.OPEN: " because "}
         return f"{self.standing.value}{because[self.standing]}{self.reason}"
+
+    @property
+    def text(self) -> str:
+        """All of it, a thing a line."""
+        lines = [self.sentence, *self.verdicts]
+        for name, said in (
+            ("models", self.models),
+            ("found again", "; ".join(self.found_again)),
+            ("as written", "; ".join(self.as_written)),
+        ):
+            lines += [f"{name:<12}{said}"] if said else []
+        return "\n".join(lines)
 
 
 def verify(given: dict[str, Any] | str | Path) -> Verification:
@@ -89,35 +120,67 @@ def verify(given: dict[str, Any] | str | Path) -> Verification:
     if other:
         return Verification(Standing.FAILS, _not_agreeing(other))
     found = [_verified(one, read) for one, read in zip(data["verdicts"], stored, strict=True)]
+    whole = Verification(
+        Standing.HOLDS,
+        verdicts=tuple(sentence for one in found for sentence in one.verdicts),
+        models=found[0].models,
+        found_again=tuple(dict.fromkeys(what for one in found for what in one.found_again)),
+        as_written=tuple(dict.fromkeys(what for one in found for what in one.as_written)),
+    )
     for standing in (Standing.FAILS, Standing.OPEN):
         where = next((i for i, one in enumerate(found) if one.standing is standing), None)
         if where is not None:
-            return replace(found[where], reason=f"{found[where].reason} (way {where + 1})")
-    return Verification(Standing.HOLDS)
+            base = whole if standing is Standing.OPEN else Verification(standing)
+            reason = f"{found[where].reason} (way {where + 1})"
+            return replace(base, standing=standing, reason=reason)
+    return whole
 
 
 def _verified(data: dict[str, Any], stored: Stored) -> Verification:
     """What all checks find; those that take too long leave it open, if nothing is wrong."""
-    unseen = list[str]()
+    unseen, seen = list[str](), list[str]()
+    written = [
+        f"the settings that choose the random points (seed {shown(stored.settings.seed)})",
+        f"the version that wrote it ({data['program']})",
+    ]
     try:
         sides = stored.sides(Engine(settings=stored.settings))
-        for check in _checks(data, stored, sides):
+        for what, check in _checks(data, stored, sides):
             try:
                 wrong = next(check(), "")
             except NotSeenError as reason:
                 unseen.append(str(reason))
+                written.append(what)
                 continue
             if wrong:
                 return Verification(Standing.FAILS, wrong)
+            seen.append(what)
     except InputError as reason:
         raise InputError(f"the file of the verdict is damaged ({reason})") from None
     except (*DAMAGED, DistingError, RecursionError, AssertionError) as reason:
         return Verification(Standing.FAILS, f"it is damaged ({type(reason).__name__}: {reason})")
     if stored.verdict.evidence is None:
         unseen.append("it is undecided: it says nothing that evidence could show")
-    if unseen:
-        return Verification(Standing.OPEN, unseen[0])
-    return Verification(Standing.HOLDS)
+    told = Verification(
+        Standing.OPEN if unseen else Standing.HOLDS,
+        unseen[0] if unseen else "",
+        (as_file(stored)["sentence"],),
+        _whose(stored, sides),
+        tuple(filter(None, dict.fromkeys(seen))),
+        tuple(filter(None, dict.fromkeys(written))),
+    )
+    return told
+
+
+def _whose(stored: Stored, sides: Sides) -> str:
+    """Whose models they are: a model of one's own may have a name that reads like a chain's."""
+    names = (sides.left.name, sides.right.name)
+    own = [n for n, m in zip(names, stored.models, strict=True) if not isinstance(m, Chain)]
+    if not own:
+        return f"{' and '.join(dict.fromkeys(names))}: numbered chains, the catalogue's numbers"
+    rest = [name for name in names if name not in own]
+    beside = f"; {rest[0]}: a numbered chain" if rest else ""
+    return f"{' and '.join(own)}: of your file, not of the catalogue{beside}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,23 +197,37 @@ class _Claim:
     where: str
 
 
+Check = Callable[[_Claim], Iterator[str]]
+
+
 def _checks(
     data: dict[str, Any], stored: Stored, sides: Sides
-) -> Iterator[Callable[[], Iterator[str]]]:
-    """Yield what yields what does not hold, cheap things first."""
-    yield partial(_disagreeing, data, stored, sides)
+) -> Iterator[tuple[str, Callable[[], Iterator[str]]]]:
+    """Yield what is looked at, "" where there is nothing of it, with what yields what does not
+    hold, cheap things first.
+    """
+    yield "models, sentence and all that is derived", partial(_disagreeing, data, stored, sides)
     beside, pair = stored.over_complex, pair_of(sides.left, sides.right)
     claims = [_Claim(stored.verdict, stored.query, sides, pair, beside, "")]
     if beside is not None:
         query, where = exact(stored.query), "over complex parameters "
         claims.append(_Claim(beside, query, sides, pair, None, where))
-    for check in (_unfounded, _untrue, _ungraded, _false_inclusions, _false_shares):
-        yield from (partial(check, claim) for claim in claims)
-    yield partial(_false_equality, stored)
+    for what, check in CHECKS.items():
+        yield from (_named(what, claim, check) for claim in claims)
+    yield "", partial(_false_equality, stored)
+
+
+def _named(what: str, claim: _Claim, check: Check) -> tuple[str, Callable[[], Iterator[str]]]:
+    """The check of a claim, and what it is called if there is anything to check."""
+    v = claim.verdict
+    shares = v.right_positive if v.left_positive is None else v.left_positive
+    there = {LIMITS: v.inclusions, SHARES: shares}.get(what, v.evidence) is not None
+    where = f", {claim.where.strip()}" * bool(claim.where)
+    return f"{what}{where}" * there, partial(check, claim)
 
 
 def _disagreeing(data: dict[str, Any], stored: Stored, sides: Sides) -> Iterator[str]:
-    other = differing(data, stored, (sides.left.name, sides.right.name))
+    other = differing(data, stored, sides)
     if other:
         yield _not_agreeing(other)
     if stored.verdict.domain is not stored.query.view.domain:
@@ -294,3 +371,13 @@ def _false_equality(stored: Stored) -> Iterator[str]:
         yield "equality over complex parameters is denied"
     if v.relation is not Relation.UNDECIDED and beside.relation is Relation.DISTINGUISHABLE:
         yield "models that differ over complex parameters differ over others too"
+
+
+CHECKS: dict[str, Check] = {
+    "that the relation follows from the evidence": _unfounded,
+    "the evidence": _untrue,
+    "certainty and points": _ungraded,
+    LIMITS: _false_inclusions,
+    SHARES: _false_shares,
+}
+"""What is looked at of a claim, and how."""

@@ -11,7 +11,7 @@ from disting.verdict.verification import Standing
 
 ENGINE = Engine()
 # what other settings and questions would have given the same verdict: nothing follows from them
-FREE = {"program", "settings", "query", "reason"}
+FREE = {"program", "settings", "query"}
 OTHER = {
     "relation": [r.value for r in Relation],
     "share": ["always", "sometimes", "never"],

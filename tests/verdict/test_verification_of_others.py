@@ -279,9 +279,9 @@ def test_the_command_checks_experiments_and_models_of_files(tmp_path: Path) -> N
     for asked in (["3:1", "3:4", "--also", "sensor=3"], names):
         assert called("compare", *asked, "--json", path).returncode == 0
         done = called("verify", path)
-        assert (done.returncode, done.stdout) == (0, f"{path}: holds\n")
+        assert (done.returncode, done.stdout.splitlines()[0]) == (0, f"{path}: holds")
         done = called("verify", *asked)
-        assert done.returncode == 0 and done.stdout.endswith(": holds\n")
+        assert done.returncode == 0 and done.stdout.splitlines()[0].endswith(": holds")
     models.unlink()
-    assert called("verify", path).stdout == f"{path}: holds\n"
+    assert called("verify", path).stdout.startswith(f"{path}: holds\n")
     assert called("verify", path, "--also", "sensor=3").returncode == 2

@@ -1,0 +1,98 @@
+"""What `verify` says of a file that holds, and that the file says nothing which is not compared."""
+
+import json
+
+import pytest
+
+from disting import InputError, Model, Query, View, verify
+from disting.verdict.verification import Standing
+from tests.cli.process import called
+from tests.verdict.lies import found_out, plain, put
+
+
+def test_it_says_which_verdict_holds_and_what_was_looked_at():
+    data = plain("3:6", "3:7")
+    found = verify(data)
+    assert found.verdicts == (data["sentence"],)
+    assert found.models == "3:6 and 3:7: numbered chains, the catalogue's numbers"
+    assert found.found_again[-2:] == ("which is a limit of the other", "positive equivalents")
+    assert "seed 'disting'" in found.as_written[0] and "0." in found.as_written[1]
+    for part in (found.sentence, *found.verdicts, found.models, *found.found_again):
+        assert part in found.text
+
+
+def test_what_does_not_hold_is_not_said_again():
+    found = verify(plain("3:1", "3:4") | {"relation": "indistinguishable"})
+    assert found.standing is Standing.FAILS and found.text == found.sentence
+    assert found.verdicts == () == found.found_again
+
+
+def test_models_of_ones_own_that_are_called_like_chains_are_told_to_be_ones_own():
+    models = (
+        Model.from_transfer_function("a", "s + b", name="3:9"),
+        Model.from_transfer_function("c", "s**2 + d", name="3:10"),
+    )
+    found = verify(plain(*models))
+    assert found.standing is Standing.HOLDS
+    assert found.models == "3:9 and 3:10: of your file, not of the catalogue"
+    beside = verify(plain("2:1", models[0]))
+    assert beside.models == "3:9: of your file, not of the catalogue; 2:1: a numbered chain"
+
+
+def test_the_command_says_it(tmp_path):
+    path = tmp_path / "v.json"
+    assert called("compare", "3:1", "3:11", "--json", path).returncode == 0
+    first, sentence, models, *_ = called("verify", path).stdout.splitlines()
+    assert first == f"{path}: holds" and models.endswith("the catalogue's numbers")
+    assert sentence == json.loads(path.read_text(encoding="utf-8"))["sentence"]
+
+
+@pytest.mark.parametrize("name", ["relation", "models", "format"])
+def test_a_key_that_is_there_twice_is_refused(name, tmp_path):
+    """Of two values a reader sees the first, and the check the second."""
+    data = plain("3:1", "3:4")
+    lie = json.dumps({name: "indistinguishable"})[:-1]
+    path = tmp_path / "doubled.json"
+    path.write_text(f"{lie},{json.dumps(data)[1:]}", encoding="utf-8")
+    with pytest.raises(InputError, match=f"'{name}' is given twice"):
+        verify(path)
+
+
+@pytest.mark.parametrize(
+    "place",
+    [("comment",), ("models", 0, "comment"), ("query", "comment"), ("evidence", "comment")],
+    ids=str,
+)
+def test_what_nothing_compares_is_refused(place):
+    data = put(plain("3:1", "3:4"), place, "proven by the authors of the paper")
+    assert found_out(data)
+
+
+def test_words_that_nothing_compares_are_not_in_a_file():
+    """Reasons of what is not known, and what was given up; whoever adds some is found out."""
+    limit = plain("3:6", "3:7")
+    assert limit["inclusions"]["image"]["reason"] == ""
+    assert found_out(put(limit, ("inclusions", "image", "reason"), "it was proven elsewhere"))
+    query = Query(View.COMBINED, conditions=("1", "2"))
+    undecided = plain("3:1", "3:11", query=query)
+    assert undecided["relation"] == "undecided" and undecided["notes"] == []
+    assert found_out(undecided | {"notes": ["which shows that both are the same"]})
+    assert found_out(limit | {"program": "0.2.0, read by three referees"})
+
+
+@pytest.mark.parametrize(
+    ("name", "lie"),
+    [("damped", False), ("quantity", "position"), ("experiments", ["sensor 3"])],
+)
+def test_damping_quantity_and_experiments_are_compared(name, lie):
+    assert found_out(put(plain("3:1", "3:4"), ("left_premise", name), lie))
+
+
+def test_every_way_to_place_experiments_is_said(tmp_path):
+    path = tmp_path / "ways.json"
+    assert called("compare", "2:1", "2:2", "--also", "sensor=2", "--json", path).returncode == 0
+    found = verify(path)
+    assert found.standing is Standing.HOLDS and len(found.verdicts) == 2
+    data = json.loads(path.read_text(encoding="utf-8"))
+    assert verify(data | {"comment": "x"}).standing is Standing.FAILS
+    assert verify(data | {"program": "three referees"}).standing is Standing.FAILS
