@@ -6,6 +6,10 @@ What is echoed of an input is short and can be printed, whoever made the input: 
 
 from collections.abc import Iterable
 from itertools import islice
+from types import UnionType
+from typing import TypeVar
+
+T = TypeVar("T")
 
 LONGEST_ECHO = 60  # characters of one thing that is echoed
 MOST_LISTED = 30  # of many
@@ -55,6 +59,18 @@ def shown(value: object) -> str:
     if isinstance(value, int) and value.bit_length() > 200:
         return f"a number of {value.bit_length()} bits"
     return _cut(printable(repr(value)), False)
+
+
+def of_type(value: T, kind: type | UnionType | tuple[type, ...], wanted: str) -> T:
+    """The value; raises InputError, which says what is wanted, where it is of another type.
+
+    >>> of_type(3, str, "a name is a text")
+    Traceback (most recent call last):
+    disting.errors.InputError: a name is a text, not 3
+    """
+    if not isinstance(value, kind):
+        raise InputError(f"{wanted}, not {shown(value)}")
+    return value
 
 
 def listed(names: Iterable[str], separator: str = ", ") -> str:

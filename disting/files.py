@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from disting.errors import CatalogError, InputError, printable, shown
+from disting.errors import CatalogError, InputError, of_type, printable, shown
 
 PROVENANCE = "provenance.json"
 STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
@@ -84,6 +84,11 @@ def read_bounded(path: Path, wanted: str, most: int = LARGEST) -> bytes:
     if max(size, len(content)) > most:
         raise InputError(f"{name} is larger than {most // 10**6} MB, too large; name {wanted}")
     return content
+
+
+def as_path(given: object) -> Path:
+    """A path that a user names; raises InputError for what is none."""
+    return Path(of_type(given, str | os.PathLike, "a file is named by its path"))  # type: ignore[arg-type]
 
 
 def read_json(path: Path, wanted: str) -> Any:

@@ -21,7 +21,7 @@ from disting.catalogs.files import (
 )
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.table import RULES
-from disting.errors import CatalogError, InputError
+from disting.errors import CatalogError, InputError, of_type
 from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.shown import Shown, plural, summary
@@ -312,6 +312,7 @@ def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -
     >>> len(catalog(3, damped=False).family), catalog(3, damped=False).verdict(1, 2).relation.value
     (11, 'distinguishable')
     """
+    of_type(n_masses, int, "a catalogue is of so many masses")
     if folder is None and n_masses not in SHIPPED_SIZES:
         raise CatalogError(
             f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting"

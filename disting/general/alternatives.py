@@ -14,6 +14,7 @@ from fractions import Fraction
 from disting.algebra.groebner.own_process import End, run_limited
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.finding import Outcome
+from disting.errors import of_type
 from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, Fibre, solved
 from disting.general.model import Model
@@ -126,6 +127,9 @@ def alternatives(
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
     ['a = 1/2, b = 1', 'a = 1, b = 1/2']
     """
+    for one in (model, other):
+        of_type(one, Model, "alternatives are those of a Model in a Model")
+    of_type(values, Mapping, "values are a mapping of names to numbers")
     exact = rational_values(model, values)
     equations = fibre_equations(target(model, exact), other)
     try:

@@ -9,6 +9,7 @@ j has a smaller rank. With full column rank all are.
 from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, graded
+from disting.errors import of_type
 from disting.general.any_model import samples_of
 from disting.general.matrix_model import AnyModel
 from disting.model.settings import Settings
@@ -51,6 +52,7 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     >>> local_identifiability(m).identifiable, local_identifiability(m).rank
     ((), 2)
     """
+    of_type(model, AnyModel, "of transfer functions it is asked of a Model or a MatrixModel")
     seen, size = samples_of(model, settings)
     found = local(model.parameters, seen, size)
     return LocalIdentifiability(

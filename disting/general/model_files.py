@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from disting.errors import InputError, listed, printable, shown
-from disting.files import read_bounded, write_whole
+from disting.files import as_path, read_bounded, write_whole
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.spelled import polynomial_text
@@ -99,7 +99,7 @@ def read_models(path: Path | str) -> ModelList:
     'G(s) = k/(1 + T*s)'
     """
     wanted = f"a file of models of at most {LARGEST // 10**6} MB"
-    content = read_bounded(Path(path), wanted, LARGEST)
+    content = read_bounded(as_path(path), wanted, LARGEST)
     try:
         return models_of(plain_of(content))
     except InputError as reason:
@@ -110,7 +110,7 @@ def write_models(path: Path | str, found: ModelList) -> Path:
     """Write chains by their names and other models as transfer functions in lowest terms, which
     `read_models` reads back as they were; returns the path.
     """
-    return write_whole(Path(path), [models_text(found)])
+    return write_whole(as_path(path), [models_text(found)])
 
 
 def models_text(found: ModelList) -> str:

@@ -1,9 +1,9 @@
 """`compare` and `findings`: any two chains, named as the paper names them, or general models."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from disting.errors import InputError
+from disting.errors import InputError, of_type, shown
 from disting.experiments import Experiment, MeasuredChain
 from disting.general import AnyModel, MatrixModel, Model, as_chain
 from disting.model.chain import Chain, Sensor
@@ -14,6 +14,8 @@ from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
 
+NAMED = "experiments are a list of Experiment, or of pairs of them, left and right"
+SIDES = 2
 NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
@@ -55,10 +57,10 @@ def compare(
     >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
     'distinguishable'
     """
-    engine = engine or Engine()
+    query, engine = asked_of(query, engine)
     a, b = models_named(left, right, damped, sensor)
     sides = sides_of(a, b, both_places(experiments), engine)
-    found = engine.verdict(sides.left, sides.right, query or Query(), audited=audit)
+    found = engine.verdict(sides.left, sides.right, query, audited=audit)
     return replace(found, notes=(*found.notes, *sides.notes))
 
 
@@ -79,7 +81,14 @@ def findings(
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
     a, b = models_named(left, right, damped, sensor)
-    return tuple(steps(*_sides(a, b, engine or Engine()), query or Query()))
+    query, engine = asked_of(query, engine)
+    return tuple(steps(*_sides(a, b, engine), query))
+
+
+def asked_of(query: Query | None, engine: Engine | None) -> tuple[Query, Engine]:
+    """Both, the usual ones where nothing is said; raises InputError for anything else."""
+    query = Query() if query is None else of_type(query, Query, "query is a Query")
+    return query, Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
 
 
 def models_named(
@@ -89,6 +98,8 @@ def models_named(
     sensor: Sensor | str | None,
 ) -> tuple[Chain | AnyModel, Chain | AnyModel]:
     """Both models, names as the chains that they mean; raises InputError."""
+    for one in (left, right):
+        of_type(one, Chain | str | AnyModel, "a model is a chain, a name such as '3:4' or a Model")
     given = [m for m in (left, right) if isinstance(m, Chain | str)]
     chains = iter(chains_named(given, damped=damped, sensor=sensor))
     a, b = (next(chains) if isinstance(m, Chain | str) else m for m in (left, right))
@@ -136,7 +147,11 @@ def both_places(
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
 ) -> tuple[tuple[Experiment, Experiment], ...]:
     """Each once, for the left and for the right model."""
-    return tuple(dict.fromkeys(e if isinstance(e, tuple) else (e, e) for e in experiments))
+    asked = [e if isinstance(e, tuple) else (e, e) for e in of_type(experiments, Iterable, NAMED)]
+    for pair in asked:
+        if len(pair) != SIDES or not all(isinstance(e, Experiment) for e in pair):
+            raise InputError(f"{NAMED}, not {shown(pair)}")
+    return tuple(dict.fromkeys(asked))
 
 
 def _sides(

@@ -2,11 +2,11 @@
 which of the other: every way to place them is asked.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.errors import InputError
+from disting.errors import InputError, of_type
 from disting.experiments import Experiment, Named, Places, moved, named, ways
 from disting.general import MatrixModel, Model
 from disting.model.chain import Chain, Sensor
@@ -91,6 +91,7 @@ def compare_everywhere(
 
 def named_all(also: Sequence[str | Experiment]) -> tuple[Named, ...]:
     """Experiments that are given as text or as such; raises InputError."""
+    of_type(also, Iterable, "experiments are a list of texts or of Experiment")
     return tuple(named(e) if isinstance(e, str) else Named(e) for e in also)
 
 

@@ -27,7 +27,7 @@ from disting.model.names import name_of, names_another
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.schemas import Format
-from disting.verdict.comparison import Sides, both_places, compare, models_named, sides_of
+from disting.verdict.comparison import Sides, asked_of, both_places, compare, models_named, sides_of
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
@@ -78,7 +78,7 @@ def verdict_file(
     ('3:1', '3:4', 'distinguishable', 'disting')
     """
     models = models_named(left, right, damped, sensor)
-    engine, query, both = engine or Engine(), query or Query(), both_places(experiments)
+    (query, engine), both = asked_of(query, engine), both_places(experiments)
     verdict = compare(*models, experiments=both, query=query, engine=engine)
     beside = (
         compare(*models, experiments=both, query=exact(query), engine=engine)

@@ -18,7 +18,7 @@ from disting.errors import DistingError, InputError, NotSeenError, shown
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
-from disting.files import read_json
+from disting.files import as_path, read_json
 from disting.model.chain import Chain
 from disting.model.domain import Domain
 from disting.model.shown import summary
@@ -112,7 +112,7 @@ def verify(given: dict[str, Any] | str | Path) -> Verification:
     >>> verify(data | {"relation": "indistinguishable"}).standing.value
     'does not hold'
     """
-    data = given if isinstance(given, dict) else read_json(Path(given), WANTED)
+    data = given if isinstance(given, dict) else read_json(as_path(given), WANTED)
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
         return _verified(data, read_file(data))
     stored = read_everywhere(data)
