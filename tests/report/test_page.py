@@ -99,17 +99,22 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
     for left, right, verdict in shipped.pairs(View.MARKOV):
         place = (right - 1) * (right - 2) // 2 + left - 1
         entry = data["entries"][_unpacked(data["views"]["markov"])[place]]  # type: ignore[index]
-        relation, by, where, _, domain, said, why, formula, rule = (data["texts"][n] for n in entry)  # type: ignore[index]
+        relation, by, where, sure, domain, said, why, formula, rule, _, aside = (
+            data["texts"][n] for n in entry
+        )  # type: ignore[index]
         assert (domain, rule) == ("complex", verdict.rule)
         assert (relation, by, where) == (
             verdict.relation,
             verdict.decided_by,
             verdict.representation,
         )
-        named = said.replace("{L}", f"A{left}").replace("{R}", f"A{right}")
+        named = said.replace("{L}", verdict.left).replace("{R}", verdict.right)
         assert named == shown(verdict)
+        assert bool(aside) == verdict.has_exceptions and bool(sure) == bool(verdict.sure)
         if verdict.evidence:
-            assert why.replace("{L}", f"A{left}").replace("{R}", f"A{right}") in verdict.sentence
+            assert (
+                why.replace("{L}", verdict.left).replace("{R}", verdict.right) in verdict.sentence
+            )
             assert formula == verdict.evidence.formula
 
 

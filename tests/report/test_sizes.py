@@ -150,7 +150,8 @@ def test_a_pair_is_explained_and_can_be_taken_away(visit, found: SizesCatalog) -
     assert called(*shlex.split(shell)[1:]).stdout.startswith("DISTINGUISHABLE")
     python = tab.inner_text('#detail [data-slot="python"]')
     assert eval(python, {"disting": disting}).closure is Inclusion.LEFT_IN_RIGHT
-    assert tab.inner_text('#detail [data-slot="cited"]').endswith(f"{PAGE}#2:1-3:4")
+    cited = tab.inner_text('#detail [data-slot="cited"]')
+    assert f"{verdict.sentence} " in cited and cited.endswith(f"{PAGE}#2:1-3:4")
     follow_link(tab, '#detail [data-slot="right-name"]')
     assert tab.inner_text("h1").startswith("Model A4")
 
