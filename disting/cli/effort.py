@@ -43,7 +43,7 @@ class Work(Enum):
     """What takes long, each with its rate."""
 
     PAIRS = Rate(
-        "pairs", 4, (0.0023, 0.0036), "fewer masses, or two models alone (disting compare)"
+        "pairs", 4, (0.0023, 0.0036, 0.0069), "fewer masses, or two models alone (disting compare)"
     )
     UNDAMPED_PAIRS = Rate("pairs", 4, (0.0027, 0.003), PAIRS.smaller)
     IDENTIFIABILITY = Rate("models", 6, (0.085, 0.09), "leave --identifiability away")

@@ -42,6 +42,7 @@ def _fill_closed_streams() -> None:
 
 
 def _run(arguments: Sequence[str] | None) -> int:
+    options = Namespace()
     try:
         if COMPLETION in os.environ:
             return _complete()
@@ -67,10 +68,18 @@ def _run(arguments: Sequence[str] | None) -> int:
         )
         return 2
     except KeyboardInterrupt:
-        complain("interrupted; what was finished is kept in the cache")
+        complain(f"interrupted{_kept(options)}")
         return 130
     finally:
         _drop_what_cannot_be_written()
+
+
+def _kept(options: Namespace) -> str:
+    """What there is to say of the cache, which is done without where somebody asks for that."""
+    from disting.store.database_file import MEMORY, NOWHERE, located
+
+    without = getattr(options, "no_cache", False) or located(None) in (NOWHERE, MEMORY)
+    return "" if without else "; what was finished is kept in the cache"
 
 
 def _parsed(arguments: Sequence[str] | None) -> Namespace:

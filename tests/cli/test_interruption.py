@@ -131,7 +131,9 @@ def interrupted(cache, stored, *arguments):
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
     _, error = process.communicate(timeout=600)
-    return process.returncode, error.strip()
+    announced, last = error.strip().splitlines()
+    assert announced.startswith("disting: 49141 pairs, which may take about ")
+    return process.returncode, last
 
 
 def test_interrupt_leaves_no_traceback(tmp_path):
@@ -190,9 +192,13 @@ def test_an_interrupt_while_modules_are_imported_ends_the_process_in_silence(mod
     assert pressed(BEGUN, module, "compare", "3:1", "3:4") == (-signal.SIGINT, "")
 
 
-def test_an_interrupt_while_work_imports_is_told_as_any_other():
+def test_an_interrupt_while_work_imports_is_told_as_any_other(tmp_path, monkeypatch):
+    """A cache is spoken of where there is one."""
     sympy = "sympy.polys.polytools"  # is imported by what writes formulas, and by nothing else
-    assert pressed(BEGUN, sympy, *FORMULAS) == (130, INTERRUPTED)
+    told = {"off": "disting: interrupted", str(tmp_path / "c.sqlite3"): INTERRUPTED}
+    for cache, said in told.items():
+        monkeypatch.setenv("DISTING_CACHE", cache)
+        assert pressed(BEGUN, sympy, *FORMULAS) == (130, said)
 
 
 def test_an_interrupt_while_the_process_ends_is_silent():
@@ -232,7 +238,10 @@ def test_an_interrupt_at_any_moment_leaves_no_traceback(milliseconds):
     time.sleep(milliseconds / 1000)
     process.send_signal(signal.SIGINT)
     _, error = process.communicate(timeout=60)
-    assert process.returncode in (130, -signal.SIGINT) and error.strip() in ("", INTERRUPTED)
+    assert process.returncode in (130, -signal.SIGINT) and error.strip() in (
+        "",
+        "disting: interrupted",
+    )
 
 
 def test_interrupt_ends_the_workers_without_a_word(tmp_path):
