@@ -100,5 +100,5 @@ def test_every_kind_of_evidence_of_the_exact_decision_has_words_for_the_rule():
     dual = compare(Family(3, damped=True)[1], Family(3, damped=True)[11], query=Query(View.EXACT))
     assert (
         dual.rule == "exact decision, a theorem"
-        and f"over complex parameters ({dual.rule})" in dual.sentence
+        and f"over complex parameters, special values aside ({dual.rule})" in dual.sentence
     )
