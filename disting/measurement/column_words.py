@@ -12,7 +12,6 @@ from disting.measurement.units import (
     FREQUENCIES,
     LEVELS,
     PHASES,
-    TIMES,
     drive,
     gain,
     known_unit,
@@ -104,6 +103,8 @@ def meaning(header: str) -> Column:
         inside = INSIDE.findall(header.replace("_per_", "/"))
         hertz = [text for text in inside if text.lower().endswith("hz")]
         known = [text for text in inside if _known(role, text) is not None]
+        if role in (Role.REAL, Role.IMAGINARY, Role.GAIN):
+            known = [text for text in known if known_unit(text, LEVELS)]  # rad is none of a gain
         stated = (known or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
     if role is Role.FREQUENCY and stated is None and CIRCULAR & set(_words(name)):
         return Column(role, "rad/s")
@@ -154,8 +155,7 @@ def _opening(text: str) -> int:
 
 def _is_unit(text: str) -> bool:
     """Whether a text is a unit that needs no brackets to be known as one."""
-    units = (*PHASES, *TIMES, *LEVELS[1:])
-    known = omega_per(text) is not None or known_unit(text, units) is not None
+    known = omega_per(text) is not None or known_unit(text, (*PHASES, *LEVELS[1:])) is not None
     found = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
     return (known or found is not None) and text != "*"
 

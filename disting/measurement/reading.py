@@ -22,8 +22,8 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     """Frequency response from a file; `suspicions` and `notes` of the result say what should be
     looked at.
 
-    - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit`
-      (`tabular.frequency_response`);
+    - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit`,
+      `frequency_unit`, `magnitude_unit` (`tabular.frequency_response`);
     - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`,
       `sensor`, `sign` (`variables.from_variables`); `response` may name an object frd or idfrd
       (`stored.from_stored`), in a struct as `frf.Pv`, with the number of output and input as

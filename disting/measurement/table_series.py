@@ -83,7 +83,9 @@ def _seconds(table: Table, at: int) -> float:
     """What a time of 1 in the unit of a column is in seconds; raises InputError for a stated unit
     that is not known.
     """
-    unit = parted(table.headers[at])[1] or "s"
+    header = table.headers[at]
+    last = header.split()[-1] if header.split() else ""
+    unit = parted(header)[1] or (last if known_unit(last, TIMES) else "s")
     name = known_unit(unit, TIMES)
     if name is None:
         raise InputError(

@@ -240,6 +240,22 @@ def test_times_of_a_record_have_units(tmp_path, unit, size):
     assert read_time_series(path, "u", "y").sampling_rate == pytest.approx(100.0)
 
 
+@pytest.mark.parametrize("header", ["time ms", "t, ms", "t/ms", "t (ms)", "Zeit in ms"])
+def test_a_unit_of_time_is_known_however_it_is_stated(tmp_path, header):
+    samples = np.arange(40.0)
+    columns = (samples, np.sin(samples), np.cos(samples))
+    path = written(tmp_path / "a.csv", f"{header};u;y", *columns, delimiter=";")
+    assert read_time_series(path, "u", "y").sampling_rate == pytest.approx(1000.0)
+
+
+@pytest.mark.parametrize(
+    "header", ["Re s,Im s", "Re h,Im h", "Re_rad_s2_A,Im_rad_s2_A", "Re A,Im A"]
+)
+def test_a_letter_behind_a_name_is_no_unit(tmp_path, header):
+    found = read(written(tmp_path / "a.csv", f"f [Hz],{header}", F, G.real, G.imag))
+    assert np.array_equal(found.G, G.real + 1j * G.imag) and found.output.unit == ""
+
+
 def test_a_unit_of_time_that_is_not_known_is_refused(tmp_path):
     samples = np.arange(40.0)
     path = written(tmp_path / "a.csv", "t [ticks],u,y", samples, np.sin(samples), np.cos(samples))
