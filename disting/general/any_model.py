@@ -36,8 +36,6 @@ def as_chain(model: Chain | AnyModel) -> Chain | None:
 
 def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
     """The transfer functions alone, whatever they are called and however they were made."""
-    if isinstance(model, Model):
-        return replace(model, name=name, chain=None)
     return replace(model, name=name)
 
 

@@ -19,6 +19,7 @@ from disting.general.model import (
     fraction,
     frequency,
     parameters_of,
+    refuse_name,
     transfer_functions,
 )
 from disting.model.shown import Shown, plural, summary
@@ -49,6 +50,7 @@ class MatrixModel(Shown):
         return summary(self, f"{self.name}, {size}, {', '.join(self.parameters)}")
 
     def __post_init__(self) -> None:
+        refuse_name(self.name)
         if not self.parameters:
             raise InputError("a parametric model has at least one parameter")
         if self.shape[0] * self.shape[1] > MOST_ENTRIES:

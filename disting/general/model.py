@@ -10,7 +10,7 @@ and its coefficients say exactly which of them vanish or are constant.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
@@ -43,7 +43,9 @@ class Model(Shown):
     `parameters` by name; `numerator_terms` and `denominator_terms` hold the coefficients of s^0,
     s^1, .. Immutable and hashable; two models are equal if their parameters and coefficients are,
     whatever they are called. `chain`: the chain that it is, in the chain's own parameters, where it
-    was made of one; such models are compared as chains.
+    was made of one by `from_chain`; such models are compared as chains. What is made of one by
+    `dataclasses.replace` is a transfer function alone: it may be another one. Raises InputError for
+    a name that is not printable, which could say more than a name.
 
     >>> str(Model.from_transfer_function(["k"], ["m", "d", "k"]))
     'G(s) = k/(k + d*s + m*s**2)'
@@ -53,7 +55,10 @@ class Model(Shown):
     numerator_terms: tuple[Terms, ...]
     denominator_terms: tuple[Terms, ...]
     name: str = field(default="model", compare=False)
-    chain: Chain | None = field(default=None, compare=False)
+    chain: Chain | None = field(default=None, init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        refuse_name(self.name)
 
     def __repr__(self) -> str:
         return summary(
@@ -121,7 +126,8 @@ class Model(Shown):
         ring = symbols(["s", *parameters])
         num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
         made = _model(RationalFunction(num, den), parameters, name or name_of(chain))
-        return replace(made, chain=chain)
+        object.__setattr__(made, "chain", chain)
+        return made
 
     @property
     def numerator(self) -> tuple[fmpz_mpoly, ...]:
@@ -237,6 +243,12 @@ def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...
     if foreign:
         raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
     return found
+
+
+def refuse_name(name: object) -> None:
+    """Raises InputError for what no sentence can hold in one line."""
+    if not isinstance(name, str) or not name.isprintable():
+        raise InputError(f"the name of a model has printable characters only, not {shown(name)}")
 
 
 def frequency(s: object) -> str:

@@ -358,16 +358,18 @@ def _false_shares(claim: _Claim) -> Iterator[str]:
 
 def _false_equality(stored: Stored) -> Iterator[str]:
     """Yield what is told of complex parameters and not found there."""
-    beside, v = stored.over_complex, stored.verdict
+    v, beside = stored.verdict, stored.over_complex
+    there = v if beside is None else beside
+    same = there.relation is Relation.INDISTINGUISHABLE and there.domain is Domain.COMPLEX
+    if v.closure is Inclusion.EQUAL and not same:
+        yield "equality over complex parameters is told without evidence"
     if beside is None:
-        same = v.relation is Relation.INDISTINGUISHABLE
-        if v.closure is Inclusion.EQUAL and not (same and v.domain is Domain.COMPLEX):
-            yield "equality over complex parameters is told without evidence"
         return
+    if beside.domain is not Domain.COMPLEX:
+        yield "the verdict over complex parameters is over others"
     if (v.image, v.closure) != (beside.image, beside.closure):
         yield "what is told of complex parameters is not what the verdict over them says"
-    wants = {Relation.INDISTINGUISHABLE: Inclusion.EQUAL}.get(beside.relation)
-    if wants and beside.closure not in (wants, Inclusion.UNKNOWN):
+    if same and beside.closure not in (Inclusion.EQUAL, Inclusion.UNKNOWN):
         yield "equality over complex parameters is denied"
     if v.relation is not Relation.UNDECIDED and beside.relation is Relation.DISTINGUISHABLE:
         yield "models that differ over complex parameters differ over others too"

@@ -3,6 +3,8 @@ refusals.
 """
 
 import pickle
+from copy import copy
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -11,7 +13,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting import Chain, Family, InputError
+from disting import Chain, Family, InputError, Relation, compare
 from disting.general import Model
 
 k12, k21, k01, k02 = sp.symbols("k12 k21 k01 k02")
@@ -200,6 +202,16 @@ def test_chains_become_models(chain):
     model = Model.from_chain(chain)
     assert model.parameters == tuple(sorted(chain.parameters))
     assert model.n_states <= chain.structure.n_states
+
+
+def test_what_was_made_of_a_chains_model_is_not_taken_for_the_chain():
+    """Here it has the transfer function of another chain."""
+    one, other = (Model.from_chain(chain) for chain in (Chain(2), Chain(2, meas_plus=2)))
+    fields = ("parameters", "numerator_terms", "denominator_terms")
+    made = replace(one, **{name: getattr(other, name) for name in fields})
+    assert made == other and made.chain is None and one.chain == Chain(2)
+    assert compare(made, Chain(2, meas_plus=2)).relation is Relation.INDISTINGUISHABLE
+    assert pickle.loads(pickle.dumps(one)).chain == copy(one).chain == Chain(2)
 
 
 A, B, C = [["-k"]], [1], [1]

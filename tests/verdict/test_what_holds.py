@@ -5,9 +5,10 @@ import json
 import pytest
 
 from disting import InputError, Model, Query, View, verify
+from disting.verdict.result import Verdict
 from disting.verdict.verification import Standing
 from tests.cli.process import called
-from tests.verdict.lies import found_out, plain, put
+from tests.verdict.lies import found_out, plain, put, told_again
 
 
 def test_it_says_which_verdict_holds_and_what_was_looked_at():
@@ -96,3 +97,33 @@ def test_every_way_to_place_experiments_is_said(tmp_path):
     data = json.loads(path.read_text(encoding="utf-8"))
     assert verify(data | {"comment": "x"}).standing is Standing.FAILS
     assert verify(data | {"program": "three referees"}).standing is Standing.FAILS
+
+
+def test_models_that_differ_are_not_equal_over_complex_parameters_by_an_undecided_verdict():
+    equal = {"image": "equal", "closure": "equal"}
+    nothing = {"decided_by": "", "representation": "", "certainty": "", "evidence": {}, "safety": 0}
+    undecided = told_again(
+        plain("3:1", "3:4", View.EXACT), relation="undecided", **nothing, **equal
+    )
+    lie = plain("3:1", "3:4", View.REAL) | equal
+    lie["over_complex"] = json.loads(json.dumps(Verdict.from_dict(undecided).to_dict()))
+    found = verify(lie)
+    assert found.standing is Standing.FAILS
+    assert "equality over complex parameters is told without evidence" in found.reason
+
+
+@pytest.mark.parametrize(
+    "name", ["lag\nmodels      3:1 and 3:9: numbered chains", "a\x1b[2J", "\u202e"]
+)
+def test_a_name_says_no_more_than_a_name(name):
+    """What is printed of a verdict that holds is a thing a line."""
+    models = [
+        Model.from_transfer_function("a", "s + b"),
+        Model.from_transfer_function("c", "s + d"),
+    ]
+    data = plain(*models)
+    data["models"][1]["name"] = name
+    with pytest.raises(InputError, match="printable characters"):
+        verify(data)
+    with pytest.raises(InputError, match="printable characters"):
+        Model.from_transfer_function("a", "s + b", name=name)
