@@ -5,7 +5,7 @@ the same positive models.
 import argparse
 import json
 import shlex
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 from disting.cli.effort import Work, announced
@@ -20,7 +20,6 @@ from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import control_script, write_mat
 from disting.fit.loop import controller_named
-from disting.fit.plant import Real
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.fit.selection_json import selection_to_dict
@@ -29,7 +28,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
 
-WEIGHTS = {"none": None, "std": lines_by_deviation, "coherence": lines_by_coherence}
+WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
 FEW = 30  # candidates that are fitted sooner than workers start
 
@@ -52,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
             thresholds=Thresholds(*options.thresholds),
             rule=Rule(options.rule),
             case=Case(options.case),
-            lines=_weights(options),
+            lines=WEIGHTS.get(options.weights),
             sign=SIGNS[options.sign.split(",")[0]],
             bounds=dict(options.bound),
             fixed=dict(options.fix),
@@ -82,15 +81,6 @@ def _onward(found: Selection, out: Path) -> Iterator[str]:
     yield f"\nwritten to {out}; open {out / 'fit.html'}"
     if len(found.members) > 1 or any(m.twins for m in found.members):
         yield f"what to measure next: disting next {shlex.quote(str(out / 'fit.json'))}"
-
-
-def _weights(options: argparse.Namespace) -> Callable[[FrequencyResponse], Real] | None:
-    """How the lines count; coherence tells it where Welch's method made them. Without an answer
-    all alike, those of several responses by what they scatter.
-    """
-    if options.weights != "auto":
-        return WEIGHTS[options.weights]
-    return lines_by_coherence if "segment" in dict(options.read) else None
 
 
 def _counted(options: argparse.Namespace) -> dict[int, int]:

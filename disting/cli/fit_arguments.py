@@ -13,7 +13,7 @@ from disting.model.chain import Sensor
 WEIGHTS = ("auto", "none", "std", "coherence")
 UNITS = ("frequency", "phase", "magnitude", "input", "output")
 SIGNS = ("+", "-", "auto")
-RULES = ("determined", "paper")
+RULES = ("not-excluded", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
 
@@ -184,8 +184,8 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         help="cost function of the paper (default: 3)",
     )
     text = (
-        "of the frequency lines; auto: coherence for Welch's method (--read segment=..), for"
-        " several responses what their lines scatter by, else all alike (default: auto)"
+        "of the frequency lines; auto: by what each scatters, as far as that is known; none: all"
+        " alike (default: auto)"
     )
     group.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
@@ -193,8 +193,8 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         "--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text
     )
     text = (
-        "admissible: what the data determine (determined), or the paper's three criteria alone"
-        " (default: determined)"
+        "what may be selected: what the data do not exclude, or of that what the paper's three"
+        " criteria admit (default: not-excluded)"
     )
     group.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
     text = (

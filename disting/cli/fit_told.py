@@ -6,12 +6,21 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
+from disting.fit.admissible import FROM_ZERO
 from disting.fit.each import explanations
+from disting.fit.exclusion import LEVEL
 from disting.fit.measured import read_in_words
 from disting.fit.members import Disagreement, Member
 from disting.fit.modes import Result, physical
 from disting.fit.select import Selection
-from disting.fit.telling import commands, first_lines, learned, renamed, suspicions
+from disting.fit.telling import (
+    commands,
+    first_lines,
+    learned,
+    limits_in_words,
+    renamed,
+    suspicions,
+)
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
@@ -35,20 +44,19 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield ""
     yield from first_lines(found)
     yield ""
-    n, kept = len(found.candidates), [c for c in found.candidates if c.admissible]
+    left, more = [m.candidate for m in found.members], len(found.containing)
+    beside = f" ({more} more contain{'s' * (more == 1)} one of these)" * bool(more)
     yield (
-        f"{n} candidates fitted to {_lines(found)}{_saved(found)}, validated on {found.validation}"
+        f"{len(found.candidates)} candidates fitted to {_lines(found)}{_saved(found)}, validated on"
+        f" {found.validation}"
     )
-    if found.selected is None:
-        yield "none is admissible; the best ones:"
-    else:
-        yield (
-            f"{len(kept)} have parameters that can all be determined; the best of"
-            f" them{_why(found)}:"
-        )
+    yield (
+        f"{len(left)} not excluded{beside}, the simplest first:"
+        if left
+        else "none is left; the best ones:"
+    )
     yield ""
-    shown = sorted(kept, key=lambda c: (c is not found.selected, c.j_test)) or found.candidates
-    yield from _table(shown[:SHOWN])
+    yield from _table((left or found.candidates)[:SHOWN])
     yield ""
     chain = found.described.chain
     yield (
@@ -98,7 +106,7 @@ def _each(found: Selection) -> Iterator[str]:
 
 
 def _excluded(found: Selection) -> Iterator[str]:
-    """Where none is admissible, why, and what helps."""
+    """Where none may be selected, why, and what helps."""
     if found.selected:
         return
     yield ""
@@ -119,8 +127,8 @@ def _set(found: Selection) -> Iterator[str]:
         return
     yield ""
     yield (
-        "structures that this data does not exclude (two standard deviations of the difference of"
-        " the costs):"
+        f"structures that this data does not exclude (level {100 * LEVEL:g} % against each other"
+        " one):"
     )
     width = max(len(m.name) for m in found.members)
     for m in found.members:
@@ -134,6 +142,9 @@ def _set(found: Selection) -> Iterator[str]:
             yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
         if m.open:
             yield f"    not decided: {', '.join(m.open)}"
+        larger = [other.name for other in found.containing if other.contains == m.candidate.chain]
+        if larger:
+            yield f"    or more, not determined by this data: {_named(larger)}"
 
 
 def _relied_on(found: Selection) -> Iterator[str]:
@@ -157,18 +168,9 @@ def _saved(found: Selection) -> str:
     )
 
 
-def _why(found: Selection) -> str:
-    lost = (
-        found.selected.j_test - min(c.j_test for c in found.candidates if c.admissible)
-        if found.selected
-        else 0.0
-    )
-    return (
-        f" (a larger one is better by {lost:.3g}, less than the {found.margin:.3g} that noise"
-        " allows)"
-        if lost > 0
-        else ""
-    )
+def _named(names: list[str]) -> str:
+    more = len(names) - SHOWN
+    return ", ".join(names[:SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
 def _table(candidates: Any) -> Iterator[str]:
@@ -179,7 +181,11 @@ def _table(candidates: Any) -> Iterator[str]:
             f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7}"
             f" {_index(p.collinearity):>6}"
         )
-        yield f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
+        mark = "" if c.admissible else "  (not all determined)"
+        yield (
+            f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
+            f"{mark}"
+        )
 
 
 def _index(value: float) -> str:
@@ -192,15 +198,15 @@ def _index(value: float) -> str:
 def _parameters(found: Selection) -> Iterator[str]:
     c = found.described
     apart = {d.name: d for m in found.members[:1] for d in m.disagreements}
+    wide = found.members[0].intervals if found.members else {}
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
-        said = (
-            "given"
-            if error is None
-            else "not determined"
-            if not error <= UNDETERMINED
-            else f"± {percent(error)}"
-        )
+        if error is None:
+            said = "given"
+        elif name in wide and not error <= FROM_ZERO:
+            said = limits_in_words(*wide[name])
+        else:
+            said = "not determined" if not error <= UNDETERMINED else f"± {percent(error)}"
         yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
 
 

@@ -1,11 +1,11 @@
-"""Which fitted candidates may be selected.
+"""Of which fitted candidates the data determine all parameters.
 
-The paper's rule looks at the three criteria of section 2.4, which do not see the noise: a model
-whose every parameter is known within 1 % may exceed a condition index of 30. The rule `determined`
-accepts what the paper accepts and also a candidate that the data determine well in spite of a
-criterion: every parameter differs from zero by three standard errors, and every inertia,
-stiffness, resonance and antiresonance is known to 10 %. What no data determine is excluded by
-both, and so is a parameter at its bound.
+The paper selects among these only, by the three criteria of section 2.4, which do not see the
+noise: a model whose every parameter is known within 1 % may exceed a condition index of 30. By
+default a candidate stays whose parameters are known badly, and that is said of it: it is marked
+unless the criteria hold or the data determine it well in spite of them, every parameter differing
+from zero by three standard errors and every inertia, stiffness, resonance and antiresonance known
+to 10 %. A parameter at its bound is marked too. What no data determine is left out by both rules.
 """
 
 from enum import StrEnum
@@ -21,14 +21,16 @@ DESIGNED = ("inertia", "stiffness", "resonance", "antiresonance")
 
 
 class Rule(StrEnum):
-    """What decides which candidates are admissible."""
+    """Which candidates may be selected: what the data do not exclude, or of that what the paper's
+    criteria admit.
+    """
 
-    DETERMINED = "determined"
+    NOT_EXCLUDED = "not-excluded"
     PAPER = "paper"
 
 
 def reasons(candidate: Candidate, task: Task, limits: Thresholds, rule: Rule) -> tuple[str, ...]:
-    """Why a candidate is excluded; nothing if it is admissible."""
+    """What the data do not determine of a candidate; nothing if it is admissible."""
     bound = tuple(f"{n} is at its bound" for n in candidate.at_bound)
     exceeded = limits.reasons(candidate.practical)
     if rule is Rule.PAPER or not exceeded or candidate.practical.unidentifiable:

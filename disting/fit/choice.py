@@ -1,12 +1,12 @@
-"""Which of the fitted candidates is selected, and what stands beside it.
+"""Which of the fitted candidates the data do not exclude, and which of these is selected.
 
-Where some admissible candidates explain the data, the others are excluded by it. Of those left, the
-one with the lowest cost on test is left for one with fewer parameters that loses to it by no more
-than noise explains (`repeatability.margin`); those that are as near form the set of which one is
-selected.
+A candidate is excluded if it does not explain the data (`explained`) while others do, or if another
+one shows that it misses more than noise (`exclusion`). Of those that are left the simplest one is
+selected, of equally simple ones that with the lowest cost on test. Under the paper's rule only
+candidates whose criteria hold are asked at all.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import exp, log
 
@@ -14,16 +14,17 @@ import numpy as np
 
 from disting.fit.admissible import Rule
 from disting.fit.cost import Cost
-from disting.fit.each import explained, noises, repeatabilities
+from disting.fit.each import explained, noises
 from disting.fit.estimate import Task
-from disting.fit.explained import LARGEST, Explanation
+from disting.fit.exclusion import Exclusion, Fitted, basis_of, excluded, limit, statistic
+from disting.fit.explained import Explanation, allowed
 from disting.fit.joint import AnyCost
-from disting.fit.judged import Candidate
-from disting.fit.noise import Noise
+from disting.fit.judged import Candidate, Scatters, values_of
 from disting.fit.plant import Real
-from disting.fit.practical import Seen
-from disting.fit.repeatability import margin
 from disting.fit.scatter import Scatter
+from disting.fit.whitened import Whitened
+from disting.model.chain import Chain
+from disting.model.settings import Settings
 
 
 def akaike_weighted(candidates: Sequence[Candidate], task: Task) -> list[Candidate]:
@@ -50,109 +51,101 @@ def _costs(candidate: Candidate, task: Task) -> list[tuple[float, int]]:
     cost = task.cost
     if isinstance(cost, Cost):
         return [(candidate.j_train, cost.n_residuals)]
-    p = np.array([candidate.estimate.parameters[n] for n in task.names(candidate.chain)])
+    p = values_of(candidate.estimate, task)
     each = cost.by_residual(cost.residual(task.plant(candidate.chain).response(p)))
     return [(float(own @ own), own.size) for own in each]
 
 
 @dataclass(frozen=True)
 class Choice:
-    """`candidates` in the order of the cost on test. `near`: those that lose to the best by no more
-    than noise explains, the selected one first; the others as in `select.Selection`.
+    """`candidates` in the order of the cost on test. `left`: those that the data do not exclude,
+    the selected one first, then the simplest; `better` as in `select.Selection`.
     """
 
     candidates: tuple[Candidate, ...]
-    repeatability: Scatter
     explanation: Explanation
     selected: Candidate | None = None
-    near: tuple[Candidate, ...] = ()
-    margin: float = 0.0
+    left: tuple[Candidate, ...] = ()
     better: tuple[Candidate, ...] = ()
 
 
 def choice(
-    fitted: Sequence[Candidate], train: AnyCost, judging: AnyCost, seen: Scatter, rule: Rule
+    fitted: Sequence[Candidate],
+    task: Task,
+    test: AnyCost | None,
+    known: Scatters,
+    rule: Rule,
+    settings: Settings,
 ) -> Choice:
-    """Which candidate is selected, and what stands beside it; `fitted` in the order of J on
-    test, `train` and `judging` the costs on training data and on test.
+    """Which candidates are left, and which one is selected; `fitted` in the order of J on test,
+    `known` = scatter of training data and of those on test.
     """
-    typical = repeatabilities(train, judging, _best(fitted).residual)
-    kept = _explaining([c for c in fitted if c.admissible])
-    if not kept:
-        return Choice(tuple(fitted), typical, _explained(fitted[0], judging, seen))
-    sigma = judging.scatter(seen.rho)
-    there = _left(kept[0], sigma, judging)
-    noise = Noise(judging.scatter(typical.rho)) if rule is Rule.PAPER else there
-    selected, allowed = _simplest(kept, noise)
-    lowest = kept[0]
-    near = [
-        c for c in kept if c.j_test <= lowest.j_test + margin(c.residual, lowest.residual, there)
-    ]
-    return Choice(
-        tuple(fitted),
-        typical,
-        _explained(selected, judging, seen),
-        selected,
-        (selected, *(c for c in near if c is not selected)),
-        allowed,
-        _better(selected, fitted, sigma, judging),
-    )
+    judging, seen = test or task.cost, known[1]
+    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
+    asked = [c for c in asked if not c.practical.unidentifiable] or asked
+    explaining = [c for c in asked if c.chi2 <= allowed(seen)]
+    if not explaining:
+        best = asked[0] if asked else None
+        said = _explained(best or fitted[0], judging, seen)
+        better = _better(best, fitted, task, known) if best and rule is Rule.PAPER else ()
+        return Choice(tuple(fitted), said, best, better=better)
+    out = _excluded(explaining, task, test, known, settings)
+    whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
+    chains = {c.chain for c in explaining} - out.keys()
+    left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.j_test))
+    selected = left[0]
+    better = _better(selected, fitted, task, known) if rule is Rule.PAPER else ()
+    return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
 
 
 def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
     return explained(judging, described.residual, described.missed, seen)
 
 
-def _explaining(kept: list[Candidate]) -> list[Candidate]:
-    """Those that explain the data, where any does. The costs do not see what a candidate misses at
-    quiet lines when loud ones make the most of them; the standard deviations do.
+def _excluded(
+    candidates: Sequence[Candidate],
+    task: Task,
+    test: AnyCost | None,
+    known: Scatters,
+    settings: Settings,
+) -> Mapping[Chain, Exclusion]:
+    """Those that others exclude: on the data that no fit has seen, where there are such, since a
+    machine that changes leaves traces that a rich candidate fits too; else on those of the fit.
     """
-    return [c for c in kept if c.chi2 <= LARGEST] or kept
+    inside, outside = known
+    if test is None:
+        return excluded([trained_as(c, task, inside) for c in candidates], inside.freedom, settings)
+    there = replace(task, cost=test)
+    tested = [_fitted(c, c.residual, there, outside) for c in candidates]
+    return excluded(tested, outside.freedom, settings, seen=False)
 
 
-def _best(fitted: Sequence[Candidate]) -> Candidate:
-    """The admissible candidate with the lowest J on test; of all, where none is admissible."""
-    return next((c for c in fitted if c.admissible), fitted[0])
+def trained_as(candidate: Candidate, task: Task, known: Scatter) -> Fitted:
+    """What the test of exclusion asks of a candidate on the data of its fit."""
+    return _fitted(candidate, candidate.trained, task, known)
 
 
-def _simplest(kept: Sequence[Candidate], noise: Seen) -> tuple[Candidate, float]:
-    """The candidate with the fewest parameters that loses to the best by no more than its
-    margin; then the lower cost.
-    """
-    lowest = kept[0]
-    allowed = {c.chain: margin(c.residual, lowest.residual, noise) for c in kept}
-    near = [
-        c
-        for c in kept
-        if c is lowest
-        or (c.n_parameters < lowest.n_parameters and c.j_test <= lowest.j_test + allowed[c.chain])
-    ]
-    winner = min(near, key=lambda c: (c.n_parameters, c.j_test))
-    return winner, allowed[winner.chain]
+def _fitted(candidate: Candidate, residual: Real, task: Task, known: Scatter) -> Fitted:
+    whitened = Whitened(task.cost, known)
+    p = values_of(candidate.estimate, task)
+    columns = whitened.of(task.plant(candidate.chain), p)[1]
+    free = task.box(task.names(candidate.chain)).free
+    noise = noises(task.cost, residual, np.ones(residual.size))
+    return Fitted(candidate.chain, residual, basis_of(columns[:, free]), noise)
 
 
 def _better(
-    selected: Candidate, fitted: Sequence[Candidate], sigma: Real, cost: AnyCost
+    selected: Candidate, fitted: Sequence[Candidate], task: Task, known: Scatters
 ) -> tuple[Candidate, ...]:
-    """Excluded candidates that win against the selected one by more than their margin, those with
-    few parameters first.
-
-    The margin is that of the noise which they leave: what the selected one misses beside is no
-    noise.
+    """Candidates that the paper's criteria leave out, and that would exclude the selected one,
+    those with few parameters first.
     """
-    lower = [c for c in fitted if not c.admissible and c.j_test < selected.j_test]
+    inside = known[0]
+    own = trained_as(selected, task, inside)
+    lower = [c for c in fitted if not c.admissible and c.j_train < selected.j_train]
     found = [
         c
         for c in lower
-        if c.j_test < selected.j_test - margin(c.residual, selected.residual, _left(c, sigma, cost))
+        if statistic(own, trained_as(c, task, inside)) > limit(c.n_parameters, inside.freedom)
     ]
     return tuple(sorted(found, key=lambda c: (c.n_parameters, c.j_test)))
-
-
-def _left(candidate: Candidate, sigma: Real, cost: AnyCost) -> Seen:
-    """What a candidate leaves of the judged data, whose residuals scatter by `sigma`: what
-    misses them widely is no noise.
-    """
-    if candidate.chi2 > LARGEST:
-        return Noise(sigma)
-    return noises(cost, candidate.residual, sigma, candidate.missed)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from disting.fit.cost import SquaredCost
 from disting.fit.joint import AnyCost, AnyPlant
 from disting.fit.plant import Real
 
@@ -120,7 +121,7 @@ def _step(curvature: Real, slope: Real, damping: Real) -> Real:
     return np.asarray(np.clip(step, -LARGEST_STEP, LARGEST_STEP))
 
 
-def fine(plant: AnyPlant, cost: AnyCost, box: Box, start: Real) -> tuple[Real, float]:
+def fine(plant: AnyPlant, cost: SquaredCost, box: Box, start: Real) -> tuple[Real, float]:
     """A local minimum, shape (n_p,), and its cost: never above that of the start."""
     free = box.free
     origin = box.clipped(start)

@@ -2,8 +2,8 @@
 like.
 
 Responses of one machine share their parameters and no noise: nothing is carried from the last line
-of one to the first of the next. Of one response all this is what `scatter`, `noise`, `explained`
-and `repeatability` say.
+of one to the first of the next. Of one response all this is what `scatter`, `noise` and `explained`
+say.
 """
 
 from collections.abc import Iterable, Sequence
@@ -11,12 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from disting.fit.explained import RANGES, Explanation, chi2, explanation, yardstick
+from disting.fit.explained import RANGES, Explanation, chi2, explanation
 from disting.fit.joint import AnyCost
 from disting.fit.noise import Noise, correlation, noise
 from disting.fit.plant import Complex, Real
-from disting.fit.repeatability import repeatability
-from disting.fit.scatter import Scatter, scatter
+from disting.fit.scatter import Scatter, changed, scatter, widened
 from disting.measurement import FrequencyResponse
 
 
@@ -33,24 +32,31 @@ class JointNoise:
         return np.concatenate([part.seen(rows) for part, rows in each])
 
 
-def scatters(cost: AnyCost, fitted: Sequence[Complex]) -> Scatter:
-    """Scatter of all lines; `fitted` = responses of candidates, shape (n_f,) each."""
-    return _together(
+def scatters(cost: AnyCost, fitted: Sequence[Complex]) -> list[Scatter]:
+    """Scatter of the lines of each response; `fitted` = stacked responses of candidates."""
+    return [
         scatter(part.measured, own)
         for part, own in zip(cost.parts, _each(cost, fitted), strict=True)
-    )
+    ]
 
 
-def yardsticks(train: AnyCost, judged: AnyCost, fitted: Sequence[Complex]) -> Scatter:
-    """Scatter of the data on which candidates are judged; `fitted` = responses at its lines."""
-    each = zip(partners(train, judged), judged.parts, _each(judged, fitted), strict=True)
-    return _together(yardstick(first, part.measured, own) for first, part, own in each)
-
-
-def repeatabilities(train: AnyCost, judged: AnyCost, best: Real) -> Scatter:
-    """What training data, test data and residuals of the best candidate tell of the noise."""
-    each = zip(partners(train, judged), judged.parts, judged.by_residual(best), strict=True)
-    return _together(repeatability(first, part.measured, own) for first, part, own in each)
+def yardsticks(
+    train: AnyCost, judged: AnyCost, fitted: Sequence[Complex], seen: Sequence[Complex]
+) -> tuple[Scatter, Scatter]:
+    """Scatter of the training data and of those on which candidates are judged, what the machine
+    changes by between them included; `fitted`, `seen` = responses of candidates at the lines of
+    the one and of the other.
+    """
+    inside = scatters(train, fitted)
+    if train is judged:
+        return together(inside), together(inside)
+    outside = scatters(judged, seen)
+    for k, part in enumerate(judged.parts):
+        at = train.setups.index(judged.setups[k])
+        first = train.parts[at].measured
+        tau = changed(first, part.measured, inside[at], outside[k])
+        inside[at], outside[k] = widened(inside[at], tau), widened(outside[k], tau)
+    return together(inside), together(outside)
 
 
 def partners(train: AnyCost, judged: AnyCost) -> list[FrequencyResponse]:
@@ -79,12 +85,13 @@ def correlations(cost: AnyCost, residual: Real) -> float:
 def explanations(
     cost: AnyCost, residual: Real, missed: Real, known: Scatter
 ) -> tuple[Explanation, ...]:
-    """What the residuals of each response say."""
+    """What the whitened residuals of each response say."""
+    ends = np.cumsum([len(part.measured) for part in cost.parts])
     rows = (cost.by_residual(a) for a in (residual, missed))
-    each = zip(cost.parts, *rows, cost.by_line(known.rho), strict=True)
+    each = zip(cost.parts, *rows, ends, strict=True)
     return tuple(
-        explanation(own, expected, part, Scatter(rho, known.source))
-        for part, own, expected, rho in each
+        explanation(own, expected, part, known.at(slice(end - len(part.measured), end)))
+        for part, own, expected, end in each
     )
 
 
@@ -102,9 +109,9 @@ def explained(cost: AnyCost, residual: Real, missed: Real, known: Scatter) -> Ex
     ]
     misses.sort(key=lambda miss: -miss.share)
     largest = correlations(cost, residual)
-    quietest = min(one.scatter.typical for one in each)
+    clearest = max(one.scatter.clear for one in each)
     return Explanation(
-        chi2(residual, missed), known, largest, tuple(misses[:RANGES]), quietest=quietest
+        chi2(residual, missed), known, largest, tuple(misses[:RANGES]), clear=clearest
     )
 
 
@@ -115,7 +122,13 @@ def _each(cost: AnyCost, fitted: Sequence[Complex]) -> list[list[Complex]]:
     ]
 
 
-def _together(each: Iterable[Scatter]) -> Scatter:
+def together(each: Iterable[Scatter]) -> Scatter:
+    """The scatter of all lines."""
     found = list(each)
-    sources = ", ".join(dict.fromkeys(one.source for one in found))
-    return Scatter(np.concatenate([one.rho for one in found]), sources)
+    return Scatter(
+        np.concatenate([one.rho for one in found]),
+        np.concatenate([one.size for one in found]),
+        ", ".join(dict.fromkeys(one.source for one in found)),
+        sum(one.freedom for one in found),
+        "; ".join(dict.fromkeys(one.doubt for one in found if one.doubt)),
+    )

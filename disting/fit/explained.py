@@ -1,32 +1,34 @@
 """Whether a candidate explains the data: its residuals against the scatter of the lines, in
 absolute terms.
 
-With residuals r and what they are expected to be under the rho of `scatter`, the errors of the
-parameters included (`noise.expected`),
+With residuals r in units of the scatter (`whitened`) and what they are expected to be, the errors
+of the parameters included (`noise.expected`),
 
     chi2 per line = mean (r / expected)^2
 
 is 1 for the true model and independent of what other candidates do. A candidate explains the data
-if it is at most `LARGEST`; none does where the data themselves are mostly noise, typical rho above
-`NOISY`.
+if it is at most `LARGEST`, more where the scatter itself is known from little (F test); none does
+where the data themselves are mostly noise: less than `FEW_CLEAR` of the lines scatter by less than
+20 %.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees, pi, sqrt
+from math import degrees, isfinite, pi
 
 import numpy as np
+from scipy.stats import chi2 as chi2_distribution
+from scipy.stats import f as f_distribution
 
 from disting.fit.cost import Cost
 from disting.fit.noise import correlation
-from disting.fit.plant import Complex, Real
-from disting.fit.scatter import Scatter, between, scatter
-from disting.measurement import FrequencyResponse
+from disting.fit.plant import Real
+from disting.fit.scatter import Scatter
 from disting.model.shown import summary
 
-# chi2 per line of a model that explains the data: right ones reach 1.5 where few repeats are known
+# chi2 per line up to which a model explains the data: what a machine does beside being a chain
 LARGEST = 3.0
-NOISY = 0.3  # typical rho from which on there is hardly a response
+LEVEL = 0.01  # of the test that allows more
+FEW_CLEAR = 0.2  # share of the lines that must scatter by less than 20 %
 SMOOTHED = 5  # lines over which what is missed is averaged before it is called a range
 RANGES = 3  # that are named, those that miss most
 
@@ -70,15 +72,15 @@ class Miss:
 @dataclass(frozen=True, eq=False)
 class Explanation:
     """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring
-    lines, what it misses where; `quietest`: typical rho of that one of several responses that
-    scatters least.
+    lines, what it misses where; `clear`: share of the lines that carry information in that one of
+    several responses that has most.
     """
 
     chi2: float
     scatter: Scatter
     correlation: float
     misses: tuple[Miss, ...]
-    quietest: float | None = None
+    clear: float | None = None
 
     def __repr__(self) -> str:
         explains = "explains the data" if self.explains else "does not explain the data"
@@ -90,30 +92,20 @@ class Explanation:
         """Whether the candidate misses no more than the data scatter, and there is more than
         noise.
         """
-        return self.chi2 <= LARGEST and not self.noisy
+        return self.chi2 <= allowed(self.scatter) and not self.noisy
 
     @property
     def noisy(self) -> bool:
         """Whether the data are mostly noise."""
-        typical = self.scatter.typical if self.quietest is None else self.quietest
-        return typical > NOISY
+        return (self.scatter.clear if self.clear is None else self.clear) < FEW_CLEAR
 
 
-def yardstick(
-    train: FrequencyResponse, judged: FrequencyResponse, fitted: Sequence[Complex]
-) -> Scatter:
-    """Scatter of the data on which candidates are judged: their own, or what training and test
-    differ by, whichever is larger.
-
-    `fitted` = responses of candidates at the lines of `judged`.
-    """
-    own, apart = scatter(judged, fitted), between(train, judged)
-    if apart is None or apart <= own.typical:
-        return own
-    return Scatter(
-        np.hypot(own.rho, sqrt(apart**2 - own.typical**2)),
-        "the difference of training and test data",
-    )
+def allowed(known: Scatter) -> float:
+    """Largest chi2 per line of a model that explains data of this scatter."""
+    count = 2 * len(known.rho)
+    if isfinite(known.freedom):
+        return max(LARGEST, float(f_distribution.isf(LEVEL, count, known.freedom)))
+    return max(LARGEST, float(chi2_distribution.isf(LEVEL, count)) / count)
 
 
 def chi2(residual: Real, missed: Real) -> float:
@@ -125,15 +117,15 @@ def chi2(residual: Real, missed: Real) -> float:
 
 
 def explanation(residual: Real, missed: Real, cost: Cost, known: Scatter) -> Explanation:
-    """What residuals, shape (n_y,), of a cost on data with this scatter say; `missed` = their
+    """What whitened residuals, shape (n_y,), of data with this scatter say; `missed` = their
     expected sizes.
     """
     return Explanation(
-        chi2(residual, missed), known, correlation(residual), _misses(residual, missed, cost)
+        chi2(residual, missed), known, correlation(residual), _misses(residual, missed, cost, known)
     )
 
 
-def _misses(residual: Real, missed: Real, cost: Cost) -> tuple[Miss, ...]:
+def _misses(residual: Real, missed: Real, cost: Cost, known: Scatter) -> tuple[Miss, ...]:
     """Ranges of lines whose averaged excess is above `LARGEST`, those with the largest share of
     chi2 first.
     """
@@ -144,7 +136,7 @@ def _misses(residual: Real, missed: Real, cost: Cost) -> tuple[Miss, ...]:
     )
     beyond = np.flatnonzero(averaged > LARGEST)
     runs = np.split(beyond, np.flatnonzero(np.diff(beyond) > SMOOTHED) + 1) if beyond.size else []
-    factor, angle = _plain(residual, cost)
+    factor, angle = _plain(residual, known)
     hertz, total = cost.measured.frequency, max(float(power.sum()), 1e-300)
     shares = [float(power[run[0] : run[-1] + 1].sum()) / total for run in runs]
     found = [
@@ -160,10 +152,8 @@ def _misses(residual: Real, missed: Real, cost: Cost) -> tuple[Miss, ...]:
     return tuple(sorted(found, key=lambda miss: -miss.share)[:RANGES])
 
 
-def _plain(residual: Real, cost: Cost) -> tuple[Real, Real]:
-    """|ln of the amplitudes' ratio| and |difference of the phases| [rad], shape (n_f,) each, in
-    the units of rho.
-    """
-    unit = np.maximum(cost.scatter(np.ones(len(cost.measured))), 1e-300)
-    first, second = np.abs(residual / unit).reshape(2, -1)
-    return first, np.minimum(second, pi)
+def _plain(residual: Real, known: Scatter) -> tuple[Real, Real]:
+    """|ln of the amplitudes' ratio| and |difference of the phases| [rad], shape (n_f,) each."""
+    along, across = residual.reshape(2, -1) * known.rho
+    ratio = np.log(np.maximum(np.abs(1 + along + 1j * across), 1e-300))
+    return np.abs(ratio), np.minimum(np.abs(np.arctan2(across, 1 + along)), pi)

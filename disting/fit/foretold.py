@@ -24,8 +24,9 @@ import numpy as np
 
 from disting.experiments import MeasuredChain
 from disting.experiments.menu import Costs, Gain, Item, gain
+from disting.fit.exclusion import LEVEL, surplus, trials
 from disting.fit.named import Left, Named, Values
-from disting.fit.plan import power, surplus
+from disting.fit.plan import power
 from disting.fit.plant import Complex, Plant, Real
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
@@ -158,7 +159,8 @@ class Foretold:
         if found.is_motion:
             return 1.0
         chains = self.left[structure].chain, self.left[other].chain
-        return power(found.noncentrality, surplus(*chains, self.settings))
+        count = trials(chains[1], chains[0], len(self.bench.omega))
+        return power(found.noncentrality, surplus(*chains, self.settings), LEVEL / count)
 
 
 def foretold(

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disting.fit.cost import Case, Cost, SquaredCost
 from disting.fit.plant import Complex, Motion, Plant, Real
-from disting.fit.scatter import LEAST, scatter
+from disting.fit.scatter import LEAST, changed, scatter, widened
 from disting.fit.setup import Setup, measurable
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -199,36 +199,49 @@ def joint_cost(
     further: Sequence[Further],
     lines: Lines | None,
     alike: bool,
+    test: FrequencyResponse | None = None,
     fitted: Sequence[Complex] = (),
 ) -> AnyCost:
     """The cost of all responses on the training data, each in units of its own scatter.
 
     Weights 1/rho of each line, rho as `scatter` tells it with the stacked responses `fitted` of
-    candidates; or those by `lines`, of each response divided by what its weighted residuals scatter
-    by, lambda^2 = mean (w rho)^2. Then those of all are scaled to a mean square of 1. `alike`: all
-    lines of all responses count alike.
+    candidates, what the machine changes by until its test data included; or those by `lines`, of
+    each response divided by what its weighted residuals scatter by, lambda^2 = mean (w rho)^2. Then
+    those of all are scaled to a mean square of 1. `alike`: all lines of all responses count alike.
     """
-    if not further:
-        return first
-    measured = [first.measured, *(one.measured for one in further)]
-    ends = np.cumsum([len(m) for m in measured])[:-1]
+    whole = (Further(first.measured, Setup(), test), *further)
+    ends = np.cumsum([len(one.measured) for one in whole])[:-1]
     known = [np.split(response, ends) for response in fitted]
     own = [
-        np.ones(len(m)) if alike else _weights(m, lines, [each[k] for each in known])
-        for k, m in enumerate(measured)
+        np.ones(len(one.measured))
+        if alike
+        else _weights(one.measured, one.test, lines, [each[k] for each in known])
+        for k, one in enumerate(whole)
     ]
     size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
-    parts = [replace(first, measured=m, lines=w / size) for m, w in zip(measured, own, strict=True)]
-    setups = (Setup(), *(one.setup for one in further))
+    parts = [
+        replace(first, measured=one.measured, lines=None if alike and not further else w / size)
+        for one, w in zip(whole, own, strict=True)
+    ]
+    setups = tuple(one.setup for one in whole)
+    if not further:
+        return parts[0]
     return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
 
 
-def _weights(measured: FrequencyResponse, lines: Lines | None, fitted: Sequence[Complex]) -> Real:
-    rho = scatter(measured, fitted).rho
-    if lines is None:
-        return 1.0 / rho
-    weights = lines(measured)
-    return weights / max(float(np.sqrt(np.mean((weights * rho) ** 2))), LEAST)
+def _weights(
+    measured: FrequencyResponse,
+    other: FrequencyResponse | None,
+    lines: Lines | None,
+    fitted: Sequence[Complex],
+) -> Real:
+    """Weights of the lines of a response that was measured another time too."""
+    own = scatter(measured, fitted)
+    if lines is not None:
+        weights = lines(measured)
+        return weights / max(float(np.sqrt(np.mean((weights * own.rho) ** 2))), LEAST)
+    tau = changed(measured, other, own, scatter(other)) if other is not None else 0.0
+    return np.asarray(1.0 / widened(own, tau).rho)
 
 
 def judging_cost(
@@ -242,8 +255,6 @@ def judging_cost(
     """The cost on independent data, of the responses that have some; a response counts there as
     much as on the training data. `fitted`: responses of candidates at the lines of a cost.
     """
-    if isinstance(cost, Cost):
-        return replace(cost, measured=test, lines=lines(test) if lines else None)
     tests = [test, *(one.test for one in further)]
     kept = [
         (replace(part, measured=data, lines=None), part, setup)
@@ -256,9 +267,9 @@ def judging_cost(
     for k, (part, trained, _) in enumerate(kept):
         own = [responses[k] for responses in each]
         data = part.measured
-        weights = np.ones(len(data)) if alike else _weights(data, lines, own)
+        weights = np.ones(len(data)) if alike else _weights(data, trained.measured, lines, own)
         parts.append(replace(part, lines=weights * _size(trained.lines) / _size(weights)))
-    return replace(plain, parts=tuple(parts))
+    return parts[0] if isinstance(cost, Cost) else replace(plain, parts=tuple(parts))
 
 
 def _size(weights: Real | None) -> float:

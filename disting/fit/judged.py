@@ -9,8 +9,9 @@ import numpy as np
 
 from disting.fit.candidates import reference
 from disting.fit.descent import fine
-from disting.fit.each import noises, scatters, yardsticks
+from disting.fit.each import noises, yardsticks
 from disting.fit.estimate import Estimate, Task
+from disting.fit.exclusion import Exclusion
 from disting.fit.explained import chi2
 from disting.fit.joint import AnyCost
 from disting.fit.noise import expected
@@ -18,6 +19,7 @@ from disting.fit.plant import Complex, Real
 from disting.fit.practical import Practical, Seen, practical
 from disting.fit.scatter import Scatter
 from disting.fit.structural import with_structure
+from disting.fit.whitened import Whitened
 from disting.model.chain import Chain
 from disting.model.settings import Settings
 from disting.model.shown import summary
@@ -32,11 +34,12 @@ Scatters = tuple[Scatter, Scatter]
 
 @dataclass(frozen=True)
 class Candidate:
-    """A fitted candidate; `reasons` say why it is excluded, `residual` is that on the test data,
-    shape (n_y,).
+    """A fitted candidate; `reasons` say which of its parameters are not determined, `residual` is
+    that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
 
-    `missed` = what it is expected to be and `chi2` per line, see `explained`; `noise` = covariance
-    of the residuals on the training data, from which all standard errors follow.
+    `chi2` per line, see `explained`; `noise` = covariance of the residuals on the training data,
+    from which all standard errors follow; `trained` = its whitened residual there; `excluded`: by
+    which other candidate, if by any.
     """
 
     chain: Chain
@@ -48,11 +51,13 @@ class Candidate:
     residual: Real = field(repr=False, compare=False)
     missed: Real = field(repr=False, compare=False)
     noise: Seen = field(repr=False, compare=False)
+    trained: Real = field(repr=False, compare=False)
     reasons: tuple[str, ...] = ()
     akaike_weight: float = 0.0
+    excluded: Exclusion | None = None
 
     def __repr__(self) -> str:
-        excluded = f", excluded: {self.reasons[0]}" if self.reasons else ""
+        excluded = f", excluded by {reference(self.excluded.by)}" if self.excluded else ""
         return summary(
             self,
             f"{reference(self.chain)}, N_p = {self.n_parameters}, J = {self.j_test:.4g}{excluded}",
@@ -60,7 +65,7 @@ class Candidate:
 
     @property
     def admissible(self) -> bool:
-        """Whether all criteria hold."""
+        """Whether all its parameters are determined, by the criteria of the rule."""
         return not self.reasons
 
     @property
@@ -83,35 +88,46 @@ class Candidate:
 
 def judged(
     known: Mapping[Chain, Estimate], task: Task, test_cost: AnyCost | None, settings: Settings
-) -> tuple[list[Candidate], Scatter]:
+) -> tuple[list[Candidate], Scatters]:
     """What each estimate is worth, in the order of the cost on test, and the scatter that it
     was judged by.
     """
     cost = test_cost or task.cost
     best = sorted(known.values(), key=lambda e: e.j)[:WITNESSES]
-    inside = scatters(task.cost, [_response(e, task) for e in best])
-    outside = yardsticks(task.cost, cost, [_response(e, replace(task, cost=cost)) for e in best])
+    inside, outside = yardsticks(
+        task.cost,
+        cost,
+        [_response(e, task) for e in best],
+        [_response(e, replace(task, cost=cost)) for e in best],
+    )
     first = {c: _criteria(found, task, inside) for c, found in known.items()}
-    criteria = with_structure({c: found for c, (found, _) in first.items()}, task, settings)
+    criteria = with_structure({c: found for c, (found, *_) in first.items()}, task, settings)
     fitted = [
-        _candidate(found, criteria[c], first[c][1], task, test_cost, (inside, outside))
+        _candidate(found, criteria[c], first[c], task, test_cost, (inside, outside))
         for c, found in known.items()
     ]
-    return sorted(fitted, key=lambda c: c.j_test), outside
+    return sorted(fitted, key=lambda c: c.j_test), (inside, outside)
+
+
+def values_of(found: Estimate, task: Task) -> Real:
+    """Parameters as an array, in the order of the task."""
+    return np.array([found.parameters[n] for n in task.names(found.chain)])
 
 
 def _response(found: Estimate, task: Task) -> Complex:
-    return task.plant(found.chain).response(
-        np.array([found.parameters[n] for n in task.names(found.chain)])
-    )
+    return task.plant(found.chain).response(values_of(found, task))
 
 
-def _criteria(found: Estimate, task: Task, known: Scatter) -> tuple[Practical, Seen]:
+Criteria = tuple[Practical, Seen, Real]
+"""Criteria of an estimate, noise of its residuals, and these whitened."""
+
+
+def _criteria(found: Estimate, task: Task, known: Scatter) -> Criteria:
     """The criteria at the optimum, of the parameters that are free, and what the residuals
     there are like.
     """
     chain, names = found.chain, task.names(found.chain)
-    p = np.array([found.parameters[n] for n in names])
+    p = values_of(found, task)
     free = task.box(names).free
     residual, columns = task.cost.of(task.plant(chain), p)
     sigma = task.cost.scatter(known.rho)
@@ -121,59 +137,70 @@ def _criteria(found: Estimate, task: Task, known: Scatter) -> tuple[Practical, S
             columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], there
         ),
         there,
+        Whitened(task.cost, known).residual(task.plant(chain).response(p)),
     )
 
 
 def _candidate(
     found: Estimate,
     criteria: Practical,
-    there: Seen,
+    first: Criteria,
     task: Task,
     test: AnyCost | None,
     known: Scatters,
 ) -> Candidate:
     """Test cost of one estimate with its criteria."""
     chain, names = found.chain, task.names(found.chain)
-    p = np.array([found.parameters[n] for n in names])
+    p = values_of(found, task)
     box = task.box(names)
-    residual = _cross_validated(found, task, p) if test is None else _residual(chain, task, test, p)
+    cost = test or task.cost
+    response = _cross_validated(found, task, p) if test is None else _at(chain, task, test, p)
+    residual = cost.residual(response)
     near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
-    missed = _expected(found, task, test or task.cost, *known)
-    size = chi2(residual, missed)
+    missed = _expected(found, task, cost, *known)
+    whitened = Whitened(cost, known[1]).residual(response)
     return Candidate(
-        chain, found, criteria, float(residual @ residual), size, at_bound, residual, missed, there
+        chain,
+        found,
+        criteria,
+        float(residual @ residual),
+        chi2(whitened, missed),
+        at_bound,
+        whitened,
+        missed,
+        *first[1:],
     )
 
 
 def _expected(
     found: Estimate, task: Task, judging: AnyCost, inside: Scatter, outside: Scatter
 ) -> Real:
-    """What the residuals on the judged data are expected to be, shape (n_y,)."""
-    names = task.names(found.chain)
-    p, free = np.array([found.parameters[n] for n in names]), task.box(names).free
+    """What the whitened residuals on the judged data are expected to be, shape (n_y,): 1, and the
+    errors of the parameters.
+    """
+    p, free = values_of(found, task), task.box(task.names(found.chain)).free
     columns = task.cost.of(task.plant(found.chain), p)[1][:, free]
-    seen = judging.of(replace(task, cost=judging).plant(found.chain), p)[1][:, free]
-    return expected(columns, task.cost.scatter(inside.rho), seen, judging.scatter(outside.rho))
+    there = replace(task, cost=judging).plant(found.chain)
+    seen = Whitened(judging, outside).of(there, p)[1][:, free]
+    return expected(columns, task.cost.scatter(inside.rho), seen, np.ones(len(seen)))
 
 
-def _residual(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Real:
-    return cost.residual(replace(task, cost=cost).plant(chain).response(p))
+def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
+    return replace(task, cost=cost).plant(chain).response(p)
 
 
-def _cross_validated(found: Estimate, task: Task, p: Real) -> Real:
-    """Residuals of each line under the fit to the other folds, lines dealt out in turn; shape
-    (n_y,).
+def _cross_validated(found: Estimate, task: Task, p: Real) -> Complex:
+    """The response at each line of the fit to the other folds, lines dealt out in turn; shape
+    (n_f,).
     """
     if not task.box(task.names(found.chain)).free.any():
-        return _residual(found.chain, task, task.cost, p)  # no fit sees any line
-    cost = task.cost
-    whole = np.empty(cost.n_residuals)
-    at = [np.arange(len(part.measured)) % FOLDS for part in cost.parts]
+        return _at(found.chain, task, task.cost, p)  # no fit sees any line
+    cost, plant = task.cost, task.plant(found.chain)
+    at = np.concatenate([np.arange(len(part.measured)) % FOLDS for part in cost.parts])
+    whole = np.empty(len(at), dtype=np.complex128)
     for fold in range(FOLDS):
-        out = [turns == fold for turns in at]
-        kept = replace(task, cost=cost.without(np.concatenate(out)))
+        kept = replace(task, cost=cost.without(at == fold))
         there, _ = fine(kept.plant(found.chain), kept.cost, kept.box(task.names(found.chain)), p)
-        both = np.concatenate([np.tile(own, 2) for own in out])
-        whole[both] = cost.residual(task.plant(found.chain).response(there))[both]
+        whole[at == fold] = plant.response(there)[at == fold]
     return whole

@@ -1,11 +1,10 @@
 """Structures that the data do not exclude, each with all that is known of it.
 
-A candidate is not excluded if its cost on test is above the lowest one by less than noise
-explains: two standard deviations of the difference (`repeatability.margin`), under the scatter of
-the lines and the correlation of neighbouring residuals. And what behaves as it does, for exactly
-these values, is not excluded either, by this or any other data of this force and sensor: other
-structures of as many masses, anywhere in the catalogue, with any ground dampers, and other values
-of its own.
+Which these are, `choice` tells. What contains one of them with elements that the data do not
+determine is not excluded either: it is named, with what these elements are at most. And what
+behaves as one of them does, for exactly these values, is not excluded either, by this or any other
+data of this force and sensor: other structures of as many masses, anywhere in the catalogue, with
+any ground dampers, and other values of its own.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -19,10 +18,12 @@ from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.alternatives import Limits
 from disting.fit.candidates import as_listed, reference
 from disting.fit.descent import fine
-from disting.fit.each import noises, scatters
+from disting.fit.each import noises, scatters, together
 from disting.fit.estimate import Task
+from disting.fit.exclusion import contains
+from disting.fit.interval import Interval, intervals
 from disting.fit.joint import AnyCost
-from disting.fit.judged import Candidate
+from disting.fit.judged import Candidate, Scatters
 from disting.fit.noise import expected
 from disting.fit.practical import practical
 from disting.fit.together import behaves_alike
@@ -34,7 +35,7 @@ from disting.verdict.engine import mapped
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
 EVERY_SET = 4
 APART = 3.0  # standard errors between training and test from which on a parameter disagrees
-QUANTILE = 1.959964  # of the normal distribution, for intervals of 95 %
+QUANTILE = 1.959964  # of the normal distribution, for bands of 95 %
 STRONGEST = 2  # frequencies that are named, at which two structures differ most
 WIDE = 1.3  # ratio of two such frequencies, at least
 
@@ -74,16 +75,19 @@ class Disagreement:
 @dataclass(frozen=True)
 class Member:
     """A structure that the data do not exclude; `open` names those of which it is not known
-    whether they do the same.
+    whether they do the same; `intervals` of 95 % of its fitted parameters.
 
-    `differs`: frequencies [Hz] at which it differs most from the first member, and by how much
-    (0.01 = 1 % or 0.01 rad).
+    `contains`: the simpler member whose elements are among its own, where the data do not determine
+    what it has beside; nothing is asked then of what does the same. `differs`: frequencies [Hz] at
+    which it differs most from the first member, and by how much (0.01 = 1 % or 0.01 rad).
     """
 
     candidate: Candidate
     twins: tuple[Twin, ...]
     open: tuple[str, ...]
     disagreements: tuple[Disagreement, ...]
+    intervals: dict[str, Interval]
+    contains: Chain | None = None
     differs: tuple[tuple[float, float], ...] = ()
 
     def __repr__(self) -> str:
@@ -97,24 +101,26 @@ class Member:
         return reference(self.candidate.chain)
 
     @property
-    def intervals(self) -> dict[str, tuple[float, float]]:
-        """95 % of each fitted parameter; a lower end below zero is zero."""
-        values, errors = self.candidate.estimate.parameters, self.candidate.standard_errors
-        return {
-            n: (max(values[n] - QUANTILE * e, 0.0), values[n] + QUANTILE * e)
-            for n, e in errors.items()
-        }
+    def unsure(self) -> dict[str, Interval]:
+        """The intervals of what is known badly: those that hold zero or have no end, or are as wide
+        as the value itself.
+        """
+        values = self.candidate.estimate.parameters
+        return {n: (a, b) for n, (a, b) in self.intervals.items() if b - a > values[n] or not a}
 
 
 def members(
-    chosen: Sequence[Candidate],
+    left: Sequence[Candidate],
     task: Task,
     test: AnyCost | None,
+    known: Scatters,
     limits: Limits,
     executor: Executor | None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Member, ...]:
-    """The candidates, in their order, as members of the set."""
+    """The candidates that are left, in their order, as members of the set."""
+    inside = {c.chain: _contained(c, left) for c in left}
+    chosen = [c for c in left if inside[c.chain] is None]
     given = [
         (c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters}, dict(limits))
         for c in chosen
@@ -126,12 +132,23 @@ def members(
     return tuple(
         Member(
             c,
-            *found[c.chain],
-            disagreements(c, task, test) if test else (),
-            _differs(chosen[0], c, test or task.cost, task),
+            *found.get(c.chain, ((), ())),
+            disagreements=disagreements(c, task, test) if test and c.chain in found else (),
+            intervals=intervals(c, task, known[0]) if c.chain in found else {},
+            contains=inside[c.chain],
+            differs=_differs(left[0], c, test or task.cost, task),
         )
-        for c in chosen
+        for c in left
     )
+
+
+def _contained(candidate: Candidate, left: Sequence[Candidate]) -> Chain | None:
+    """The simplest structure left whose elements a candidate has, where it has others that are not
+    determined.
+    """
+    if candidate.admissible:
+        return None
+    return next((c.chain for c in left if contains(candidate.chain, c.chain)), None)
 
 
 def twins(
@@ -212,7 +229,7 @@ def disagreements(candidate: Candidate, task: Task, test: AnyCost) -> tuple[Disa
         return ()
     p, _ = fine(plant, test, box, start)
     residual, columns = test.of(plant, p)
-    known = scatters(test, [plant.response(p)])
+    known = together(scatters(test, [plant.response(p)]))
     free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
     sigma, columns = test.scatter(known.rho), columns[:, box.free]
     other = practical(

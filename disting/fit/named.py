@@ -1,8 +1,9 @@
 """What the file of a fit names: the selected structure, its rivals, and how it was measured.
 
 Rivals are the structures that the data do not exclude and those of which it is not known whether
-they behave the same. What behaves exactly the same for the fitted values stands apart: no data
-with this force and sensor tell it from the selected one.
+they behave the same; none that contains another one with elements that the data do not determine,
+since that is no other machine. What behaves exactly the same for the fitted values stands apart:
+no data with this force and sensor tell it from the selected one.
 """
 
 from collections.abc import Iterator
@@ -101,14 +102,16 @@ def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
     for found in plain["alternatives"]:
         if found["relation"] != Relation.INDISTINGUISHABLE:
             yield chain_from_dict(found), {}
-    yield from map(model_from_dict, plain["not_excluded"][1:])
+    members = [m for m in plain["not_excluded"][1:] if not m.get("contains")]
+    yield from map(model_from_dict, members)
 
 
 def _left(plain: dict[str, Any], model: Chain, values: Values) -> Iterator[Left]:
     """The selected structure, the others that were fitted, then what behaves as one of these;
     each once.
     """
-    fitted = {model: values} | dict(map(model_from_dict, plain["not_excluded"]))
+    members = [m for m in plain["not_excluded"] if not m.get("contains")]
+    fitted = {model: values} | dict(map(model_from_dict, members))
     own = {chain: [its] for chain, its in fitted.items()}
     like = {chain: dict[Chain, None]() for chain in fitted}
     named = {reference(chain): chain for chain in fitted}
@@ -121,7 +124,7 @@ def _left(plain: dict[str, Any], model: Chain, values: Values) -> Iterator[Left]
         like.setdefault(other, {}).update({chain: None} if other != chain else {})
         return other
 
-    for member in plain["not_excluded"]:
+    for member in members:
         chain, _ = model_from_dict(member)
         for twin in member["equivalents"]:
             other = add(twin["name"], chain)

@@ -22,30 +22,26 @@ from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import lru_cache
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
 
 from scipy.optimize import brentq
-from scipy.stats import chi2, ncx2
+from scipy.stats import ncx2
 
 from disting.fit.candidates import reference
+from disting.fit.exclusion import LEVEL, joined, limit, surplus, trials
 from disting.fit.plant import Real
 from disting.fit.rival import Rival, Trust, fitted_rival
 from disting.model.chain import Chain
-from disting.model.settings import Settings
 from disting.model.shown import Shown, summary
-from disting.questions.identifiability.tangent import proof_tangents
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format
 from disting.verdict import Engine, Relation, Verdict
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Progress, silent
 
-LEVEL = 0.01  # probability of excluding a rival that is true
 POWER = 0.95  # wanted probability of excluding one that is not
 LARGEST = 1e6  # noncentrality that is looked for, at most
-REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
 
 class Answer(StrEnum):
@@ -63,8 +59,8 @@ def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float
     >>> round(power(17.8), 3), round(power(0.0), 3)
     (0.95, 0.01)
     """
-    limit = chi2.isf(level, surplus)
-    return float(ncx2.sf(limit, surplus, noncentrality)) if noncentrality > 0 else level
+    most = limit(surplus, inf, level=level)
+    return float(ncx2.sf(most, surplus, noncentrality)) if noncentrality > 0 else level
 
 
 def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> float:
@@ -122,7 +118,18 @@ class Plan(Shown):
     @property
     def power(self) -> float:
         """With the effort at hand."""
-        return power(self.noncentrality, self.surplus)
+        return power(self.noncentrality, self.surplus, self.level)
+
+    @property
+    def level(self) -> float:
+        """Of the test: divided by the places where an element of the model is looked for."""
+        lines = 1 if self.rival is None else len(self.rival.rho)
+        return LEVEL / trials(self.chain, self.model, lines)
+
+    @property
+    def needed(self) -> float:
+        """Noncentrality for a power of 95 %."""
+        return needed(self.surplus, self.level)
 
     @property
     def factor(self) -> float:
@@ -130,7 +137,7 @@ class Plan(Shown):
         infinite where no effort is enough.
         """
         size = self.noncentrality
-        return needed(self.surplus) / size if size > 0 else float("inf")
+        return self.needed / size if size > 0 else inf
 
 
 def plan(
@@ -165,38 +172,6 @@ def plan(
     return Plan(model, values, rival, verdict, surplus(model, rival, engine.settings), fit)
 
 
-def surplus(model: Chain, rival: Chain, settings: Settings | None = None) -> int:
-    """s of the module.
-
-    >>> surplus(Chain(2, ground_dampers=(1,)), Chain(2, ground_dampers=(2,)))
-    1
-    """
-    settings = settings or Settings()
-    larger = joined(model, rival) or model
-    return max(1, _rank(larger, settings) - _rank(rival, settings))
-
-
-def joined(model: Chain, rival: Chain) -> Chain | None:
-    """The smallest structure that contains both; None where they differ in more than dampers to
-    the ground, lag and dead time.
-    """
-    found = replace(
-        model,
-        ground_dampers=tuple(sorted({*model.ground_dampers, *rival.ground_dampers})),
-        lag=model.lag or rival.lag,
-        dead_time=model.dead_time or rival.dead_time,
-    )
-    same = replace(found, ground_dampers=(), lag=False, dead_time=False)
-    other = replace(rival, ground_dampers=(), lag=False, dead_time=False)
-    return found if same == other else None
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _rank(chain: Chain, settings: Settings) -> int:
-    tangents = proof_tangents(chain.structure, settings.seed, settings.points)
-    return max(t.rank for t in tangents)
-
-
 def plan_to_dict(found: Plan) -> dict[str, Any]:
     """Plain data; `noncentrality` 0 and `factor` null where no effort is enough."""
     rival, name = found.rival, found.names
@@ -208,7 +183,7 @@ def plan_to_dict(found: Plan) -> dict[str, Any]:
         "answer": found.answer.value,
         "relation": found.verdict.relation.value if found.verdict is not None else None,
         "reason": found.verdict.sentence if found.verdict is not None else None,
-        "level": LEVEL,
+        "level": found.level,
         "wanted_power": POWER,
         "noncentrality": found.noncentrality,
         "power": found.power,
@@ -218,7 +193,7 @@ def plan_to_dict(found: Plan) -> dict[str, Any]:
     more = found.noncentrality > 0
     return plain | {
         "surplus_parameters": found.surplus,
-        "needed_noncentrality": needed(found.surplus),
+        "needed_noncentrality": found.needed,
         "factor": found.factor if more else None,
         "noise": typical(rival.rho),
         "largest_noise": typical(rival.rho) / sqrt(found.factor) if more else None,

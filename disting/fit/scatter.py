@@ -1,66 +1,89 @@
 """How much a measured line scatters: the yardstick of every statement on a fit.
 
-rho_k is the standard deviation of ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). It comes
-from what is known, in this order:
+sigma_k^2 = E |noise of G_k|^2, and rho_k = sigma_k / (|G_k| sqrt 2) the standard deviation of
+ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put together so:
 
-- the standard deviations that come with the data, rho = deviation / (|G| sqrt 2);
-- its coherence, for which rho is proportional to sqrt((1 - g^2) / g^2), and neighbouring lines for
-  the factor;
-- neighbouring lines alone: ln G of four lines, less the parabola through them, leaves one complex
-  number c' ln G, |c| = 1, with E |c' ln G|^2 = 2 rho^2, exponentially distributed; its lower
-  quarter among the lines near by does not see resonances. Where the response bends more than it
-  scatters, it is divided first by those of fitted candidates; the smallest result counts, since
-  division by a wrong model adds bends and takes no scatter away.
+- one measurement: the sources of noise that a bench has (`line_variance`), their sizes from what
+  neighbouring lines do not predict of each other (`contrasts`); with a coherence its shape
+  (1 - g^2) / g^2 |G|^2 instead of these sources;
+- with standard deviations s_k of nu degrees of freedom: the sources fitted to s_k^2, and each line
+  shrunk to them,
 
-Deviations from repeats of one excitation do not see what the excitation makes itself: distortion
-by friction and play repeats with it, and jumps from line to line. So neighbouring lines count
-there too where they scatter more, up to `DISTORTED`. And between two measurements of a machine
-more changes than scatters within one of them, as friction changes with the amplitude. Lines that
-both have, rho^2 = mean |ln(G_1/G_2)|^2 / 4, show that (`between`): a fit to the one must be
-expected to miss the other by so much.
+      sigma_k^2 = (nu_0 m_k + nu s_k^2) / (nu_0 + nu),
+
+  nu_0 = degrees of freedom that the sources count for, from how far s_k^2 are from them beyond
+  their own scatter (G. Smyth, Linear models and empirical Bayes methods, 2004). A file that does
+  not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line.
+
+Repeats of one excitation do not see what it makes itself: distortion by friction and play repeats
+with it, and jumps from line to line. Nor do they see that a machine changes between two
+measurements. Both are found where the data scatter more than sigma allows (F test), and added as a
+relative variance tau^2 that makes them agree (R. Paule, J. Mandel, Consensus values and weighting
+factors, 1982).
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import log, sqrt
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import inf, log, sqrt
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
+from scipy.optimize import brentq
+from scipy.special import digamma, polygamma
+from scipy.stats import f as f_distribution
 
+from disting.fit.contrasts import Contrasts, contrasts, freedom, stencil
+from disting.fit.line_variance import LARGEST_LEFT_OUT, coefficients, kept_mean, quietest, sources
 from disting.fit.plant import Complex, Real
 from disting.measurement import FrequencyResponse
 from disting.model.shown import summary
 
 COMMON = 8  # lines that two measurements must share
 SAME = 1e-6  # relative distance of two frequencies that count as one
-NEAR = 41  # contrasts of neighbouring lines of which the lower quarter is taken
-QUARTER = 0.25
-# rho up to which lines that jump are distorted; beyond, the grid may be too coarse for the
-# resonances
-DISTORTED = 0.05
 LEAST = 1e-5  # scatter below this is the rounding of a file
-BESIDE = 11  # lines near by whose deviations are compared
-UNEVEN = 0.5  # of their median: a deviation below is chance, of few repeats
-# ratio of what neighbouring lines scatter to their deviations, from which on it is no chance
-JUMPING = 1.5
+# tau up to which lines that jump are distorted; beyond, the grid may be too coarse for resonances
+DISTORTED = 0.05
+SURE = 1e-3  # level of the tests for tau, and for standard deviations that are wrong
+WRONG = 2.0  # factor by which standard deviations are too large before that is said
+MOST_FREEDOM = 1e4  # of a variance: as good as known
+TINY = 1e-12  # share of a variance that is as good as nothing
+WORSE = 4.0  # ratio of variances from which on no fitted response is near the truth
+CLEAR = 0.2  # rho below which a line carries information
 
 
 @dataclass(frozen=True, eq=False)
 class Scatter:
-    """rho of every line, shape (n_f,), and in words where it comes from."""
+    """rho of every line, shape (n_f,), |G| that it is a share of, and in words where it comes from;
+    `freedom`: degrees of freedom of its level; `doubt`: what contradicts it, in a sentence, or "".
+    """
 
     rho: Real
+    size: Real
     source: str
+    freedom: float = inf
+    doubt: str = ""
 
     def __repr__(self) -> str:
         return summary(self, f"{100 * self.typical:.3g} %, from {self.source}")
 
     @property
+    def sigma(self) -> Real:
+        """sqrt(E |noise of G|^2), shape (n_f,)."""
+        return np.asarray(sqrt(2) * self.rho * self.size)
+
+    def at(self, lines: slice) -> "Scatter":
+        """That of some of the lines."""
+        return replace(self, rho=self.rho[lines], size=self.size[lines])
+
+    @property
     def typical(self) -> float:
-        """Root mean square of rho: 0.01 means 1 % in amplitude, 0.01 rad in phase."""
-        return sqrt(float(np.mean(self.rho**2)))
+        """Median of rho: 0.01 means 1 % in amplitude, 0.01 rad in phase."""
+        return float(np.median(self.rho))
+
+    @property
+    def clear(self) -> float:
+        """Share of the lines that scatter by less than 20 %."""
+        return float(np.mean(self.rho < CLEAR))
 
 
 def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scatter:
@@ -68,47 +91,165 @@ def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scat
     (n_f,) each.
     """
     if measured.deviation is not None and np.any(measured.deviation > 0):
-        known = measured.deviation / np.abs(measured.G) / sqrt(2)
-        usual = median_filter(known, BESIDE, mode="nearest")
-        known = np.maximum(known, np.maximum(UNEVEN * usual, LEAST))
-        jumps = _neighbours(measured, fitted, np.ones(len(measured)))
-        if np.median(jumps / known) > JUMPING and np.median(jumps) <= DISTORTED:
-            return Scatter(
-                np.maximum(known, jumps),
-                "neighbouring lines, which jump by more than their standard deviations",
-            )
-        return Scatter(known, "the standard deviations of the data")
+        return _stated(measured, measured.deviation, fitted)
     if measured.coherence is not None and np.any(measured.coherence < 1):
         squared = np.clip(measured.coherence, 1e-6, 1 - 1e-6)
-        rho, source = (
-            np.sqrt((1 - squared) / squared),
-            "the coherence, its level from neighbouring lines",
-        )
-        return Scatter(np.maximum(_neighbours(measured, fitted, rho), LEAST), source)
-    return Scatter(
-        np.maximum(_neighbours(measured, fitted, np.ones(len(measured))), LEAST),
-        "neighbouring lines",
-    )
+        shape = ((1 - squared) / squared * np.abs(measured.G) ** 2)[:, None]
+        source = "the coherence, its level from neighbouring lines"
+        return _from_neighbours(measured, fitted, lambda size: shape / shape.mean(), source)
+
+    def shapes(size: Real) -> Real:
+        """The sources of a bench."""
+        return sources(measured.omega, size, measured.sensor.order)
+
+    return _from_neighbours(measured, fitted, shapes, "neighbouring lines")
 
 
-def _neighbours(measured: FrequencyResponse, fitted: Sequence[Complex], shape: Real) -> Real:
-    """The smallest estimate from neighbouring lines, of the response and of its quotients by
-    fitted ones.
+def _from_neighbours(
+    measured: FrequencyResponse,
+    fitted: Sequence[Complex],
+    shapes: Callable[[Real], Real],
+    source: str,
+) -> Scatter:
+    """From contrasts with that fitted response which leaves the least; from those of the logarithm
+    where all that are fitted leave far more, as wrong ones do.
     """
-    responses = [measured.G, *(measured.G / other for other in fitted)]
-    found = [_from_neighbours(measured.omega, response, shape) for response in responses]
-    return min(found, key=lambda rho: float(np.median(rho)))
+    plain = contrasts(measured.omega, measured.G)
+    columns = shapes(plain.size)
+    found = [(columns @ quietest(plain.expected(columns), plain.power), plain.size)]
+    for seen in (contrasts(measured.omega, measured.G, other) for other in fitted):
+        columns = shapes(seen.size)
+        found.append((columns @ coefficients(seen.expected(columns), seen.power), seen.size))
+    levels = [float(np.mean(np.log(np.maximum(v, (LEAST * size) ** 2)))) for v, size in found]
+    variance, size = found[_preferred(levels)]
+    rho = np.sqrt(variance / 2) / size
+    return Scatter(np.maximum(rho, LEAST), size, source, freedom(measured.omega))
 
 
-def between(one: FrequencyResponse, other: FrequencyResponse) -> float | None:
-    """Typical rho that two measurements differ by at the lines that they share; None where
-    these are too few.
+def _preferred(levels: Sequence[float]) -> int:
+    """Which of the levels counts, logarithms of variances without and with fitted responses: the
+    smallest with one, unless that without is smaller by far.
+    """
+    best = int(np.argmin(levels[1:])) + 1 if len(levels) > 1 else 0
+    return best if levels[best] <= levels[0] + log(WORSE) else 0
+
+
+def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Complex]) -> Scatter:
+    """From standard deviations of the data, against contrasts where candidates are fitted."""
+    each = [contrasts(measured.omega, measured.G, other) for other in (None, *fitted)]
+    seen = each[_preferred([log(max(float(np.median(one.power)), TINY**2)) for one in each])]
+    floor = float(np.median(deviation[deviation > 0])) ** 2
+    power = np.maximum(deviation**2, 1e-6 * floor)
+    nu = measured.freedom or _freedom_by_jumps(measured.omega, power)
+    variance, prior = _shrunk(power, nu, sources(measured.omega, seen.size, measured.sensor.order))
+    own = Scatter(
+        np.maximum(np.sqrt(variance / 2) / seen.size, LEAST),
+        seen.size,
+        "the standard deviations of the data",
+        max(len(power) * nu, prior),
+    )
+    return _checked(own, variance, seen, measured) if fitted else own
+
+
+def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
+    """With what neighbouring lines say of standard deviations."""
+    there = freedom(measured.omega)
+
+    def excess(tau: float) -> float:
+        """Mean ratio of contrasts to what is expected, less 1."""
+        ratio = seen.power / seen.expected(variance + 2 * (tau * seen.size) ** 2)
+        kept = ratio <= np.quantile(ratio, 1 - LARGEST_LEFT_OUT)
+        return float(ratio[kept].mean()) / kept_mean(LARGEST_LEFT_OUT) - 1
+
+    level = 1 + excess(0.0)
+    if level > f_distribution.isf(SURE, there, own.freedom):
+        tau = _balanced(excess)
+        if 0 < tau <= DISTORTED:
+            return replace(
+                own,
+                rho=np.hypot(own.rho, tau),
+                source="neighbouring lines, which jump by more than their standard deviations",
+                freedom=there,
+            )
+    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, there, own.freedom):
+        return replace(
+            own,
+            doubt=(
+                f"the standard deviations are {1 / sqrt(max(level, TINY)):.2g} times as large as"
+                " what neighbouring lines scatter by: are they those of single repeats, or of"
+                " something else?"
+            ),
+        )
+    return own
+
+
+def _balanced(excess: Callable[[float], float], most: float = 2.0) -> float:
+    """The tau at which a falling excess is zero."""
+    return most if excess(most) > 0 else float(brentq(excess, 0.0, most, xtol=1e-6))
+
+
+def _shrunk(power: Real, nu: float, shapes: Real) -> tuple[Real, float]:
+    """Variances of the lines from squared deviations of `nu` degrees of freedom, shrunk to the
+    sources, and the degrees of freedom of these.
+    """
+    trend = np.maximum(shapes @ coefficients(shapes, power, trim=0.0), 1e-9 * np.median(power))
+    apart = np.log(power / trend)
+    beyond = float(np.var(apart)) - float(polygamma(1, nu / 2))
+    prior = _inverse_trigamma(beyond) if beyond > 0 else MOST_FREEDOM
+    # the mean of logarithms of a variance of nu degrees lies below the logarithm of its mean
+    trend = trend * np.exp(apart.mean() - _bias(nu) + _bias(prior))
+    whole = nu + prior
+    unsure = whole / (whole - 2) if whole > 4 else 2.0  # mean of r^2 / sigma^2 is to be 1
+    return np.asarray((prior * trend + nu * power) / whole * unsure), prior
+
+
+def _bias(nu: float) -> float:
+    return float(digamma(nu / 2)) - log(nu / 2)
+
+
+def _freedom_by_jumps(omega: Real, power: Real) -> float:
+    """Degrees of freedom of squared deviations, from how much their logarithms jump."""
+    at, h = stencil(omega)
+    values = np.log(power)[at]
+    jump = values[:, 0] - np.einsum("kj,kj->k", h, values[:, 1:])
+    return _inverse_trigamma(float(np.mean(jump**2 / (1 + np.sum(h**2, axis=1)))))
+
+
+def _inverse_trigamma(value: float) -> float:
+    """nu with trigamma(nu / 2) = value, between 0.1 and `MOST_FREEDOM`."""
+    low, high = 0.1, MOST_FREEDOM
+    if value <= polygamma(1, high / 2):
+        return high
+    if value >= polygamma(1, low / 2):
+        return low
+    root = brentq(lambda nu: float(polygamma(1, nu / 2)) - value, low, high)
+    return float(root)
+
+
+def changed(
+    one: FrequencyResponse, other: FrequencyResponse, own: Scatter, there: Scatter
+) -> float:
+    """tau by which a machine changes between two measurements, from lines that both have; 0 where
+    what both scatter accounts for their difference.
     """
     at, common = shared(one, other)
     if one is other or common.sum() < COMMON:
-        return None
-    ratio = np.log(other.G[common] / one.G[at[common]])
-    return sqrt(float(np.mean(np.abs(ratio) ** 2)) / 4)  # two measurements, two components
+        return 0.0
+    power = np.abs(np.log(other.G[common] / one.G[at[common]])) ** 2
+    both = 2 * (own.rho[at[common]] ** 2 + there.rho[common] ** 2)
+    sure = f_distribution.isf(SURE, 2 * len(both), min(own.freedom, there.freedom))
+    if np.mean(power / both) <= sure:
+        return 0.0
+    return _balanced(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)
+
+
+def widened(own: Scatter, tau: float) -> Scatter:
+    """The scatter with what a machine changes by between two measurements."""
+    if not tau:
+        return own
+    return replace(
+        own, rho=np.hypot(own.rho, tau), source="the difference of training and test data"
+    )
 
 
 def shared(
@@ -120,23 +261,3 @@ def shared(
     at = np.clip(np.searchsorted(one.omega, other.omega), 1, len(one.omega) - 1)
     at -= other.omega - one.omega[at - 1] < one.omega[at] - other.omega
     return at, np.abs(one.omega[at] - other.omega) <= SAME * other.omega
-
-
-def _from_neighbours(omega: Real, response: Complex, shape: Real) -> Real:
-    """rho from contrasts of four neighbouring lines, shape (n_f,); `shape` of the scatter over
-    the lines as far as known.
-    """
-    logarithm = np.log(np.abs(response)) + 1j * np.unwrap(np.angle(response))
-    x, y, w = (sliding_window_view(a, 4) for a in (np.log(omega), logarithm, shape))
-    apart = x[:, :, None] - x[:, None, :] + np.eye(4)
-    contrast = 1.0 / apart.prod(axis=2)  # divided differences of third order vanish on parabolas
-    power = np.abs((contrast * y).sum(axis=1)) ** 2 / (
-        -2 * log(1 - QUARTER) * ((contrast * w) ** 2).sum(axis=1)
-    )
-    if len(power) <= NEAR:
-        return np.asarray(shape * sqrt(float(np.quantile(power, QUARTER))))
-    low = np.quantile(sliding_window_view(power, NEAR), QUARTER, axis=1)
-    before = (len(omega) - len(low)) // 2
-    return np.asarray(
-        shape * np.sqrt(np.pad(low, (before, len(omega) - len(low) - before), mode="edge"))
-    )

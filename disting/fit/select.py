@@ -1,11 +1,10 @@
-"""Model selection (section 2.2): fit all candidates, keep those whose parameters the data
-determine, take the best.
+"""Model selection (section 2.2): fit all candidates, keep those that the data do not exclude, take
+the simplest.
 
-Among the admissible candidates (`admissible`) the best is the one with the lowest cost J on
-independent test data, or, without such data, in cross-validation over the frequency lines. A
-candidate with fewer parameters is preferred unless it loses by more than noise explains
-(`choice`). What comes out is a set, of which one is selected (`members`), after the
-question whether any of them explains the data at all (`explained`).
+What the data exclude, and which of the others is selected, is told in `choice`, by the residuals on
+independent test data where there are such; without them cross-validation over the frequency lines
+gives a cost that orders candidates. What comes out is a set, of which one is selected (`members`),
+after the question whether any candidate explains the data at all (`explained`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -40,7 +39,6 @@ from disting.fit.plant import Complex, Real
 from disting.fit.practical import Thresholds
 from disting.fit.readings import Reading, readings
 from disting.fit.reliance import Statement, statements
-from disting.fit.scatter import Scatter
 from disting.fit.signs import pilot, signed
 from disting.fit.together import alternatives_under_all, learning, representatives_under_all
 from disting.measurement import FrequencyResponse, are_opposite
@@ -69,28 +67,27 @@ class Selection(Shown):
 
     `explanation` is that of the selected candidate, else of the best one; `members`: the
     structures that the data do not exclude, the selected one first, none where nothing explains
-    the data; `readings`: what would fit then; `relied_on`: what holds for all members, around which
-    `controller` closes the loop; `better`:
-    excluded candidates that fit better than the selected one by more than noise. `margin` is what
-    the selected candidate may lose by to the best one; `saved` counts the candidates that were not
-    fitted because one with the same positive models was (`same_as`, by candidate); `validation`
-    says where the test cost comes from, `judging` is that cost. Where several responses are
-    fitted, `test` is the data of the first one, and `silent` names those that are zero, from which
-    nothing is learned. `quantities`: sentences on the sensor quantities that explain the data as
-    well as the assumed one.
+    the data; `containing`: those that only contain one of them, with elements that the data do not
+    determine; `readings`: what would fit then; `relied_on`: what holds for all members, around
+    which `controller` closes the loop; `better`: candidates that the paper's rule does not admit
+    and that would exclude the selected one; `saved` counts the candidates that were not fitted
+    because one with the same positive models was (`same_as`, by candidate); `validation` says where
+    the test cost comes from, `judging` is that cost. Where several responses are fitted, `test` is
+    the data of the first one, and `silent` names those that are zero, from which nothing is
+    learned. `quantities`: sentences on the sensor quantities that explain the data as well as the
+    assumed one.
     """
 
     selected: Candidate | None
     candidates: tuple[Candidate, ...]
     alternatives: tuple[Alternative, ...]
     thresholds: Thresholds
-    repeatability: Scatter
-    margin: float
     validation: str
     same_as: dict[Chain, Chain]
     rule: Rule
     explanation: Explanation
     members: tuple[Member, ...]
+    containing: tuple[Member, ...]
     readings: tuple[Reading, ...]
     relied_on: tuple[Statement, ...]
     controller: Controller | None
@@ -103,7 +100,8 @@ class Selection(Shown):
 
     def __repr__(self) -> str:
         found = "none is admissible" if self.selected is None else reference(self.selected.chain)
-        members = f", {len(self.members)} not excluded" if self.members else ""
+        left = len(self.members) + len(self.containing)
+        members = f", {left} not excluded" if left else ""
         return summary(self, f"{found} of {plural(len(self.candidates), 'candidate')}{members}")
 
     def plot(self, ax: "Axes | Sequence[Axes] | None" = None) -> tuple["Axes", ...]:
@@ -133,7 +131,7 @@ def select(
     further: Sequence[Further] = (),
     alike: bool = False,
     thresholds: Thresholds | None = None,
-    rule: Rule = Rule.DETERMINED,
+    rule: Rule = Rule.NOT_EXCLUDED,
     case: Case = Case.LOGARITHM,
     weights: tuple[float, float] | None = None,
     lines: Callable[[FrequencyResponse], Real] | None = None,
@@ -150,25 +148,29 @@ def select(
 ) -> Selection:
     """Fit `candidates` to `train` and select one, by a rule for what is admissible.
 
-    `weights` of amplitude and phase, see `Cost`; `lines` gives each line's weight, such as
-    `lines_by_deviation`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
+    `weights` of amplitude and phase, see `Cost`; each line counts by what it scatters (`scatter`),
+    or by the weights that `lines` gives, such as `lines_by_deviation`, or as much as any other if
+    `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
     and `fixed`, are fitted once; `controller`: one whose margins
     are told (`reliance`); `method` as in `estimates`. An engine with a store resumes
     interrupted work. Raises InputError.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
-    vector for all; each counts in units of its own scatter, line by line as much as the others if
-    `alike` (`joint_cost`). Candidates without their places are left out, and a response that is
-    zero in every candidate: nothing is learned from it.
+    vector for all; each counts in units of its own scatter (`joint_cost`). Candidates without their
+    places are left out, and a response that is zero in every candidate: nothing is learned from it.
     """
     _check(train, test, further, candidates)
     candidates, further, silent = learning(candidates, further)
     engine = engine or Engine(store=Store.none())
-    alone = Cost(train, case, weights, lines(train) if lines else None)
-    weighed = partial(joint_cost, alone, further, lines, alike)
+    weighed = partial(joint_cost, Cost(train, case, weights), further, lines, alike, test)
     asked = Task(weighed(), sign or 1, bounds or {}, fixed or {}, seed)
-    task, seen_by = _tried(asked if sign else signed(asked, candidates), candidates, weighed)
+    task, seen_by = _tried(
+        asked if sign else signed(asked, candidates),
+        candidates,
+        weighed,
+        by_scatter=lines is None and not alike,
+    )
     within = limits_of(task.bounds, task.fixed)
     first = _representatives(candidates, task, engine, within, prune)
     wanted = [c for c in candidates if first[c] == c]
@@ -177,27 +179,28 @@ def select(
     )
     test_cost = judging_cost(task.cost, test, further, lines, alike, seen_by) if test else None
     limits = thresholds or Thresholds()
-    fitted, seen = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
+    fitted, known = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
     fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
-    chosen = choice(akaike_weighted(fitted, task), task.cost, test_cost or task.cost, seen, rule)
+    weighted = akaike_weighted(fitted, task)
+    chosen = choice(weighted, task, test_cost, known, rule, engine.settings)
     said = chosen.explanation
-    near = chosen.near if said.explains else ()
+    kept = chosen.left if said.explains else ()
     misread = () if said.explains or said.noisy or further else chosen.candidates
-    left = members(near, task, test_cost, within, executor, progress)
+    left = members(kept, task, test_cost, known, within, executor, progress)
+    whole = tuple(m for m in left if m.contains is None)
     return Selection(
         selected=chosen.selected,
         candidates=chosen.candidates,
         alternatives=_alternatives(chosen.selected, candidates, task, engine, within),
         thresholds=limits,
-        repeatability=chosen.repeatability,
-        margin=chosen.margin,
         validation="test data" if test else CROSS_VALIDATION,
         same_as={c: other for c, other in first.items() if c != other},
         rule=rule,
         explanation=said,
-        members=left,
+        members=whole,
+        containing=tuple(m for m in left if m.contains),
         readings=_readings(misread, task, engine.store, executor, progress),
-        relied_on=statements(left, task, controller),
+        relied_on=statements(whole, task, controller),
         controller=controller,
         better=chosen.better,
         silent=tuple(silent),
@@ -209,16 +212,21 @@ def select(
 
 
 def _tried(
-    task: Task, candidates: Sequence[Chain], weighed: Callable[[Sequence[Complex]], AnyCost]
+    task: Task,
+    candidates: Sequence[Chain],
+    weighed: Callable[[Sequence[Complex]], AnyCost],
+    by_scatter: bool,
 ) -> tuple[Task, Callable[[AnyCost], Sequence[Complex]]]:
     """The task, its responses weighed by how their lines scatter about the best of a few candidates
     (`pilot`), and what these look like at the lines of any cost.
     """
+    if not (by_scatter or isinstance(task.cost, JointCost)):
+        return task, lambda cost: []
     seen_by = pilot(task, candidates)
+    parts = weighed(seen_by(task.cost)).parts
     if isinstance(task.cost, JointCost):
-        parts = weighed(seen_by(task.cost)).parts
-        task = replace(task, cost=replace(task.cost, parts=parts))
-    return task, seen_by
+        return replace(task, cost=replace(task.cost, parts=parts)), seen_by
+    return replace(task, cost=parts[0]), seen_by
 
 
 def _representatives(

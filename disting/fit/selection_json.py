@@ -49,15 +49,12 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "frequencies": _frequencies(found),
         "residual_correlation": found.explanation.correlation,
         "fit_percent": _fit_percent(found),
-        "not_excluded": [member_to_dict(m) for m in found.members],
+        "not_excluded": [member_to_dict(m) for m in (*found.members, *found.containing)],
         "relied_on": [_statement_to_dict(s) for s in found.relied_on],
         "suspicions": list(suspicions(found)),
         "data": [_data(one) for one in _measured(found)],
         "rule": found.rule.value,
         "validation": found.validation,
-        "repeatability": found.repeatability.typical,
-        "repeatability_source": found.repeatability.source,
-        "margin": found.margin,
         "sign": found.task.sign,
     } | (_joint_to_dict(found) if len(found.task.cost.parts) > 1 or found.silent else {})
 
@@ -151,6 +148,7 @@ def member_to_dict(member: Member) -> dict[str, Any]:
         **_named(member.candidate.chain),
         "parameters": member.candidate.estimate.parameters,
         "intervals": {n: [_finite(end) for end in both] for n, both in member.intervals.items()},
+        "contains": reference(member.contains) if member.contains else None,
         "j_test": member.candidate.j_test,
         "chi2_per_line": member.candidate.chi2,
         "equivalents": [
@@ -192,6 +190,13 @@ def candidate_to_dict(c: Candidate) -> dict[str, Any]:
         "hit_rate": c.estimate.hit_rate,
         "admissible": c.admissible,
         "reasons": list(c.reasons),
+        "excluded_by": None
+        if c.excluded is None
+        else {
+            "name": reference(c.excluded.by),
+            "statistic": c.excluded.statistic,
+            "limit": c.excluded.limit,
+        },
     }
 
 

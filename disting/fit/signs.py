@@ -13,6 +13,8 @@ from disting.fit.joint import AnyCost, JointCost
 from disting.fit.plant import Complex
 from disting.model.chain import Chain
 
+PILOT = 3  # masses: fits that only tell what lines scatter by have no more
+
 
 def signed(task: Task, candidates: Sequence[Chain]) -> Task:
     """The sign with which candidates fit better, the best of the largest and the smallest ones
@@ -39,9 +41,8 @@ def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[C
     """The responses of the best of a few candidates at the lines of any cost: a response divided by
     them bends no more, so that neighbouring lines show what they scatter by.
     """
-    if not isinstance(task.cost, JointCost):
-        return lambda cost: []  # lines of one response are not weighed against others
-    asked = _extremes(candidates)
+    least = min(c.n_masses for c in candidates)
+    asked = _extremes([c for c in candidates if c.n_masses <= max(PILOT, least)])
     known = estimates(asked, task)  # and smaller chains, which may lack a place
     there = min((known[chain] for chain in asked), key=lambda e: e.j)
     p = np.array([there.parameters[n] for n in task.names(there.chain)])

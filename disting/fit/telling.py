@@ -9,19 +9,19 @@ from math import isfinite
 
 import numpy as np
 
-from disting.fit.admissible import KNOWN
+from disting.fit.admissible import FROM_ZERO, KNOWN
 from disting.fit.candidates import as_listed, reference
 from disting.fit.each import correlations, partners
-from disting.fit.explained import LARGEST
+from disting.fit.explained import allowed
+from disting.fit.fitted import response_of
 from disting.fit.joint import AnyCost
 from disting.fit.measured import bad_lines, outside
 from disting.fit.members import Disagreement
-from disting.fit.scatter import between, scatter
+from disting.fit.scatter import changed, scatter
 from disting.fit.select import Selection
 from disting.model.names import damping_option
 
 FEW = 8  # names in one line
-CHANGED = 2.0  # training and test differ by this multiple of what either scatters
 HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
 
 
@@ -51,6 +51,7 @@ def suspicions(found: Selection) -> tuple[str, ...]:
         *outside(found.described, found.task.cost.measured),
         *_doubled(found),
         *_bad(found),
+        *_doubts(found),
         *_suspicious(found.task.cost),
         *learned(found),
     ]
@@ -73,7 +74,8 @@ def renamed(found: Selection) -> str:
 
 def commands(found: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps."""
-    first, rest = found.described, [m.name for m in found.members[1:]]
+    first = found.described
+    rest = [m.name for m in found.members[1:]]
     given, form = reference(first.chain), as_listed(first.chain)
     damped = f" {damping_option(first.chain.damped)}"
     fitted = first.estimate.parameters
@@ -126,6 +128,12 @@ def _bad(found: Selection) -> tuple[str, ...]:
     return () if said is None else (said,)
 
 
+def _doubts(found: Selection) -> Iterator[str]:
+    """What contradicts the standard deviations of the data."""
+    if found.explanation.scatter.doubt:
+        yield found.explanation.scatter.doubt
+
+
 def _verdict(found: Selection) -> str:
     """The first line."""
     said, best = found.explanation, reference(found.described.chain)
@@ -137,12 +145,13 @@ def _verdict(found: Selection) -> str:
         return f"{best} explains this data ({size})"
     if said.noisy:
         return (
-            f"none of the candidates explains this data: it is mostly noise ({scattered}); the best"
-            f" one is {best}"
+            f"none of the candidates explains this data: it is mostly noise, only"
+            f" {100 * said.scatter.clear:.0f} % of the lines scatter by less than 20 %"
+            f" ({said.scatter.source}); the best one is {best}"
         )
     which = "none of the candidates"
-    if any(c.chi2 <= LARGEST for c in found.candidates):
-        which = "none of the candidates whose parameters this data determines"
+    if any(c.chi2 <= allowed(said.scatter) for c in found.candidates):
+        which = "none of the candidates that may be selected"
     return f"{which} explains this data; the best one is {best} ({size})"
 
 
@@ -150,14 +159,19 @@ def _explained(found: Selection) -> Iterator[str]:
     yield from _better(found)
     if found.selected is None:
         yield (
-            "none is admissible: in each, some parameters cannot be determined from this data; all"
-            " values are printed"
+            "no candidate is selected: by the criteria asked for, in each some parameters are not"
+            " determined by this data; all values are printed"
         )
-    others = [m.name for m in found.members[1:]]
+    others, more = [m.name for m in found.members[1:]], len(found.containing)
+    larger = (
+        f"{more} more that contain{'s' * (more == 1)} one of these, with elements that this data"
+        " does not determine"
+    )
     if others:
-        yield f"not excluded by this data either: {_listed(others)}"
+        yield f"not excluded by this data either: {_listed(others)}" + f"; {larger}" * bool(more)
     elif found.members:
-        yield "this data excludes every other admissible candidate"
+        beside = f", but {larger.replace('one of these', 'it')}" * bool(more)
+        yield f"this data excludes every other candidate{beside}"
     for m in [m for m in found.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
         yield (
@@ -165,7 +179,7 @@ def _explained(found: Selection) -> Iterator[str]:
             f" and {'these sensors and states' if _is_joint(found) else 'sensor'} can tell"
         )
     yield from (_disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements)
-    yield from (*_changed(found), *_hanging(found), *_weak(found))
+    yield from (*_changed(found), *_hanging(found), *_weak(found), *_doubts(found))
 
 
 def _unexplained(found: Selection) -> Iterator[str]:
@@ -197,7 +211,7 @@ def _better(found: Selection) -> Iterator[str]:
     others = f" ({more} more)" if more else ""
     yield (
         f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for"
-        f" {found.selected.j_test:.3g}, but is excluded: {'; '.join(best.reasons)}"
+        f" {found.selected.j_test:.3g}, but is not admissible: {'; '.join(best.reasons)}"
     )
 
 
@@ -215,16 +229,20 @@ def _disagreeing(both: tuple[Disagreement, ...]) -> str:
 
 def _changed(found: Selection) -> Iterator[str]:
     """A machine that is not the same in both measurements."""
+    setups = found.task.cost.setups
     tests = zip(partners(found.task.cost, found.judging), found.judging.parts, strict=True)
-    for (train, judged), of in zip(tests, _of_each(found.judging), strict=True):
-        test = judged.measured
-        apart = between(train, test)
-        own = max(scatter(data).typical for data in (train, test))
-        if apart is not None and apart > CHANGED * own:
+    for k, (train, judged) in enumerate(tests):
+        test, at = judged.measured, setups.index(found.judging.setups[k])
+        of = _of_each(found.judging)[k]
+        fitted = [response_of(found.described, found.task, d.omega, at) for d in (train, test)]
+        known = [scatter(d, [own]) for d, own in zip((train, test), fitted, strict=True)]
+        tau = changed(train, test, *known)
+        if tau:
+            own = max(one.typical for one in known)
             yield (
-                f"training and test data{of} differ by {100 * apart:.2g} % a line, either scatters"
-                f" by {100 * own:.2g} %: the machine changes between them, as friction does with"
-                " the amplitude"
+                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond"
+                f" what they scatter, {100 * own:.2g} %: the machine changes between them, as"
+                " friction does with the amplitude"
             )
 
 
@@ -245,13 +263,29 @@ def _weak(found: Selection) -> Iterator[str]:
     """Parameters of the selected candidate that are known badly."""
     if found.selected is None:
         return
+    wide = found.members[0].intervals if found.members else {}
     loose = {n: e for n, e in found.selected.practical.relative_errors.items() if not e <= KNOWN}
-    if loose:
-        values = ", ".join(
-            f"{n} to ± {100 * e:.0f} %" if isfinite(e) else f"{n} not at all"
-            for n, e in loose.items()
-        )
-        yield f"known badly: {values}"
+    said = [
+        f"{n} {limits_in_words(*wide[n])}" if n in wide and not e <= FROM_ZERO else _loose(n, e)
+        for n, e in loose.items()
+    ]
+    if said:
+        yield f"known badly: {', '.join(said)}"
+
+
+def _loose(name: str, error: float) -> str:
+    return f"{name} to ± {100 * error:.0f} %" if isfinite(error) else f"{name} not at all"
+
+
+def limits_in_words(low: float, high: float) -> str:
+    """An interval of 95 %, of which an end may be missing.
+
+    >>> limits_in_words(0.0, 0.004), limits_in_words(2.0, float("inf"))
+    ('below 0.004 (95 %)', 'above 2 (95 %)')
+    """
+    if not isfinite(high):
+        return f"above {low:.3g} (95 %)" if low > 0 else "not determined"
+    return f"{low:.3g} to {high:.3g} (95 %)" if low > 0 else f"below {high:.3g} (95 %)"
 
 
 def _listed(names: list[str]) -> str:

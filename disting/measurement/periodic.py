@@ -41,6 +41,7 @@ class Estimated:
     coherence: Real | None
     notes: tuple[str, ...]
     distortion: Distortion | None = None
+    freedom: float | None = None
 
 
 def estimate(
@@ -168,7 +169,14 @@ def _estimated(inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str,
     crossed = np.abs(np.sum(outputs * inputs.conj(), axis=0)) ** 2
     # 1 + rounding where nothing is noisy
     coherence = np.clip(crossed / np.where(power > 0, power, 1.0), 0.0, 1.0)
-    return Estimated(omega=omega, G=mean, deviation=deviation, coherence=coherence, notes=notes)
+    return Estimated(
+        omega=omega,
+        G=mean,
+        deviation=deviation,
+        coherence=coherence,
+        notes=notes,
+        freedom=2.0 * (periods - 1),
+    )
 
 
 def _whole(value: int, name: str, least: int) -> int:

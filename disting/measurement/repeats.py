@@ -42,7 +42,13 @@ def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
         return first
     values = np.stack([one.G for one in repeats])
     deviation = np.std(values, axis=0, ddof=1) / np.sqrt(n)
-    mean = replace(first, G=values.mean(axis=0), deviation=deviation, coherence=None)
+    mean = replace(
+        first,
+        G=values.mean(axis=0),
+        deviation=deviation,
+        coherence=None,
+        freedom=2.0 * (n - 1),
+    )
     relative = float(np.median(deviation * np.sqrt(n) / np.abs(mean.G)))
     said = dict.fromkeys(note for one in repeats for note in one.notes)
     doubts = [doubt for one in repeats for doubt in one.doubts]

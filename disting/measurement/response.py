@@ -59,8 +59,10 @@ class FrequencyResponse(Shown):
     gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows; `origin` = file
     and columns; `notes` = what was assumed or changed while reading; `distortion` = what the lines
     without excitation of a periodic record show, or None; `doubts` = what looked wrong while
-    reading; `reading` = which columns were read as what. Frequencies out of order are sorted,
-    with a note. Raises InputError for what is no frequency response (module `checks`).
+    reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
+    squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
+    are. Frequencies out of order are sorted, with a note. Raises InputError for what is no
+    frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -80,6 +82,7 @@ class FrequencyResponse(Shown):
     distortion: Distortion | None = None
     doubts: tuple[str, ...] = ()
     reading: str = ""
+    freedom: float | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")

@@ -139,6 +139,7 @@ class TimeSeries:
             notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
             distortion=found.distortion,
             reading=f"record in time, input {self.input}, output {self.output}",
+            freedom=found.freedom,
         )
         return response if sensor is None else response.to_quantity(sensor)
 

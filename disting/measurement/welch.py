@@ -84,6 +84,7 @@ def estimate(
         deviation=deviation[good],
         coherence=coherence[good],
         notes=tuple(notes),
+        freedom=2.0 * (effective - 1),
     )
 
 

@@ -52,5 +52,4 @@ def test_other_numbers_are_fitted_without_a_warning(name):
     """What only the units make large or small is explained as it is in other units."""
     found = fitted(*TAKEN[name])
     assert all(np.isfinite(c.estimate.j) for c in found.candidates)
-    # 8 lines are too few to judge their scatter by: it comes out at a quarter of what it is
-    assert found.explanation.explains == (name not in ("wide", "8 lines"))
+    assert found.explanation.explains == (name != "wide")

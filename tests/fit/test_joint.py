@@ -14,7 +14,7 @@ from disting.experiments.stacked_profiles import rank_by
 from disting.fit.alternatives import representatives
 from disting.fit.cost import Case, Cost, lines_by_deviation
 from disting.fit.descent import fine
-from disting.fit.each import JointNoise, noises, scatters
+from disting.fit.each import JointNoise, noises, scatters, together
 from disting.fit.estimate import Task
 from disting.fit.joint import Further, JointCost, joint_cost
 from disting.fit.members import QUANTILE
@@ -163,7 +163,7 @@ def test_a_stack_of_one_response_is_that_response():
         one.cost.of(one.plant(TWO), p), stacked.cost.of(stacked.plant(TWO), p), strict=True
     ):
         np.testing.assert_array_equal(a, b)
-    sigma = one.cost.scatter(scatters(one.cost, []).rho)
+    sigma = one.cost.scatter(together(scatters(one.cost, [])).rho)
     residual = one.cost.residual(data.G * 1.01)
     alone, both = noises(one.cost, residual, sigma), noises(stacked.cost, residual, sigma)
     np.testing.assert_array_equal(alone.sigma, both.sigma)
@@ -258,7 +258,7 @@ def errors(chain, values, data, further):
     plant = task.plant(chain)
     p, j = fine(plant, task.cost, task.box(chain.parameters), start)
     residual, columns = task.cost.of(plant, p)
-    sigma = task.cost.scatter(scatters(task.cost, [plant.response(p)]).rho)
+    sigma = task.cost.scatter(together(scatters(task.cost, [plant.response(p)])).rho)
     there = noises(task.cost, residual, sigma, expected(columns, sigma))
     return (p - start) / (p * np.sqrt(np.diag(covariance(columns, there)))), j
 
@@ -301,7 +301,7 @@ def test_two_equal_responses_are_one_of_half_the_variance():
     for further in ([], [Further(data[1], Setup(sensor="1"))]):
         task = Task(joint_cost(Cost(data[0]), further, None, alike=True))
         residual, columns = task.cost.of(task.plant(TWO), p)
-        sigma = task.cost.scatter(scatters(task.cost, [task.plant(TWO).response(p)]).rho)
+        sigma = task.cost.scatter(together(scatters(task.cost, [task.plant(TWO).response(p)])).rho)
         there = noises(task.cost, residual, sigma, expected(columns, sigma))
         sizes.append(np.sqrt(np.diag(covariance(columns, there))))
     np.testing.assert_allclose(sizes[0] / sizes[1], np.sqrt(2), rtol=0.1)

@@ -15,7 +15,6 @@ from disting.fit.cost import lines_by_deviation
 from disting.fit.export import predicted
 from disting.fit.modes import oscillating, physical, poles, zeros
 from disting.fit.practical import Thresholds
-from disting.fit.repeatability import repeatability
 from disting.fit.select import select
 from disting.fit.selection_json import model_from_dict, selection_to_dict
 from disting.fit.sweep import CRITERIA, profile, sweep
@@ -54,11 +53,17 @@ def test_every_excluded_candidate_has_a_reason_and_kept_ones_share_the_weight(se
     assert costs == sorted(costs)
 
 
-def test_a_simpler_candidate_wins_unless_it_loses_by_more_than_noise(selection):
-    best = min((c for c in selection.candidates if c.admissible), key=lambda c: c.j_test)
-    assert selection.selected.n_parameters <= best.n_parameters
-    assert selection.selected.j_test <= best.j_test + selection.margin
-    assert selection.repeatability.typical == pytest.approx(0.01 / np.sqrt(2), rel=0.2)
+def test_the_simplest_of_what_is_not_excluded_is_selected(selection):
+    left = [m.candidate for m in selection.members]
+    assert left[0] == selection.selected
+    sizes = [(c.n_parameters, c.j_test) for c in left]
+    assert sizes == sorted(sizes)
+    names = [m.candidate.chain for m in selection.members]
+    assert all(m.contains in names and not m.candidate.admissible for m in selection.containing)
+    left += [m.candidate for m in selection.containing]
+    out = [c for c in selection.candidates if c.excluded is not None]
+    assert all(c.excluded.statistic > c.excluded.limit > 6.6 for c in out)
+    assert not {c.chain for c in out} & {c.chain for c in left}
 
 
 def test_the_json_reads_back_bit_equal(selection):
@@ -85,14 +90,14 @@ def test_the_json_reads_back_bit_equal(selection):
 
 def test_the_same_seed_gives_the_same_bytes(selection):
     """All of it for fewer candidates; of the candidates of `selection`, what each fit found, in
-    another company.
+    another company, which weighs the lines a little differently.
     """
     few = [c for c in figure_1((1, 2)) if not c.lag and len(c.ground_dampers) < 2]
     once, again = (select(planted(1), few, test=planted(2)) for _ in range(2))
     assert json.dumps(selection_to_dict(once)) == json.dumps(selection_to_dict(again))
     found = {c.chain: c.estimate.parameters for c in selection.candidates}
     assert once.selected.chain == PLANTED and once.selected.estimate.parameters == pytest.approx(
-        found[PLANTED]
+        found[PLANTED], rel=0.02
     )
 
 
@@ -199,7 +204,7 @@ def test_what_no_data_determine_is_said_by_its_combinations_and_never_selected()
     chain = Chain(2, meas_plus=2, damped=True)
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0}
     loose = Thresholds(1e300, 1e300, 1e300)
-    data = response(chain, values, noise=0.01)
+    data = response(chain, values, noise=0.01, seed=1)  # fitted masses that are not equal
     found = select(data, [chain, replace(chain, ground_dampers=(1,))], test=data, thresholds=loose)
     (plain,) = (c for c in found.candidates if c.chain == chain)
     said = "not identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
@@ -246,15 +251,6 @@ def test_input_that_does_not_fit_together_is_refused():
         select(planted(1), [Chain(1, damped=False)], test=planted(2).to_quantity("velocity"))
     with pytest.raises(InputError, match="choose other weights"):
         select(planted(1), [Chain(1, damped=False)], lines=lines_by_deviation)
-
-
-def test_repeatability_comes_from_common_lines_then_deviations_then_residuals():
-    one, two = planted(1), planted(2)
-    assert repeatability(one, two, np.ones(4)).source == "120 lines that training and test share"
-    other = response(PLANTED, VALUES, OMEGA * 1.01, noise=0.01)
-    assert repeatability(one, other, np.full(4, 0.5)).typical == 0.5
-    known = replace(other, deviation=0.02 * np.abs(other.G))
-    assert repeatability(one, known, np.ones(4)).typical == pytest.approx(0.02 / np.sqrt(2))
 
 
 def test_the_bench_is_a_two_mass_drive_and_predicts_the_load_that_it_never_saw():

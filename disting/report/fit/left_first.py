@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 from disting.errors import listed
 from disting.experiments.menu import Item
+from disting.fit.exclusion import joined
 from disting.fit.foretold import Foretold
-from disting.fit.plan import POWER, joined
+from disting.fit.plan import POWER
 from disting.report.fit.left_words import Onward, cheapest_first
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent

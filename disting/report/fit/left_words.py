@@ -7,9 +7,10 @@ from typing import Any
 
 from disting.experiments.menu import Costs, Item
 from disting.fit.candidates import as_listed, reference
+from disting.fit.exclusion import LEVEL, joined
 from disting.fit.foretold import Foretold, Step
 from disting.fit.named import Left, Named
-from disting.fit.plan import LEVEL, POWER, joined
+from disting.fit.plan import POWER
 from disting.fit.standing import Standing, Stood
 from disting.model.drawing import LEGEND, text_drawing
 from disting.report.fit.plan_words import chance

@@ -7,8 +7,9 @@ import numpy as np
 
 from disting.fit.candidates import as_listed, reference
 from disting.fit.designed import Designed
+from disting.fit.exclusion import LEVEL, joined
 from disting.fit.named import Named
-from disting.fit.plan import LEVEL, POWER, Answer, Plan, is_trusted, joined, needed, power, typical
+from disting.fit.plan import POWER, Answer, Plan, is_trusted, power, typical
 from disting.fit.rival import Limit, Rival
 from disting.model.drawing import text_drawing
 from disting.model.names import damping_option
@@ -227,7 +228,7 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f"test            {found.surplus} surplus parameter{plural}{larger}, level {percent(LEVEL)}"
     )
     yield (
-        f"noncentrality   {readable(found.noncentrality)}, of {readable(needed(found.surplus))} for"
+        f"noncentrality   {readable(found.noncentrality)}, of {readable(found.needed)} for"
         f" power {percent(POWER)}"
     )
     yield f"power           {chance(found.power)}"
@@ -252,8 +253,8 @@ def _spectra(found: Plan, best: Designed) -> Iterator[str]:
     width = max(len(name) for name, _ in rows)
     yield f"{'excitation of the same power':{width}}  {'lambda':>8}  {'power':>8}  {'periods':>8}"
     for name, size in rows:
-        periods = f"{readable(needed(found.surplus) / size)}x"
-        reached = chance(power(size, found.surplus))
+        periods = f"{readable(found.needed / size)}x"
+        reached = chance(power(size, found.surplus, found.level))
         yield f"{name:{width}}  {readable(size):>8}  {reached:>8}  {periods:>8}"
     gap = best.optimum.bound / best.optimum.noncentrality - 1
     yield f"no spectrum of this power reaches more than {percent(gap)} beyond the optimal one"

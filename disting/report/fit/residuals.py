@@ -80,9 +80,12 @@ def _judged(selection: Selection, at: int) -> Scatter | None:
     cost, whole = selection.judging, selection.explanation.scatter
     if len(selection.task.cost.setups) == 1:
         return whole
-    each = zip(cost.setups, cost.by_line(whole.rho), strict=True)
     setup = selection.task.cost.setups[at]
-    return next((Scatter(rho, whole.source) for own, rho in each if own == setup), None)
+    if setup not in cost.setups:
+        return None
+    which = cost.setups.index(setup)
+    ends = np.cumsum([0, *(len(part.measured) for part in cost.parts)])
+    return whole.at(slice(ends[which], ends[which + 1]))
 
 
 def misses_of(selection: Selection, at: int) -> list[Miss]:

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from disting.files import __version__
 from disting.fit.alternatives import Alternative
-from disting.fit.explained import LARGEST
+from disting.fit.exclusion import LEVEL
+from disting.fit.explained import allowed
 from disting.fit.judged import Candidate
 from disting.fit.measured import read_in_words
 from disting.fit.modes import Result
@@ -120,17 +121,9 @@ def reasoning(selection: Selection) -> list[tuple[str, str]]:
     """Keyword and one sentence each: how the cost was validated, what noise may do, why this
     one, how safe the optimum is.
     """
-    typical = selection.repeatability.typical
     rows = [
         ("Validation", _validation(selection)),
-        (
-            "Repeatability",
-            (
-                f"Amplitude and phase of a line scatter by about {percent(typical)} and"
-                f" {readable(typical, 2)} rad, known from {selection.repeatability.source}."
-            ),
-        ),
-        ("Margin", _margin(selection)),
+        ("Choice", _choice(selection)),
         ("Akaike weights", _akaike(selection)),
         ("Starts", _starts(selection.described)),
         ("Scatter", _scatter(selection)),
@@ -188,23 +181,20 @@ def _validation(selection: Selection) -> str:
     )
 
 
-def _margin(selection: Selection) -> str:
+def _choice(selection: Selection) -> str:
     """Why the selected candidate and not the one with the lowest cost."""
-    chosen = selection.selected
-    if chosen is None:
+    if selection.selected is None:
         return ""
-    excluded, best = (
-        _excluded(selection, chosen),
-        next(c for c in selection.candidates if c.admissible),
-    )
-    if best is chosen:
-        return f"The selected candidate has the lowest cost of all admissible ones.{excluded}"
-    fewer = plural(best.n_parameters - chosen.n_parameters, "parameter")
+    if not selection.explanation.explains:
+        return "No candidate explains the data; the selected one has the lowest cost."
+    out = sum(c.excluded is not None for c in selection.candidates)
+    left = plural(len(selection.members) + len(selection.containing), "candidate")
     return (
-        f"{name(best.chain)} has the lowest cost of all admissible ones, {readable(best.j_test)};"
-        f" the selected candidate has {fewer} fewer and loses"
-        f" {readable(chosen.j_test - best.j_test)}, less than the {readable(selection.margin)} that"
-        f" noise alone may make (two standard deviations of the difference).{excluded}"
+        f"{left} the data do not exclude, the selected one"
+        " is the simplest of them, of equally simple ones that with the lowest cost."
+        f" {plural(out, 'candidate')} that would explain the data alone"
+        f" {'is' if out == 1 else 'are'} excluded by another one at the level"
+        f" {percent(LEVEL)}; the others miss more than the data scatter."
     )
 
 
@@ -214,23 +204,7 @@ def _scatter(selection: Selection) -> str:
     return (
         f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}."
         f" Measured by it, chi2 per line is {readable(said.chi2)}: 1 is noise alone, above"
-        f" {readable(LARGEST)} the data are not explained."
-    )
-
-
-def _excluded(selection: Selection, chosen: Candidate) -> str:
-    """How many excluded candidates fit better, and how much: far lower costs call for other
-    thresholds or candidates.
-    """
-    lower = [
-        c.j_test for c in selection.candidates if not c.admissible and c.j_test < chosen.j_test
-    ]
-    if not lower:
-        return ""
-    reach = f"{plural(len(lower), 'excluded candidate')} reach{'es' * (len(lower) == 1)}"
-    return (
-        f" {reach} a lower one, down to {readable(min(lower))}, by parameters that these data do"
-        " not determine."
+        f" {readable(allowed(said.scatter), 2)} the data are not explained."
     )
 
 

@@ -66,7 +66,7 @@ def series(measured: FrequencyResponse, rho: float = 0.05) -> Series:
         measured,
         Tone.FIRST,
         "o",
-        Scatter(np.full(len(measured), rho), "somewhere"),
+        Scatter(np.full(len(measured), rho), np.abs(measured.G), "somewhere"),
     )
 
 
@@ -99,7 +99,10 @@ def test_residuals_are_those_of_data_and_model(
     assert np.exp(first.amplitude + 1j * first.phase) == pytest.approx(train.G / model)
     assert second.series.scatter is selection.explanation.scatter
     wide = replace(
-        first, series=replace(first.series, scatter=Scatter(np.full(len(train), 1.0), ""))
+        first,
+        series=replace(
+            first.series, scatter=Scatter(np.full(len(train), 1.0), np.abs(train.G), "")
+        ),
     )
     assert wide.outside == 0.0 and first.outside < 0.2
 

@@ -1,0 +1,201 @@
+"""Noise as a bench has it: white in time on the measured current and speed, so that the relative
+scatter of a line varies over the lines. The scatter is found, the true structure is kept.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from disting.fit.cost import Cost
+from disting.fit.exclusion import Fitted, basis_of, contains, excluded, limit, statistic, surplus
+from disting.fit.line_variance import coefficients
+from disting.fit.noise import Noise
+from disting.fit.scatter import changed, scatter
+from disting.fit.whitened import Whitened
+from disting.measurement import FrequencyResponse, mean_of
+from disting.model.chain import Chain
+from disting.model.settings import Settings
+from tests.fit.monte_carlo import (
+    BENCH,
+    Drive,
+    drive,
+    measured,
+    outcome,
+    recorded,
+    response_at,
+    selected,
+    table,
+    true_scatter,
+    truth,
+)
+
+DRIVES = [drive(2, seed) for seed in range(12)]
+
+
+def exact(machine: Drive, omega: np.ndarray) -> np.ndarray:
+    """The response without noise."""
+    return response_at(truth(machine), machine.values, omega)
+
+
+@pytest.mark.parametrize("repeats", [1, 2, 10])
+def test_the_scatter_is_that_of_the_bench_however_often_it_was_measured(repeats):
+    sizes, shapes = [], []
+    for machine in DRIVES:
+        data = measured(machine, repeats)
+        known = scatter(data, [exact(machine, data.omega)])
+        apart = np.log(known.rho / true_scatter(machine, data.omega, repeats))
+        sizes.append(apart.mean())
+        shapes.append(apart.std())
+    assert abs(np.mean(sizes)) < 0.06 and np.std(sizes) < 0.15
+    assert np.median(shapes) < 0.2
+
+
+@pytest.mark.parametrize("repeats", [1, 2, 10])
+def test_whitened_residuals_of_the_truth_are_standard_normal(repeats):
+    size = []
+    for machine in DRIVES:
+        data = measured(machine, repeats)
+        response = exact(machine, data.omega)
+        size.append(
+            np.mean(Whitened(Cost(data), scatter(data, [response])).residual(response) ** 2)
+        )
+    assert np.mean(size) == pytest.approx(1, abs=0.1) and np.max(size) < 1.7
+
+
+def test_the_reader_is_the_plain_quotient_of_the_spectra():
+    """A twin by numpy alone: mean spectra, and the scatter of the quotients of single periods."""
+    machine, periods = DRIVES[0], 3
+    data, series = measured(machine, periods), recorded(machine, periods)
+    shape = periods, BENCH.samples
+    u, y = (np.fft.rfft(x.reshape(shape), axis=1)[:, 4:301:3] for x in (series.u, series.y))
+    omega = 2 * np.pi * np.arange(4, 301, 3) * BENCH.sampling_rate / BENCH.samples
+    np.testing.assert_allclose(data.G, 1j * omega * y.sum(axis=0) / u.sum(axis=0), rtol=1e-9)
+    spread = np.sqrt(np.sum(np.abs(y / u - (y / u).mean(axis=0)) ** 2, axis=0) / (2 * periods))
+    np.testing.assert_allclose(data.deviation, omega * spread, rtol=1e-9)
+    assert data.freedom == 4.0 and measured(machine, 1).freedom is None
+
+
+def test_coefficients_are_those_that_made_the_powers():
+    source = np.random.default_rng(1)
+    columns = np.stack([np.ones(4000), np.geomspace(0.01, 100, 4000)], axis=1)
+    for true in ([2.0, 0.3], [0.0, 1.0], [1.0, 0.0]):
+        power = (columns @ true) * source.exponential(size=4000)
+        assert coefficients(columns, power) == pytest.approx(true, rel=0.12, abs=0.02)
+        assert coefficients(columns, power, trim=0.0) == pytest.approx(true, rel=0.12, abs=0.02)
+
+
+def test_standard_deviations_that_are_ten_times_too_large_are_doubted():
+    machine = DRIVES[1]
+    data = measured(machine, 10)
+    response = exact(machine, data.omega)
+    assert scatter(data, [response]).doubt == ""
+    for factor in (10.0, 3.0):
+        wrong = replace(data, deviation=factor * data.deviation)
+        assert (
+            "times as large as what neighbouring lines scatter by"
+            in scatter(wrong, [response]).doubt
+        )
+
+
+def test_standard_deviations_that_are_too_small_are_widened():
+    machine = DRIVES[1]
+    data = measured(machine, 10)
+    response = exact(machine, data.omega)
+    small = scatter(replace(data, deviation=data.deviation / 10), [response])
+    assert "jump by more than their standard deviations" in small.source
+    assert small.typical > 3 * scatter(replace(data, deviation=data.deviation / 10)).typical
+
+
+def test_repeats_know_their_degrees_of_freedom():
+    machine = DRIVES[2]
+    repeats = [measured(machine, 1, again) for again in range(3)]
+    assert mean_of(repeats).freedom == 4.0 and mean_of(repeats[:1]).freedom is None
+    assert mean_of(repeats).masked(10.0, 200.0).freedom == 4.0
+
+
+def test_a_machine_that_does_not_change_is_not_said_to():
+    for machine in DRIVES:
+        one, other = measured(machine, 1), measured(machine, 1, 1)
+        response = exact(machine, one.omega)
+        known = [scatter(data, [response]) for data in (one, other)]
+        assert changed(one, other, *known) == 0.0
+        moved = FrequencyResponse(other.omega, 2 * other.G)
+        assert changed(one, moved, *known) > 0.2
+
+
+def test_the_level_of_the_test_is_what_it_says():
+    """Linear models: a true one is excluded by one with two elements more in 1 % of all cases."""
+    source = np.random.default_rng(3)
+    columns = source.normal(size=(60, 5))
+    small, large = basis_of(columns[:, :3]), basis_of(columns)
+    chains = Chain(2, damped=True), Chain(2, damped=True, ground_dampers=(1, 2))
+    beyond, count = 0, 4000
+    for _ in range(count):
+        noise = source.normal(size=60)
+        fits = [
+            Fitted(chain, noise - basis @ (basis.T @ noise), basis, Noise(np.ones(60)))
+            for chain, basis in zip(chains, (small, large), strict=True)
+        ]
+        gain = fits[0].cost - fits[1].cost
+        assert statistic(*fits) == pytest.approx(gain)
+        beyond += statistic(*fits) > limit(2, np.inf)
+    assert surplus(chains[1], chains[0]) == 2
+    assert beyond / count == pytest.approx(0.01, abs=0.005)
+
+
+def test_a_structure_that_misses_is_excluded_by_the_one_that_does_not():
+    source = np.random.default_rng(4)
+    columns = source.normal(size=(60, 4))
+    data = columns @ [1.0, 2.0, 3.0, 4.0] + source.normal(size=60)
+    chains = Chain(2, damped=True), Chain(2, damped=True, ground_dampers=(1,))
+    fits = [
+        Fitted(chain, data - basis @ (basis.T @ data), basis, Noise(np.ones(60)))
+        for chain, basis in zip(chains, (basis_of(columns[:, :3]), basis_of(columns)), strict=True)
+    ]
+    for seen in (True, False):
+        (found,) = excluded(fits, 100.0, Settings(), seen=seen).items()
+        assert found[0] == chains[0] and found[1].by == chains[1]
+        assert found[1].statistic > found[1].limit == pytest.approx(limit(1, 100.0))
+
+
+def test_what_contains_what():
+    one, two = Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, lag=True)
+    both = replace(two, ground_dampers=(1,))
+    assert contains(both, one) and contains(both, two) and not contains(one, two)
+    assert contains(replace(both, n_masses=3), one) and not contains(one, one)
+    assert not contains(replace(both, meas_plus=2), one)
+
+
+@pytest.mark.parametrize("repeats", [1, 2])
+def test_the_true_structure_is_kept(repeats):
+    """A quiet, a middling and a loud drive; the wrong smaller ones are excluded."""
+    found = [outcome(m, selected(m, repeats)) for m in DRIVES[:3]]
+    assert all(one.kept and one.explained for one in found)
+    assert all(one.smaller_excluded > 0.6 for one in found)
+
+
+def test_a_damper_that_is_hardly_there_is_below_a_value():
+    """A steel shaft: the structure stays, and says how much the damper is at most."""
+    chain = Chain(2, sensor="velocity", damped=True, ground_dampers=(1,))
+    values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 1e-5, "b1": 0.1}
+    machine = Drive(chain, values, 0.06, 3)
+    data = measured(machine, 10)
+    found = selected(machine, 10)
+    member = next(m for m in found.members if m.candidate.chain == truth(machine))
+    low, high = member.intervals["d12"]
+    assert low == 0.0 and 1e-5 < high < 0.05
+    assert member.intervals["m1"][0] < 5e-3 < member.intervals["m1"][1]
+    assert len(data) == 99
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tested", [False, True], ids=["alone", "with test data"])
+@pytest.mark.parametrize("repeats", [1, 2, 10])
+@pytest.mark.parametrize(("n_masses", "least"), [(2, 0.95), (3, 0.95), (4, 0.9)])
+def test_the_true_structure_is_kept_in_95_percent(n_masses, least, repeats, tested):
+    machines = [drive(n_masses, seed) for seed in range(200)]
+    found = [outcome(m, selected(m, repeats, tested)) for m in machines]
+    print(n_masses, repeats, tested, table(found))
+    assert np.mean([one.kept for one in found]) >= least
+    assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
