@@ -6,7 +6,7 @@ the small candidates are fitted with the other two. With n residuals and p param
 compared by n ln(J/n) + p ln n (Schwarz 1978): J in logarithms does not depend on the unit.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from math import inf, log, pi
@@ -61,6 +61,7 @@ def other_quantities(
     task: Task,
     store: Store | None = None,
     executor: Executor | None = None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[str, ...]:
     """Sentences on the quantities that explain the data as well as the assumed one, or better; none
     where nothing is assumed, several responses are fitted, or the cost is not of logarithms.
@@ -76,6 +77,7 @@ def other_quantities(
     for quantity in Sensor:
         if quantity is taken:
             continue
+        progress(f"read as {quantity.value}", len(found), len(Sensor) - 1)
         other = replace(cost, measured=_shifted(cost.measured, taken.order - quantity.order))
         seen = replace(task, cost=other)
         fits = estimates(_small(candidates), seen, store=store, executor=executor).values()

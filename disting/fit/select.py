@@ -207,7 +207,7 @@ def select(
         task=task,
         test=test or train,
         judging=test_cost or task.cost,
-        quantities=other_quantities(chosen.candidates, task, engine.store, executor),
+        quantities=other_quantities(chosen.candidates, task, engine.store, executor, progress),
     )
 
 

@@ -6,7 +6,9 @@ numbers; so "1,5;2,5" has decimal commas, "1,5" alone two columns, "1,5 2,5" dec
 """
 
 import re
+from array import array
 from collections import Counter
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -46,32 +48,33 @@ def decoded(content: bytes, origin: str) -> str:
 
 def table(text: str, origin: str) -> Table:
     """The table in a text; raises InputError with line and column of the first mistake."""
-    numbered = [
-        (n, line.strip("\r\n "))
-        for n, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
-        if line.strip()
-    ]
-    comments = [line.lstrip("#% ") for _, line in numbered if line[0] in "#%"]
-    rows = [(n, line) for n, line in numbered if line[0] not in "#%"]
+    numbers, rows, comments = array("q"), list[str](), list[str]()
+    for n, whole in enumerate(re.split(r"\r\n|\n|\r", text), 1):
+        line = whole.strip("\r\n ")
+        if line[:1] in ("#", "%"):
+            comments.append(line.lstrip("#% "))
+        elif line.strip():
+            numbers.append(n)
+            rows.append(line)
     if 1 < len(rows) <= MOST_QUANTITIES:
-        turned = _turned([line for _, line in rows], origin, tuple(comments))
+        turned = _turned(rows, origin, tuple(comments))
         if turned is not None:
             return turned
-    delimiter, decimal = _dialect([line for _, line in rows], origin)
-    split = [(n, _fields(line, delimiter)) for n, line in rows]
-    width = _width([fields for _, fields in split if _count(fields, decimal) == len(fields)])
+    delimiter, decimal = _dialect(rows, origin)
+    width = _width(rows, delimiter, decimal)
+    # the cells of all lines at once would take twenty times the file
+    split = ((n, _fields(line, delimiter)) for n, line in zip(numbers, rows, strict=True))
     start = _first_row(split, decimal, width, origin)
-    headers = _headers([fields for _, fields in split[:start]], comments, delimiter, width)
-    data = split[start:]
-    values = np.array(
-        [_numbers(n, fields, headers, decimal, origin) for n, fields in data], dtype=np.float64
-    )
-    outside = [" ".join(fields) for _, fields in split[:start]]
+    before = [_fields(line, delimiter) for line in rows[:start]]
+    headers = _headers(before, comments, delimiter, width)
+    cells = array("d")
+    for n, line in zip(numbers[start:], rows[start:], strict=True):
+        cells.extend(_numbers(n, _fields(line, delimiter), headers, decimal, origin))
     return Table(
         headers=headers,
-        values=values,
-        lines=tuple(n for n, _ in data),
-        comments=(*comments, *outside),
+        values=np.frombuffer(cells, dtype=np.float64).reshape(-1, width),
+        lines=tuple(numbers[start:]),
+        comments=(*comments, *(" ".join(fields) for fields in before)),
         origin=origin,
     )
 
@@ -149,12 +152,16 @@ def _with_point(field: str, decimal: str) -> str:
     return field.translate(SWAPPED) if decimal == "," else field
 
 
-def _width(rows: list[list[str]]) -> int:
+def _width(rows: list[str], delimiter: str, decimal: str) -> int:
     """Most frequent number of columns."""
-    return Counter(len(row) for row in rows).most_common(1)[0][0]
+    split = (_fields(line, delimiter) for line in rows)
+    whole = Counter(len(fields) for fields in split if _count(fields, decimal) == len(fields))
+    return whole.most_common(1)[0][0]
 
 
-def _first_row(split: list[tuple[int, list[str]]], decimal: str, width: int, origin: str) -> int:
+def _first_row(
+    split: Iterable[tuple[int, list[str]]], decimal: str, width: int, origin: str
+) -> int:
     """Number of lines before the data; one that is partly numbers is damaged data, if it is of
     full width or below a header.
     """

@@ -13,6 +13,7 @@ from disting import InputError
 from disting.measurement import read
 from disting.measurement.matlab import variables
 from disting.measurement.source import LARGEST, source
+from disting.measurement.text_table import table
 from tests.measurement.matlab_objects import element, head, matrix
 
 FREQUENCY = np.linspace(1.0, 100.0, 16)
@@ -185,3 +186,13 @@ def test_complex_frequencies_are_refused(tmp_path):
     )
     with pytest.raises(InputError, match="f is complex; frequencies and times are real"):
         read(tmp_path / "a.mat")
+
+
+def test_a_table_takes_a_few_times_its_file():
+    text = "f [Hz],Re,Im\n" + "".join(f"{n},{1 / n},{n / 7}\n" for n in range(1, 40_000))
+    tracemalloc.start()
+    try:
+        assert table(text, "a.csv").values.shape == (39_999, 3)
+        assert tracemalloc.get_traced_memory()[1] < 8 * len(text)
+    finally:
+        tracemalloc.stop()
