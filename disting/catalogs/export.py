@@ -109,11 +109,14 @@ def share_text(found: PositiveFinding | None) -> str:
 
 
 def _names(decided: Decisions) -> Sequence[int | str]:
-    """Numbers from 1 for the numbered chains of one size, else the subjects' names."""
-    names = [s.name for s in decided.subjects]
+    """Numbers from 1 for the numbered chains of one size, named 3:1, .. or A1, .., else the
+    subjects' names.
+    """
+    names, sizes = [s.name for s in decided.subjects], set(decided.sizes)
     numbers = range(1, len(names) + 1)
-    whole = [[f"{size}:{number}" for number in numbers] for size in set(decided.sizes)]
-    return numbers if whole == [names] else names
+    heads = ("A", f"{min(sizes)}:") if len(sizes) == 1 else ()
+    numbered = any(names == [f"{head}{number}" for number in numbers] for head in heads)
+    return numbers if numbered else names
 
 
 def _cell(name: int | str) -> int | str:

@@ -190,7 +190,7 @@ def test_a_pair_is_found_by_its_names_and_told(visit, vessels) -> None:  # type:
     verdict = vessels.verdict(1, 2, View.POSITIVE)
     assert tab.inner_text("#detail h3") == "two leaks and exchange"
     assert tab.inner_text("#detail .shown").startswith(
-        "It depends on the machine: some curves fit both two leaks"
+        "It depends on the values: some responses fit both two leaks"
     )
     tab.click("#detail summary")
     assert tab.inner_text("#detail .why") == verdict.evidence.sentence("two leaks", "exchange")

@@ -27,7 +27,7 @@ from functools import cached_property, lru_cache, reduce
 from operator import mul
 from typing import Protocol
 
-from flint import fmpz_mpoly, fmpz_mpoly_ctx
+from flint import fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.sampling import digest
 from disting.algebra.symbols import renamed, symbols
@@ -199,9 +199,9 @@ def separated(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> Coeff
 
 def _powers_of_s(polynomial: fmpz_mpoly, context: fmpz_mpoly_ctx) -> tuple[fmpz_mpoly, ...]:
     """The coefficients of the powers 0, 1, .. of the first symbol, without it."""
-    parts: list[dict[tuple[int, ...], int]] = [{} for _ in range(polynomial.degrees()[0] + 1)]
+    parts: list[dict[tuple[int, ...], fmpz]] = [{} for _ in range(polynomial.degrees()[0] + 1)]
     for powers, number in polynomial.to_dict().items():
-        parts[powers[0]][powers[1:]] = number
+        parts[powers[0]][powers[1:]] = int(number)
     return tuple(map(context.from_dict, parts))
 
 

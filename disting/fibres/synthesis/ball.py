@@ -6,7 +6,7 @@ accepted by one: a survivor is consistent, no more. Balls that hold zero but are
 either way and call for more bits.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import combinations
 from typing import Any
 
@@ -76,8 +76,9 @@ def product(roots: list[Ball]) -> Poly:
     return acb_poly.from_roots(roots)
 
 
-def roots(p: Poly, degree: int) -> list[Ball]:
-    """Balls, each with exactly one root, as narrow as the coefficients allow.
+def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: False) -> list[Ball]:
+    """Balls, each with exactly one root, as narrow as the coefficients allow; wide ones that are
+    `excluded` stay wide.
 
     Raises Imprecise if the leading coefficient or the isolation is not sure: multiple roots look
     like that at any precision.
@@ -92,12 +93,17 @@ def roots(p: Poly, degree: int) -> list[Ball]:
     if not found:
         raise Imprecise("roots could not be isolated")
     slope = p.derivative()
-    sharp = [_sharpened(p, slope, z) for z in found]
+
+    def sharpened(wide: list[Ball]) -> list[Ball | None]:
+        """Each that is needed sharp, as sharp as may be."""
+        return [z if excluded(z) else _sharpened(p, slope, z) for z in wide]
+
+    sharp = sharpened(found)
     for tolerance in _ISOLATION:
         finer = [] if all(z is not None for z in sharp) else _isolated(p, tolerance)
         if not finer:
             break
-        found, sharp = finer, [_sharpened(p, slope, z) for z in finer]
+        found, sharp = finer, sharpened(finer)
     return [z if better is None else better for z, better in zip(found, sharp, strict=True)]
 
 
@@ -127,11 +133,12 @@ def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
         mid = (mid - change).mid()
         if bool(change.abs_upper() <= near * mid.abs_upper()):
             break  # the next change is about the square of this one
-    error = 4 * (p(mid) / slope(mid)).abs_upper() + mid.abs_upper() * arb(2) ** (4 - ctx.prec)
+    value = p(mid)
+    error = 4 * (value / slope(mid)).abs_upper() + mid.abs_upper() * arb(2) ** (4 - ctx.prec)
     spread = arb(0, error.upper())
     box = mid + acb(spread, spread)
     steep = slope(box)
-    step = mid - p(mid) / steep
+    step = mid - value / steep
     proven = not steep.contains(0) and z.contains(box) and box.contains(step)
     return step if proven else None
 

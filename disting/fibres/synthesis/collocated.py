@@ -25,37 +25,45 @@ class Residue:
 
 def collocated(row: Row, data: Receptance) -> Iterator[Leaf]:
     """Yield every row with this driving-point receptance."""
-    zeros = roots(data.numerator, row.numerator_degree)
+    zeros = inverse_residues(data, roots(data.numerator, row.numerator_degree))
+    whole = data.denominator // data.numerator
     for left, right in splits(zeros, row.q * (row.a - 1)):
-        yield from between(row, data, left, right)
+        yield from between(row, whole, left, right)
 
 
-def between(row: Row, data: Receptance, left: list[Ball], right: list[Ball]) -> Iterator[Leaf]:
-    """Yield every row whose left side has the zeros `left`, its right side the zeros
-    `right`.
+def inverse_residues(data: Receptance, zeros: list[Ball]) -> list[Residue]:
+    """Of 1/H at the zeros of its numerator."""
+    slope = data.numerator.derivative()
+    return [Residue(z, data.denominator(z) / slope(z)) for z in zeros]
+
+
+def between(row: Row, whole: Poly, left: list[Residue], right: list[Residue]) -> Iterator[Leaf]:
+    """Yield every row whose left side has the zeros `left`, its right side the zeros `right`.
+
+    `whole`: the polynomial part of 1/H, of degree 2 (undamped 1), with the leading coefficient m_a.
     """
-    q, slope = row.q, data.numerator.derivative()
-    whole = data.denominator // data.numerator  # degree 2 (undamped 1), leading coefficient m_a
-    lefts, rights = (
-        [Residue(z, data.denominator(z) / slope(z)) for z in side] for side in (left, right)
-    )
+    q, mass = row.q, whole[row.q]
     low: list[Ball] = [
-        sum((r.value / r.at ** (i + 1) for r in rights), 0 * whole[0]) for i in range(q)
+        sum((r.value / r.at ** (i + 1) for r in right), 0 * whole[0]) for i in range(q)
     ]
-    w_right = Stiffness(
-        numerator=grounded_at_zero(over(rights, low), q),
-        denominator=product(right),
-        masses=row.n_masses - row.a,
-        wall=False,
+    p_left = over(left, [whole[i] - low[i] for i in range(q)])
+    w_left = Stiffness(
+        numerator=p_left if row.grounded else grounded_at_zero(p_left, q),
+        denominator=product([r.at for r in left]),
+        masses=row.a - 1,
+        wall=row.grounded,
         q=q,
     )
-    p_left = over(lefts, [whole[i] - low[i] for i in range(q)])
-    if not row.grounded:
-        p_left = grounded_at_zero(p_left, q)
-    w_left = Stiffness(
-        numerator=p_left, denominator=product(left), masses=row.a - 1, wall=row.grounded, q=q
-    )
-    mass = whole[q]
+
+    def w_right() -> Stiffness:
+        """Not needed where the left side is refuted."""
+        return Stiffness(
+            numerator=grounded_at_zero(over(right, low), q),
+            denominator=product([r.at for r in right]),
+            masses=row.n_masses - row.a,
+            wall=False,
+            q=q,
+        )
 
     def join(a: RowValues, b: RowValues) -> RowValues:
         """Left side, the mass between, right side."""
@@ -63,7 +71,7 @@ def between(row: Row, data: Receptance, left: list[Ball], right: list[Ball]) -> 
             (*a.masses[::-1], mass, *b.masses), (*a.springs[::-1], *b.springs), a.gauges + b.gauges
         )
 
-    yield from combined(peel(w_left), lambda: peel(w_right), join)
+    yield from combined(peel(w_left), lambda: peel(w_right()), join)
 
 
 def over(residues: list[Residue], polynomial: list[Ball]) -> Poly:

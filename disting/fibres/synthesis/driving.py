@@ -24,7 +24,7 @@ from disting.fibres.synthesis.ball import (
     vanishes,
 )
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
-from disting.fibres.synthesis.collocated import Residue, over
+from disting.fibres.synthesis.collocated import Residue, inverse_residues, over
 from disting.fibres.synthesis.friction import NOTHING, Side, peel, slope
 from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
@@ -42,15 +42,11 @@ class _Port:
 
 def driving_point(row: Row, data: Receptance) -> Iterator[Leaf]:
     """Yield every row with this driving-point receptance."""
-    zeros = roots(data.numerator, row.numerator_degree)
-    steepness = data.numerator.derivative()
+    zeros = inverse_residues(data, roots(data.numerator, row.numerator_degree))
     whole = data.denominator // data.numerator
     scale = sum((abs(c) for c in whole.coeffs()), NOTHING)
     port = _Port(whole[2], whole[1], row.a in row.ground_dampers, scale)
-    for chosen in splits(zeros, 2 * (row.a - 1)):
-        left, right = (
-            [Residue(z, data.denominator(z) / steepness(z)) for z in side] for side in chosen
-        )
+    for left, right in splits(zeros, 2 * (row.a - 1)):
         if not row.damped and not _is_even_far_away(right):
             yield NONZERO
             continue

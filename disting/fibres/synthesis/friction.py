@@ -187,9 +187,14 @@ def _damped(w: Side) -> Iterator[Leaf]:
     if is_boundary(d):
         yield BOUNDARY
         return
-    for z in roots(shifted(w.numerator, -low), degree - low):
-        steep = steepness(z)
-        if not vanishes(w.denominator(z) * d - steep, steep):
+
+    def excess(z: Ball) -> Ball:
+        """Zero where z is the spring's."""
+        return w.denominator(z) * d - steepness(z)
+
+    others = shifted(w.numerator, -low)
+    for z in roots(others, degree - low, lambda z: not excess(z).contains(0)):
+        if not vanishes(excess(z), steepness(z)):
             yield NONZERO
         elif is_boundary(z):
             yield BOUNDARY

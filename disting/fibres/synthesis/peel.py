@@ -69,9 +69,14 @@ def _damped(w: Stiffness) -> Iterator[Leaf]:
     """One branch for every root of P (at a free end: of P/s^2) that passes the test."""
     low = 0 if w.wall else 2
     d, slope = w.numerator[_degree(w)], w.numerator.derivative()
-    for z in roots(shifted(w.numerator, -low), _degree(w) - low):
-        steep = slope(z)
-        if not vanishes(w.denominator(z) * d - steep, steep):
+
+    def excess(z: Ball) -> Ball:
+        """Zero where z is the spring's."""
+        return w.denominator(z) * d - slope(z)
+
+    others = shifted(w.numerator, -low)
+    for z in roots(others, _degree(w) - low, lambda z: not excess(z).contains(0)):
+        if not vanishes(excess(z), slope(z)):
             yield NONZERO
         elif is_boundary(z):
             yield BOUNDARY

@@ -23,7 +23,7 @@ from disting.fibres.synthesis.ball import (
     splits,
 )
 from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues, combined
-from disting.fibres.synthesis.collocated import between
+from disting.fibres.synthesis.collocated import between, inverse_residues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
@@ -95,8 +95,12 @@ def to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
     numerator = data.numerator
     for tau in taus:
         numerator = numerator * poly([1, 1 / (0 * data.denominator[0] + tau)])
-    drive, known = replace(row, b=row.a), roots(data.numerator, row.numerator_degree)
-    for leaf in between(drive, Receptance(numerator, data.denominator), known, prescribed):
+    drive, known = (
+        Receptance(numerator, data.denominator),
+        roots(data.numerator, row.numerator_degree),
+    )
+    left, right = (inverse_residues(drive, zeros) for zeros in (known, prescribed))
+    for leaf in between(replace(row, b=row.a), drive.denominator // numerator, left, right):
         yield replace(leaf, gauges=row.distance) if isinstance(leaf, RowValues) else leaf
 
 
