@@ -6,8 +6,10 @@ import argparse
 import json
 import shlex
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
+from disting.cli.arguments import is_damped
 from disting.cli.effort import Work, announced
 from disting.cli.fit_data import Data, data, sensors
 from disting.cli.fit_told import told
@@ -102,6 +104,7 @@ def _candidates(options: argparse.Namespace, given: Data) -> tuple[Chain, ...]:
         found = chosen_ports(
             options.masses, options.actuator, sensors(options)[0], options.gap, quantity
         )
+    found = tuple(replace(chain, damped=is_damped(options)) for chain in found)
     known = {name for chain in found for name in chain.parameters}
     known |= {further.setup.delay for further in given.further} - {""}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from disting.cli.arguments import add_json, add_work, frequency_range
+from disting.cli.arguments import add_damped, add_json, add_work, frequency_range
 from disting.cli.paths import written_folder
 from disting.errors import shown
 from disting.model.chain import Sensor
@@ -25,6 +25,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     _quantities(data)
     candidates = p.add_argument_group("candidates")
     _structures(candidates)
+    add_damped(p)
     _known(candidates)
     _choices(p.add_argument_group("cost and selection"))
     _control(p.add_argument_group("what it is for"))
@@ -163,7 +164,7 @@ def _known(group: argparse._ArgumentGroup) -> None:
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="a known parameter",
+        help="a known parameter; a damper may be 0",
     )
     text = "range of a parameter; may be repeated"
     group.add_argument(

@@ -157,4 +157,5 @@ def fine(plant: AnyPlant, cost: SquaredCost, box: Box, start: Real) -> tuple[Rea
         max_nfev=300,
     )
     best, before = 2.0 * float(found.cost), float(cost.total(plant.response(origin)))
-    return (np.maximum(at(found.x), SMALLEST), best) if best < before else (origin, before)
+    reached = np.where(free, np.maximum(at(found.x), SMALLEST), origin)
+    return (reached, best) if best < before else (origin, before)

@@ -41,6 +41,7 @@ FINISHED = 4  # starts that are searched on, the best of which is brought to the
 REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
 NOTHING = 1e-6  # or a cost that is as good as zero
 GAIN = 1e-4  # relative gain of cost from which on a neighbour's fit helps
+DAMPERS = "db"  # first letters of what may be fixed to zero
 NESTED = 1e-9  # relative excess of cost that a candidate may have over one that it contains
 
 
@@ -65,8 +66,9 @@ class Task:
             if not 0 <= low < high:
                 raise InputError(f"bounds of {name} are 0 <= low < high, not {low:g}..{high:g}")
         for name, value in self.fixed.items():
-            if not 0 < value < inf:
-                raise InputError(f"{name} is fixed to a positive number, not {value:g}")
+            if not (0 < value < inf or (value == 0 and name[0] in DAMPERS)):
+                zero = ", or a damper to 0" * (name[0] in DAMPERS)
+                raise InputError(f"{name} is fixed to a positive number{zero}, not {value:g}")
 
     def __repr__(self) -> str:
         return summary(self, f"{self.cost!r}, sign {self.sign}")

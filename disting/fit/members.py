@@ -34,6 +34,7 @@ from disting.verdict.engine import mapped
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
 EVERY_SET = 4
+NOTHING = 1e-90  # a value that is smaller, or zero, has no effect; exact numbers are no smaller
 APART = 3.0  # standard errors between training and test from which on a parameter disagrees
 QUANTILE = 1.959964  # of the normal distribution, for bands of 95 %
 STRONGEST = 2  # frequencies that are named, at which two structures differ most
@@ -158,7 +159,7 @@ def twins(
     that is not known.
     """
     found, unknown, form = list[Twin](), list[str](), as_listed(chain)
-    text = {form.renaming[name]: repr(value) for name, value in values.items()}
+    text = {form.renaming[name]: repr(max(value, NOTHING)) for name, value in values.items()}
     limits = {form.renaming.get(name, name): both for name, both in limits.items()}
     for other in _catalogue(chain):
         for listing in equivalents(form.chain, text, other).listings:

@@ -108,7 +108,7 @@ def _values(structure: Structure, p: Real) -> list[Result]:
     for what, roots in (("antiresonance", zeros(structure, p)), ("resonance", poles(structure, p))):
         for i, root in enumerate(oscillating(roots), 1):
             rows.append((f"{what} {i}", abs(root) / (2 * pi), "Hz"))
-            rows.append((f"damping ratio of {what} {i}", -root.real / abs(root), ""))
+            rows.append((f"damping ratio of {what} {i}", 0.0 - root.real / abs(root), ""))
     return [Result(name, value, 0.0, unit) for name, value, unit in rows]
 
 

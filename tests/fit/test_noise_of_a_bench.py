@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from disting.errors import InputError
+from disting.fit import select
 from disting.fit.cost import Cost
 from disting.fit.exclusion import Fitted, basis_of, contains, excluded, limit, statistic, surplus
 from disting.fit.line_variance import coefficients
@@ -187,6 +189,20 @@ def test_a_damper_that_is_hardly_there_is_below_a_value():
     assert low == 0.0 and 1e-5 < high < 0.05
     assert member.intervals["m1"][0] < 5e-3 < member.intervals["m1"][1]
     assert len(data) == 99
+
+
+def test_a_damper_may_be_fixed_to_zero_or_left_away():
+    chain = Chain(2, sensor="velocity", ground_dampers=(1,))
+    values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 1e-9, "b1": 0.1}
+    data = measured(Drive(chain, values, 0.06, 3), 10)
+    with_damper = Chain(2, ground_dampers=(1,))
+    one = select(data, [Chain(1), with_damper], fixed={"d12": 0.0})
+    assert one.selected.chain == with_damper and one.selected.estimate.parameters["d12"] == 0.0
+    other = select(data, [Chain(1), replace(with_damper, damped=False)])
+    assert other.selected.n_parameters == one.selected.n_parameters == 4
+    assert other.selected.j_train == pytest.approx(one.selected.j_train, rel=1e-3)
+    with pytest.raises(InputError, match="m1 is fixed to a positive number, not 0"):
+        select(data, [with_damper], fixed={"m1": 0.0})
 
 
 @pytest.mark.slow
