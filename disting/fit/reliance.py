@@ -273,7 +273,7 @@ def _margins(drawn: Sequence[_Drawn], controller: Controller, omega: Real) -> It
     crossed = _ranged(known, lambda m: m.crossover)
     low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
     outside = any(not (low <= x <= high) for pair in crossed for x in pair)
-    note = "the crossover lies outside the measured band" if outside else ""
+    note = "the crossover may lie outside the measured band" if outside else ""
     yield _joined("crossover", "Hz", crossed, numbers, note)
     yield _joined("phase margin", "deg", _ranged(known, lambda m: m.phase), numbers, note)
     gains = _ranged(known, lambda m: 20 * log10(m.gain) if isfinite(m.gain) else inf)
