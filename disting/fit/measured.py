@@ -73,7 +73,7 @@ def other_quantities(
     if taken is None:
         return ()
     before = min(_criterion(c.estimate, task) for c in candidates)
-    found = []
+    found = list[tuple[float, Sensor, Estimate]]()
     for quantity in Sensor:
         if quantity is taken:
             continue
