@@ -201,7 +201,7 @@ def _powers_of_s(polynomial: fmpz_mpoly, context: fmpz_mpoly_ctx) -> tuple[fmpz_
     """The coefficients of the powers 0, 1, .. of the first symbol, without it."""
     parts: list[dict[tuple[int, ...], fmpz]] = [{} for _ in range(polynomial.degrees()[0] + 1)]
     for powers, number in polynomial.to_dict().items():
-        parts[powers[0]][powers[1:]] = int(number)
+        parts[powers[0]][powers[1:]] = number
     return tuple(map(context.from_dict, parts))
 
 
