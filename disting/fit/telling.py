@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from math import isfinite
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from disting.fit.admissible import FROM_ZERO, KNOWN
 from disting.fit.candidates import as_listed, reference
@@ -17,11 +18,15 @@ from disting.fit.fitted import response_of
 from disting.fit.joint import AnyCost
 from disting.fit.measured import bad_lines, outside
 from disting.fit.members import Disagreement
-from disting.fit.scatter import changed, scatter
+from disting.fit.scatter import CLEAR, changed, scatter
 from disting.fit.select import Selection
+from disting.measurement.time_series import REFERENCED
 from disting.model.names import damping_option
 
 FEW = 8  # names in one line
+FEWEST = 8  # lines of a fit
+SMOOTHED = 5  # lines over which the scatter is looked at
+MOST_CLEAR = 0.7  # share of the lines that carry information, above which no band is proposed
 HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
 
 
@@ -195,12 +200,29 @@ def _unexplained(found: Selection) -> Iterator[str]:
             " place, a wrong sign or a machine that changed between the measurements"
         )
     elif not found.explanation.noisy and not found.quantities:
+        loop = "" if REFERENCED in found.task.cost.measured.reading else "is the loop closed, "
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
-            " mass makes it fit much better: is the loop closed, is the machine a chain, are other"
-            " forces at work?"
+            f" mass makes it fit much better: {loop}is the machine a chain, are other forces at"
+            " work?"
         )
+    yield from _band(found)
     yield from _better(found)
+
+
+def _band(found: Selection) -> Iterator[str]:
+    """The frequencies that carry information, where many others do not."""
+    data = found.judging.parts[0].measured
+    rho = found.explanation.scatter.rho[: len(data)]
+    clear = np.flatnonzero(median_filter(rho, SMOOTHED, mode="nearest") < CLEAR)
+    runs = np.split(clear, np.flatnonzero(np.diff(clear) > 1) + 1)
+    longest = max(runs, key=len)
+    if len(longest) >= FEWEST and found.explanation.scatter.clear < MOST_CLEAR:
+        low, high = (data.frequency[i] for i in (longest[0], longest[-1]))
+        yield (
+            f"from {low:.4g} to {high:.4g} Hz the lines scatter by less than {100 * CLEAR:.0f} %:"
+            f" --band {low * 0.999:.4g}..{high * 1.001:.4g} fits these alone"
+        )
 
 
 def _better(found: Selection) -> Iterator[str]:

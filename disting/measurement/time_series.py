@@ -19,6 +19,9 @@ ASSUMED_POSITION = (
 )
 
 
+REFERENCED = "with a reference, which holds in closed loop"
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeSeries:
     """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by
@@ -138,7 +141,8 @@ class TimeSeries:
             origin=self.origin,
             notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
             distortion=found.distortion,
-            reading=f"record in time, input {self.input}, output {self.output}",
+            reading=f"record in time, input {self.input}, output {self.output}"
+            + f", {REFERENCED}" * (self.reference is not None),
             freedom=found.freedom,
         )
         return response if sensor is None else response.to_quantity(sensor)

@@ -14,6 +14,7 @@ from disting.fit.exclusion import Fitted, basis_of, contains, excluded, limit, s
 from disting.fit.line_variance import coefficients
 from disting.fit.noise import Noise
 from disting.fit.scatter import changed, scatter
+from disting.fit.telling import suspicions
 from disting.fit.whitened import Whitened
 from disting.measurement import FrequencyResponse, mean_of
 from disting.model.chain import Chain
@@ -215,3 +216,32 @@ def test_the_true_structure_is_kept_in_95_percent(n_masses, least, repeats, test
     print(n_masses, repeats, tested, table(found))
     assert np.mean([one.kept for one in found]) >= least
     assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
+
+
+def test_data_that_are_noise_but_for_a_band_name_it():
+    """Loud above 100 Hz: the lines below are enough for a fit of their own."""
+    chain = Chain(1, ground_dampers=(1,))
+    omega = 2 * np.pi * np.geomspace(5.0, 500.0, 80)
+    source = np.random.default_rng(1)
+    error = (source.normal(size=80) + 1j * source.normal(size=80)) / np.sqrt(2)
+    loud = np.where(omega > 2 * np.pi * 20, 3.0, 0.01)
+    exact = response_at(chain, {"m1": 0.01, "b1": 0.5}, omega)
+    size = loud * np.abs(exact)
+    data = FrequencyResponse(omega, exact + size * error, size, freedom=200.0)
+    found = select(data, [Chain(1), replace(chain, damped=False, ground_dampers=())])
+    (line,) = [said for said in suspicions(found) if "--band" in said]
+    assert line.startswith("from 5 to ") and "fits these alone" in line
+
+
+def test_a_reference_is_not_asked_for_twice():
+    machine = DRIVES[0]
+    series = recorded(machine, 3)
+    with_reference = replace(series, reference=series.u)
+    plain = [
+        s.response("acceleration", period=BENCH.samples, transient=0)
+        for s in (series, with_reference)
+    ]
+    found = [replace(select(d, [Chain(1)]), readings=(), quantities=()) for d in plain]
+    said = [" ".join(suspicions(one)) for one in found]
+    assert "is the loop closed" in said[0] and "is the loop closed" not in said[1]
+    assert all("is the machine a chain" in one for one in said)
