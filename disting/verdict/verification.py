@@ -177,10 +177,17 @@ def _whose(stored: Stored, sides: Sides) -> str:
     names = (sides.left.name, sides.right.name)
     own = [n for n, m in zip(names, stored.models, strict=True) if not isinstance(m, Chain)]
     if not own:
+        if any(name.startswith("(") for name in names):
+            return "; ".join(dict.fromkeys(f"{name}: {_kind_of(name)}" for name in names))
         return f"{' and '.join(dict.fromkeys(names))}: numbered chains, the catalogue's numbers"
     rest = [name for name in names if name not in own]
-    beside = f"; {rest[0]}: a numbered chain" if rest else ""
+    beside = f"; {rest[0]}: {_kind_of(rest[0])}" if rest else ""
     return f"{' and '.join(own)}: of your file, not of the catalogue{beside}"
+
+
+def _kind_of(name: str) -> str:
+    """What a chain of this name is; one without a number is named by its indices, in brackets."""
+    return "a chain without a number" if name.startswith("(") else "a numbered chain"
 
 
 @dataclass(frozen=True, slots=True)

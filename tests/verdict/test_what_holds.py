@@ -4,7 +4,8 @@ import json
 
 import pytest
 
-from disting import InputError, Model, Query, View, verify
+from disting import Chain, InputError, Model, Query, View, verify
+from disting.model.names import name_of
 from disting.verdict.result import Verdict
 from disting.verdict.verification import Standing
 from tests.cli.process import called
@@ -38,6 +39,14 @@ def test_models_of_ones_own_that_are_called_like_chains_are_told_to_be_ones_own(
     assert found.models == "3:9 and 3:10: of your file, not of the catalogue"
     beside = verify(plain("2:1", models[0]))
     assert beside.models == "3:9: of your file, not of the catalogue; 2:1: a numbered chain"
+
+
+def test_a_chain_without_a_number_is_not_said_to_have_one():
+    far = Chain(3, act_plus=3, meas_plus=3)
+    found = verify(plain(far, Chain(3)))
+    name = name_of(far)
+    assert name.startswith("(") and found.standing is Standing.HOLDS
+    assert found.models == f"{name}: a chain without a number; 3:1: a numbered chain"
 
 
 def test_the_command_says_it(tmp_path):
