@@ -120,7 +120,8 @@ def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Ent
         if ast.get_docstring(node) and (special or not node.name.startswith("_")):
             yield _function(node.name, place, node, within=True)
     elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-        if not node.target.id.startswith("_") and "ClassVar" not in ast.unparse(node.annotation):
+        given = "ClassVar" not in ast.unparse(node.annotation) and not _is_derived(node.value)
+        if given and not node.target.id.startswith("_"):
             yield _value(node.target.id, Kind.FIELD, place, node, "")
     elif isinstance(node, ast.Assign) and ENUMS.intersection(bases):
         yield from (
@@ -128,6 +129,11 @@ def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Ent
             for target in node.targets
             if isinstance(target, ast.Name) and not target.id.startswith("_")
         )
+
+
+def _is_derived(value: ast.expr | None) -> bool:
+    """Whether a record sets the field itself: it is none of its arguments."""
+    return value is not None and "init=False" in ast.unparse(value)
 
 
 def _function(
