@@ -113,7 +113,8 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scatter = 1 + 0.01 * np.random.default_rng(0).normal(size=(2, 60)).T @ [1, 1j]
 
     def response(sensor: int, **changed: float) -> np.ndarray:
-        chain = Chain(2, meas_plus=sensor, damped=True)
+        brakes = tuple(int(name[1:]) for name in changed if name[0] == "b")
+        chain = Chain(2, meas_plus=sensor, damped=True, ground_dampers=brakes)
         return np.asarray(predicted(chain, values | changed, 2 * np.pi * hertz) * scatter)
 
     motor, load = response(1), response(2)
@@ -122,6 +123,7 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "load": load,
         "locked": response(1, m2=1e6),
         "disc": response(1, m1=0.5045),
+        "braked": response(1, b2=0.3),
     }.items():
         write_csv(from_arrays(hertz, G), folder / f"{name}.csv")
     columns = np.column_stack([hertz, motor.real, motor.imag, load.real, load.imag])

@@ -70,10 +70,10 @@ FIELDS = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
 @pytest.mark.slow
-def test_a_bound_of_a_row_that_was_raised_is_found_though_the_evidence_is_true() -> None:
+def test_a_bound_of_shares_that_was_raised_is_found_though_the_evidence_is_true() -> None:
     """What the evidence shows was true, and the bound that was told with it was not looked at."""
     row = plain("5:3", "5:8", View.EXACT, damped=True)
-    assert (row["evidence"]["kind"], verify(row).sentence) == ("row", "holds")
+    assert (row["evidence"]["kind"], verify(row).sentence) == ("shared", "holds")
     sure = verify(told_again(row, safety=row["safety"] + 100)).sentence
     assert sure == "does not hold: the certainty is not that of the evidence"
 
