@@ -151,7 +151,10 @@ def _relied_on(found: Selection) -> Iterator[str]:
     """What holds for all of them."""
     if found.relied_on:
         yield ""
-        yield "what you may rely on, for these structures and all that may as well be it (95 %):"
+        yield (
+            "what you may rely on if it is one of these, or what may as well be it (95 %; larger"
+            " ones that contain one were not looked at):"
+        )
         yield from (f"  {statement.text}" for statement in found.relied_on)
 
 

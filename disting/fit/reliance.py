@@ -6,6 +6,7 @@ of its parameters (`practical.covariance`), its own fit among the draws; a range
 draws of every structure. What behaves as a fitted structure does at the sensor (its twins) has the
 same resonances, antiresonances and margins, so these need no draws of their own; masses and
 responses elsewhere differ, and are those of the twin's own values, of a family those of one of it.
+What only contains a structure of the set, and what is not decided, is not looked at.
 
 The margins are those of a controller around the sensor of the data (`loop`).
 """
