@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 from disting.evidence.positive import Share
 from disting.model.domain import Domain
-from disting.report.decided import Decided
-from disting.report.words import totals
+from disting.report.words import Decided, totals
 from disting.verdict import Relation, View
 
 Members = tuple[int, ...]

@@ -19,10 +19,9 @@ from disting.evidence.conditions import capital
 from disting.evidence.kinds import without_exception
 from disting.evidence.positive import Share
 from disting.model.domain import Domain
-from disting.report.decided import Decided
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
-from disting.report.words import VIEW_TITLES, raised
+from disting.report.words import VIEW_TITLES, Decided, raised
 from disting.verdict import Verdict, View
 from disting.verdict.shown import shown
 

@@ -1,13 +1,16 @@
-"""The wording that pages and figures share."""
+"""The wording that pages and figures share, and what it asks of models that were compared in pairs:
+a Protocol that a catalogue and a list of general models implement, models counted from 1.
+"""
 
 import re
+from collections.abc import Iterator, Sized
+from typing import Protocol
 
 from disting.catalogs import Catalog
 from disting.conditions.table import RULES
 from disting.model.domain import Domain
 from disting.model.shown import plural as plural
-from disting.report.decided import Decided
-from disting.verdict import Relation, View
+from disting.verdict import Relation, Verdict, View
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
@@ -21,6 +24,29 @@ SAID = {relation: relation.value for relation in Relation} | {
     Relation.SOMETIMES: "sometimes indistinguishable",
 }
 """Relations as pages name them."""
+
+
+class Decided(Protocol):
+    """Models and the verdicts on their pairs, in some views."""
+
+    @property
+    def family(self) -> Sized:
+        """The models."""
+
+    def relation(self, left: int, right: int, view: View) -> Relation:
+        """Relation of two models."""
+
+    def verdict(self, left: int, right: int, view: View) -> Verdict:
+        """The verdict with its evidence."""
+
+    def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
+        """All pairs, left < right."""
+
+    def classes(self, view: View) -> tuple[tuple[int, ...], ...]:
+        """Groups of two or more mutually indistinguishable models."""
+
+    def depending(self, view: View) -> tuple[tuple[int, int], ...]:
+        """The pairs that are indistinguishable for some parameters only."""
 
 
 def title(catalog: Catalog) -> str:

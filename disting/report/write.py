@@ -19,9 +19,8 @@ from disting.catalogs.sizes_files import name_of as sizes_name
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
-from disting.report.executed_notebook import PREFIX
 from disting.report.families import Families, families
-from disting.report.guide import guide, guide_files
+from disting.report.guide import PREFIX, guide, guide_files
 from disting.report.index import Link, index
 from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png

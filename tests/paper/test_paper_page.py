@@ -9,12 +9,12 @@ import pytest
 
 from disting.cli.run import main
 from disting.paper import CLAIMS, Findings, Outcome
-from disting.report.fields import LETTER
+from disting.report.matrix import LETTER
 from disting.report.paper import paper_figures, paper_page, write_paper
+from disting.report.paper.figures import of_decisions, triangles
 from disting.report.paper.paper_page import raised
 from disting.report.paper.picture import of_scene
 from disting.report.paper.refit import refit_figure
-from disting.report.paper.triangles import of_decisions, triangles
 from disting.report.scene import Text
 from disting.report.svg import svg
 from disting.verdict import Relation, View

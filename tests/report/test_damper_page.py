@@ -17,9 +17,9 @@ from disting.errors import InputError
 from disting.report import damper_page
 from disting.report.damper_page import counts
 from disting.report.damper_payload import bits, mirror, numbered, payload
-from disting.report.damper_thumbnail import runs
 from disting.report.drawing import draw
 from disting.report.families import families
+from disting.report.index import runs
 from disting.report.page_drawing import ground_dampers, shared
 from disting.report.scene import Ink
 from disting.verdict import Relation

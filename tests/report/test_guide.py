@@ -21,8 +21,7 @@ from disting.model.drawing import text_drawing
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.report import write_report
-from disting.report.executed_notebook import notebook_page
-from disting.report.guide import Part, guide, guide_files, guide_parts, guide_texts
+from disting.report.guide import Part, guide, guide_files, guide_parts, guide_texts, notebook_page
 from disting.report.markdown import GuidePage, guide_page
 from tests.cli.process import called
 from tests.report.barriers import barriers

@@ -10,9 +10,8 @@ import pytest
 from markupsafe import Markup
 
 from disting import Engine
-from disting.report.environment import environment
+from disting.report.environment import Policy, environment, source_of
 from disting.report.model_list import judged, write_model_list
-from disting.report.policy import Policy, source_of
 from tests.report.test_model_list import MODELS, of
 
 PAGES = [

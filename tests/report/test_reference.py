@@ -7,9 +7,8 @@ import pytest
 
 from disting.cli.parser import parser
 from disting.report.reference.commands import command_page, commands
-from disting.report.reference.docstring import rendered
 from disting.report.reference.entries import Entry, Kind, entries
-from disting.report.reference.python_pages import MODULES, python_pages
+from disting.report.reference.python_pages import MODULES, python_pages, rendered
 from tests.report.outline import Outline
 
 

@@ -23,8 +23,7 @@ from disting.questions.inclusion import Inclusion
 from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import name, readable, response_unit, typeset
-from disting.report.notebook.curve import curve
-from disting.report.notebook.markup import LONGEST, block, facts, line, matrix, more, table
+from disting.report.notebook.markup import LONGEST, block, curve, facts, line, matrix, more, table
 from disting.report.words import headline, plural, raised, title
 from disting.verdict import Decisions, Relation, Verdict
 from disting.verdict.further import Further

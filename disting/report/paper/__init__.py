@@ -2,4 +2,4 @@
 
 from disting.report.paper.figures import paper_figures as paper_figures
 from disting.report.paper.paper_page import paper_page as paper_page
-from disting.report.paper.site import write_paper as write_paper
+from disting.report.paper.paper_page import write_paper as write_paper

@@ -4,15 +4,16 @@ and the tables.
 
 import re
 from collections import Counter
-from collections.abc import Container, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from markupsafe import Markup, escape
 
 from disting.catalogs import ModelRow
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import name_of
-from disting.files import __version__
+from disting.files import __version__, write_whole
 from disting.model.family import Family
 from disting.paper import Claim, Findings, Found, Outcome
 from disting.paper.claim import Seen
@@ -20,8 +21,31 @@ from disting.paper.claims import SECTIONS
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.fit.responses import drawing
+from disting.report.paper.figures import paper_figures
 from disting.report.paper.picture import Picture
 from disting.report.words import plural
+
+
+def write_paper(findings: Findings, out: Path, beside: Container[str] = ()) -> list[Path]:
+    """Write index.html and every figure as SVG, PNG and PDF; the paths written, in order.
+
+    Claims link to the pages of the families that are named in `beside`, one folder above `out`.
+
+    The same findings give the same bytes. `out` is made if it does not exist; other files in it
+    stay as they are.
+    """
+    pictures = paper_figures(findings)
+    page = paper_page(findings, pictures, beside)
+    out.mkdir(parents=True, exist_ok=True)
+    return [write_whole(out / name, content) for name, content in _files(page, pictures)]
+
+
+def _files(page: str, pictures: Sequence[Picture]) -> Iterator[tuple[str, bytes]]:
+    yield "index.html", page.encode()
+    for picture in pictures:
+        for ending, content in picture.files:
+            yield picture.name + ending, content
+
 
 LARGEST = 10  # masses, of Table 2 continued
 PRINTED = (1, 3, 11, 29, 73)  # Table 2
