@@ -3,7 +3,7 @@ data beside them.
 """
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -20,7 +20,7 @@ from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
 from disting.report.families import Families, families
-from disting.report.guide import PREFIX, guide, guide_files
+from disting.report.guide import PREFIX, Part, guide, guide_files
 from disting.report.index import Link, index
 from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
@@ -38,13 +38,38 @@ STYLE = "models/style.css"
 
 
 @dataclass(frozen=True, slots=True)
+class Site:
+    """What a site is written from: the `catalogs`, families with ground `dampers` and catalogues of
+    several sizes, `across`, that are written; the guide's `parts`; and `pages`, what is known of
+    all pages of pairs, those of shipped catalogues that lie in the folder already among them.
+    """
+
+    catalogs: Sequence[Catalog]
+    dampers: Sequence[DamperFamily]
+    across: Sequence[SizesCatalog]
+    parts: tuple[Part, ...]
+    pages: Families
+
+
+File = tuple[str, bytes]
+"""Address below the site's folder, and content."""
+
+
+def of_sizes(site: Site, damped: bool) -> Iterator[File]:
+    """The page of the catalogues of several sizes, where they are given."""
+    for found in site.across:
+        if found.damped == damped:
+            yield f"{found.name}.html", sizes_page(found, beside=site.pages).encode()
+
+
+@dataclass(frozen=True, slots=True)
 class SitePage:
-    """A page that the index leads to beside those of the catalogues; if it is not written `always`,
-    another command writes it, and it is listed where it is in the folder already.
+    """A page that the index leads to, beside those of the catalogues, once it lies in the folder:
+    `files` gives its files; those of a page without any are written by another command.
     """
 
     link: Link
-    always: bool = False
+    files: Callable[[Site], Iterable[File]] = lambda _: ()
 
 
 PAGES: tuple[SitePage, ...] = (
@@ -54,21 +79,23 @@ PAGES: tuple[SitePage, ...] = (
             "Guide",
             "first steps, how to do it, what the answers mean and rest on, every command and name",
         ),
-        always=True,
+        files=lambda site: guide_files(site.parts),
     ),
     SitePage(
         link=(
             "sizes-undamped.html",
             "Different sizes, undamped",
             "which smaller models are limits of larger ones",
-        )
+        ),
+        files=lambda site: of_sizes(site, damped=False),
     ),
     SitePage(
         link=(
             "sizes-damped.html",
             "Different sizes, damped",
             "which smaller models are limits of larger ones",
-        )
+        ),
+        files=lambda site: of_sizes(site, damped=True),
     ),
     SitePage(
         link=(
@@ -113,16 +140,15 @@ def write_report(
         key=lambda f: (f.family.n_masses, f.family.damped),
     )
     together = [*across, *_across_beside(across, listed, out)]
-    known = {f"{s.name}.html" for s in across}
-    links = [p.link for p in PAGES if p.always or p.link[0] in known or (out / p.link[0]).is_file()]
-    pages = families(listed, damped, together)
-    files = [file for c in catalogs for file in _files(c, pages)]
-    files += [_damper_file(f, pages) for f in dampers]
-    files += [(f"{s.name}.html", sizes_page(s, beside=pages).encode()) for s in across]
     parts = guide(commands, _notebooks(out))
+    site = Site(catalogs, dampers, across, parts, families(listed, damped, together))
+    files = [file for c in catalogs for file in _files(c, site.pages)]
+    files += [_damper_file(f, site.pages) for f in dampers]
+    files += [file for page in PAGES for file in page.files(site)]
+    here = {name for name, _ in files}
+    links = [p.link for p in PAGES if p.link[0] in here or (out / p.link[0]).is_file()]
     links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
-    files += guide_files(parts)
-    files.append((ADDRESS, search_script(parts, pages, links).encode()))
+    files.append((ADDRESS, search_script(parts, site.pages, links).encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
     start = index(listed, links, damped, together)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]
@@ -168,12 +194,12 @@ def _across_beside(
             yield sizes_catalog(damped=damped, known=known)
 
 
-def _damper_file(found: DamperFamily, pages: Families) -> tuple[str, bytes]:
+def _damper_file(found: DamperFamily, pages: Families) -> File:
     name = damper_name(found.family.n_masses, found.family.damped)
     return f"{name}.html", damper_page(found, beside=pages).encode()
 
 
-def _files(c: Catalog, pages: Families) -> Iterator[tuple[str, bytes]]:
+def _files(c: Catalog, pages: Families) -> Iterator[File]:
     yield f"{c.name}.html", page(c, beside=pages).encode()
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()

@@ -24,7 +24,7 @@ REMEDY = "run: disting report 1 2 3 4 5"
 
 def others(folder: Path) -> set[str]:
     """Pages of other commands that the index leads to."""
-    return {p.link[0] for p in PAGES if not p.always and (folder / p.link[0]).is_file()}
+    return {p.link[0] for p in PAGES if (folder / p.link[0]).is_file()}
 
 
 def written_anew(folder: Path) -> dict[str, Path]:

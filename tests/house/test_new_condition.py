@@ -4,16 +4,11 @@ are at work everywhere.
 
 import csv
 import json
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-import disting
 from tests.cli.process import called
+from tests.house.package_copy import copied, said
 
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
 RULES = """
@@ -51,40 +46,18 @@ CONDITIONS"""
 
 
 @pytest.fixture(scope="module")
-def copied(tmp_path_factory):
-    """A copy of the package whose table has three rows more, and no other line that differs."""
-    folder = tmp_path_factory.mktemp("rows")
-    shipped = Path(disting.__file__).parent
-    shutil.copytree(shipped, folder / "disting", ignore=shutil.ignore_patterns("__pycache__"))
-    if (shipped.parent / "catalog").is_dir():
-        shutil.copytree(shipped.parent / "catalog", folder / "catalog")
-    table = folder / "disting" / "conditions" / "table.py"
-    text = table.read_text(encoding="utf-8")
-    for old, new in (
+def folder(tmp_path_factory):
+    """A copy of the package whose table has four rows more, and no other line that differs."""
+    rows = (
         ("\n_n = ", RULES + "_n = "),
         (")\nSUFFICIENT = (", NECESSARY),
         (")\nCONDITIONS", STRUCTURAL),
-    ):
-        assert text.count(old) == 1
-        text = text.replace(old, new)
-    table.write_text(text, encoding="utf-8")
-    return folder
+    )
+    return copied(tmp_path_factory.mktemp("rows"), {"conditions/table.py": rows})
 
 
 def run(folder, *arguments):
-    environment = {**os.environ, "PYTHONPATH": str(folder), "DISTING_CACHE": "off"}
-    command = [sys.executable, "-m", "disting", *arguments]
-    done = subprocess.run(
-        command,
-        env=environment,
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        timeout=600,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return said(folder, "-m", "disting", *arguments)
 
 
 VERDICTS = ("verdicts", "3", "--damped", "--no-cache", "--csv", "-", "--conditions")
@@ -94,12 +67,12 @@ def rows(text):
     return {(row["left"], row["right"]): row for row in csv.DictReader(text.splitlines())}
 
 
-def test_it_changes_no_other_verdict(copied):
+def test_it_changes_no_other_verdict(folder):
     before, after = (
-        rows(text) for text in (called(*VERDICTS, "1-9").stdout, run(copied, *VERDICTS, "1-9"))
+        rows(text) for text in (called(*VERDICTS, "1-9").stdout, run(folder, *VERDICTS, "1-9"))
     )
     assert before == after and before[MARKED]["relation"] == "undecided"
-    every = rows(run(copied, *VERDICTS, "1-marked"))
+    every = rows(run(folder, *VERDICTS, "1-marked"))
     assert {pair for pair in every if every[pair] != before[pair]} == {MARKED}
     assert (every[MARKED]["relation"], every[MARKED]["decided_by"]) == (
         "indistinguishable",
@@ -111,20 +84,20 @@ def test_it_changes_no_other_verdict(copied):
     ("pair", "rule", "relation"),
     [(("3:1", "3:11"), "marked", "indistinguishable"), (("3:1", "3:2"), "12", "distinguishable")],
 )
-def test_its_verdict_is_verified(copied, pair, rule, relation):
+def test_its_verdict_is_verified(folder, pair, rule, relation):
     """By evidence of a kind that other rules have too."""
-    written = json.loads(run(copied, "compare", *pair, "--conditions", rule, "--json", "-"))
+    written = json.loads(run(folder, "compare", *pair, "--conditions", rule, "--json", "-"))
     assert (written["relation"], written["decided_by"]) == (relation, rule)
-    path = copied / "verdict.json"
+    path = folder / "verdict.json"
     path.write_text(json.dumps(written), encoding="utf-8")
-    assert "holds" in run(copied, "verify", "verdict.json")
+    assert "holds" in run(folder, "verify", "verdict.json")
 
 
-def test_it_is_told_everywhere(copied):
-    assert "10  a matter of course: both are models" in run(copied, "--help")
+def test_it_is_told_everywhere(folder):
+    assert "10  a matter of course: both are models" in run(folder, "--help")
     assert "1 by the mark" in run(
-        copied, "verdicts", "3", "--damped", "--no-cache", "--domain", "complex"
+        folder, "verdicts", "3", "--damped", "--no-cache", "--domain", "complex"
     )
-    run(copied, "report", "3", "--out", "site")
-    page = (copied / "site" / "chains-3-damped.html").read_text(encoding="utf-8")
+    run(folder, "report", "3", "--out", "site")
+    page = (folder / "site" / "chains-3-damped.html").read_text(encoding="utf-8")
     assert "a matter of course" in page and '"marked":"M"' in page

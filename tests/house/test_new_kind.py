@@ -3,15 +3,11 @@ package is at work everywhere. It does what a spring does, so a spring says what
 """
 
 import json
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-import disting
+from tests.house import package_copy
+from tests.house.package_copy import copied
 
 ROW = """MAGNET = Kind(
     name="magnet",
@@ -29,38 +25,14 @@ KINDS = (SENSOR, FORCE, INERTIA, LOCK, SPRING, BRAKE, MAGNET)
 OLD = "KINDS = (SENSOR, FORCE, INERTIA, LOCK, SPRING, BRAKE)\n"
 
 
-def copied(folder, power):
-    """A copy of the package whose table has a row more, and no other line that differs."""
-    shipped = Path(disting.__file__).parent
-    shutil.copytree(shipped, folder / "disting", ignore=shutil.ignore_patterns("__pycache__"))
-    if (shipped.parent / "catalog").is_dir():
-        (folder / "catalog").symlink_to(shipped.parent / "catalog")
-    table = folder / "disting" / "model" / "kinds.py"
-    text = table.read_text(encoding="utf-8")
-    assert text.count(OLD) == 1
-    table.write_text(text.replace(OLD, ROW.format(power=power)), encoding="utf-8")
-    return folder
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    return copied(tmp_path_factory.mktemp("kind"), 0)
+    """A copy of the package whose table has a row more, and no other line that differs."""
+    return with_power(tmp_path_factory.mktemp("kind"), 0)
 
 
-def called(folder, script, status=0):
-    """What a process with the copy says; the cache is off."""
-    environment = {**os.environ, "PYTHONPATH": str(folder), "DISTING_CACHE": "off"}
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        env=environment,
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        timeout=600,
-        check=False,
-    )
-    assert done.returncode == status, done.stderr
-    return done.stdout if status == 0 else done.stderr
+def with_power(folder, power):
+    return copied(folder, {"model/kinds.py": [(OLD, ROW.format(power=power))]})
 
 
 COMMANDS = {
@@ -91,7 +63,7 @@ print(json.dumps(said))
 
 @pytest.fixture(scope="module")
 def said(folder):
-    return json.loads(called(folder, SCRIPT.format(commands=COMMANDS)))
+    return json.loads(package_copy.said(folder, "-c", SCRIPT.format(commands=COMMANDS)))
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -118,12 +90,13 @@ def test_verify_looks_at_it(folder, said):
     pair["left"]["magnets"] = []
     (folder / "without.json").write_text(json.dumps(whole), encoding="utf-8")
     script = "from disting.cli import main; raise SystemExit(main(['verify', 'without.json']))"
-    called(folder, script, status=1)
+    package_copy.said(folder, "-c", script, status=1)
 
 
 def test_fit_and_pages(folder):
-    said = called(
+    said = package_copy.said(
         folder,
+        "-c",
         """
 from disting.fit import Setup
 from disting.fit.joint import JointCost
@@ -148,5 +121,5 @@ print(added(Chain(2, damped=False), Item(MAGNET, 1)).name)
 
 def test_what_no_equation_of_motion_has_is_refused(tmp_path):
     """The theorems know powers 0 to 2 of s: another one is no row of this table."""
-    said = called(copied(tmp_path, 3), "import disting.model.kinds", status=1)
+    said = package_copy.said(with_power(tmp_path, 3), "-c", "import disting.model.kinds", status=1)
     assert "magnet: A(s) has the powers 0 to 2 of s only" in said
