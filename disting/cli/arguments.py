@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from disting.cli.paths import written_file, written_folder
+from disting.cli.output import written_file, written_folder
 from disting.errors import shown
 from disting.model.chain import Sensor
 from disting.model.domain import Domain

@@ -2,7 +2,7 @@
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -17,31 +17,27 @@ from disting.cli.arguments import (
     add_no_cache,
     add_quantity,
 )
-from disting.cli.colour import in_colour
-from disting.cli.common import query
+from disting.cli.compare_words import both_ways, every_way, explained, in_letters
 from disting.cli.output import emitted
 from disting.cli.plain import keep_apart
+from disting.cli.relations import query
 from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
-from disting.errors import InputError, listed
-from disting.experiments import Experiment, MeasuredChain, Places, moved, named
-from disting.general import AnyModel, MatrixModel, as_chain, read_models
+from disting.errors import InputError
+from disting.experiments import named
+from disting.general import AnyModel, read_models
 from disting.model.chain import Chain, Sensor
-from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.names import chains_named, name_of, read
 from disting.model.settings import Settings
-from disting.questions.inclusion import Inclusion, InclusionFinding
-from disting.verdict import Query, Relation, Verdict, View
+from disting.verdict import Query, Verdict, View
 from disting.verdict.comparison import compare, names_of
-from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere
+from disting.verdict.everywhere import compare_everywhere
 from disting.verdict.everywhere_file import everywhere_file
 from disting.verdict.proof import prove
-from disting.verdict.shown import shown
 from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
 
 FILE = ".json:"  # between a file and the name of a model in it
-MOST_TERMS = 30  # of a transfer function that is written out
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
     " ground; +lag; +delay; or file.json:name, a model of your own"
@@ -83,11 +79,11 @@ def run(options: argparse.Namespace) -> int:
     if not chains:
         with engine_for(options) as (engine, _, _progress):
             found = compare(*sides, query=asked, engine=engine)
-        print(_explained(found, list(map(_in_letters, sides))))
+        print(explained(found, list(map(in_letters, sides))))
         return 0
     chains, verdict = decided(chains, asked, options)
-    ways = _both_ways(verdict, chains, dict(options.bound)) if _tells_ways(verdict, options) else ()
-    print("\n".join([_explained(verdict, list(map(text_drawing, chains))), *ways]))
+    ways = both_ways(verdict, chains, dict(options.bound)) if _tells_ways(verdict, options) else ()
+    print("\n".join([explained(verdict, list(map(text_drawing, chains))), *ways]))
     return 0
 
 
@@ -142,22 +138,6 @@ def _parted(text: str) -> tuple[str, str]:
     return (f"{path}{FILE[:-1]}", name) if mark else ("", text)
 
 
-def _in_letters(side: Chain | AnyModel) -> str:
-    """A chain's drawing, or a transfer function that fits a few lines."""
-    if isinstance(side, Chain):
-        return text_drawing(side)
-    chain = as_chain(side)
-    if chain is not None:
-        return text_drawing(chain)
-    entries = side.entries if isinstance(side, MatrixModel) else (side,)
-    parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
-    if sum(map(len, parts)) <= MOST_TERMS:
-        return str(side)
-    if isinstance(side, MatrixModel):
-        return "G(s) with {} outputs and {} inputs".format(*side.shape)
-    return "G(s) of degree {} over {}".format(*side.degrees)
-
-
 def _under_experiments(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> int:
     """Explain what further experiments tell, the chains as they are included."""
     left, right = chains
@@ -166,52 +146,8 @@ def _under_experiments(chains: Sequence[Chain], asked: Query, options: argparse.
     asked_for = [named(text).experiment for text in options.also]
     experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
-    print("\n".join([*_every_way(found, chains, asked_for), "", *lines]))
+    print("\n".join([*every_way(found, chains, asked_for), "", *lines]))
     return 0
-
-
-def _every_way(
-    found: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
-) -> Iterator[str]:
-    """One way in full, several with what is common to them; one and the same chain is drawn with
-    the experiments of each side.
-    """
-    left, right = names_of(*chains)
-    if len(found.verdicts) == 1:
-        places, verdict = found.verdicts[0]
-        drawings = list(map(text_drawing, chains))
-        if left == right:
-            sides = experiments, [moved(e, places) for e in experiments]
-            drawings = [_drawn(chains[0], side) for side in sides]
-        yield _explained(verdict, drawings)
-        yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
-        yield f"places     {_placed(places, left, right)}"
-        return
-    other = f"the other {right}" if left == right else right
-    told = {
-        Answer.SURELY: "told apart, wherever the places are in {}",
-        Answer.NEVER: "not told apart, wherever the places are in {}",
-        Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
-        Answer.UNKNOWN: "not known for all places in {}",
-    }[found.answer]
-    yield f"{found.answer.upper()}: {left} and {other} are {told.format(other)}"
-    yield ""
-    for places, verdict in found.verdicts:
-        yield f"  {_placed(places, left, other)}: {verdict.sentence}"
-        yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
-
-
-def _drawn(chain: Chain, experiments: Sequence[Experiment]) -> str:
-    """A chain as it is, and where force and sensor are in each of the experiments."""
-    ports = (entry.attached for entry in MeasuredChain(chain, tuple(experiments)).entries)
-    drawings = (text_drawing(chain), *(text_drawing(chain, each) for each in ports))
-    return " | ".join(dict.fromkeys(drawings))
-
-
-def _placed(places: Places, left: str, right: str) -> str:
-    """Which mass is which."""
-    pairs = ", ".join(f"{a}/{b}" for a, b in places)
-    return f"masses {pairs} of {left}/{right}"
 
 
 def decided(
@@ -256,97 +192,3 @@ def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
     """
     known = verdict.left_positive is not None or verdict.right_positive is not None
     return bool(options.bound) or (known and not verdict.proves_shares)
-
-
-def _both_ways(
-    verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]
-) -> Iterator[str]:
-    """Which positive models of each side, within ranges if there are any, have an equivalent on
-    the other side.
-
-    Without ranges that is told where the verdict tells it.
-    """
-    from disting.questions.positive import ranges, within_ranges
-
-    unknown = set(limits) - {name for chain in chains for name in chain.parameters}
-    if unknown:
-        raise InputError(f"no parameter of the two models is called {listed(sorted(unknown))}")
-    sides = list(
-        zip(
-            (verdict.left, verdict.right),
-            chains,
-            (verdict.left_positive, verdict.right_positive),
-            strict=True,
-        )
-    )
-    for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
-        boxes = (
-            {n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other)
-        )
-        found = within_ranges(given, other, ranges(*boxes)) if limits else known
-        if found is None:
-            continue
-        where = "within the ranges" if limits else "positive"
-        why = found.evidence.sentence(name, other_name) if found.evidence else found.reason
-        seen = f" ({found.empirical.sentence})" if found.empirical else ""
-        yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
-
-
-def _explained(verdict: Verdict, drawn: list[str]) -> str:
-    """Relation, drawings, sentence, evidence, certainty, domain, inclusion."""
-    names = (verdict.left, verdict.right)
-    width = max(map(len, names))
-    drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
-    heading = in_colour(verdict.relation.upper(), verdict.relation)
-    lines = [heading, "", *drawings, ""]
-    if verdict.evidence:
-        lines += [shown(verdict), ""]
-    lines.append(verdict.sentence)
-    if verdict.evidence:
-        lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]
-    lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")
-    return "\n".join([*lines, *_inclusion(verdict)])
-
-
-def _over_complex(verdict: Verdict) -> str:
-    """Beside a verdict over real or positive parameters, that over complex ones, where it is
-    known.
-    """
-    if verdict.domain is Domain.COMPLEX or (
-        verdict.closure is Inclusion.UNKNOWN and verdict.inclusions is None
-    ):
-        return ""
-    complex_relation = (
-        Relation.INDISTINGUISHABLE
-        if verdict.closure is Inclusion.EQUAL
-        else Relation.DISTINGUISHABLE
-    )
-    also = (
-        "too"
-        if verdict.relation is complex_relation
-        else f"they are {complex_relation} (--domain complex)"
-    )
-    return f"; over complex ones {also}"
-
-
-def _inclusion(verdict: Verdict) -> list[str]:
-    """What is said of models of unequal rank."""
-    both = verdict.inclusions
-    if both is None:
-        return []
-    lines = [f"inclusion  over complex parameters: {both.sentence(verdict.left, verdict.right)}"]
-    if both.image == both.closure:
-        return [*lines, f"why        {_why(both.closure, verdict)}"]
-    return [
-        *lines,
-        f"image      {_why(both.image, verdict)}",
-        f"closure    {_why(both.closure, verdict)}",
-    ]
-
-
-def _why(found: InclusionFinding, verdict: Verdict) -> str:
-    """Grade and evidence of one statement, or why it is not known."""
-    if found.evidence is None:
-        return f"not known: {found.reason}"
-    sure = f", {found.certainty.in_words(found.safety)}" if found.certainty else ""
-    return f"{found.inclusion}{sure}: {found.evidence.sentence(verdict.left, verdict.right)}"

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.arguments import add_damped, add_json, add_work, frequency_range
-from disting.cli.paths import written_folder
+from disting.cli.output import written_folder
 from disting.errors import shown
 from disting.model.chain import Sensor
 

@@ -15,8 +15,7 @@ from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
 from disting.catalogs.next_files import WITH_DAMPERS, build_next, next_catalog, write
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
-from disting.cli.output import emitted
-from disting.cli.paths import written_file
+from disting.cli.output import emitted, written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed, printable
 from disting.experiments.menu import Costs, Item

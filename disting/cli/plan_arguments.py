@@ -3,7 +3,7 @@
 import argparse
 
 from disting.cli.arguments import add_damped, add_json, add_work, frequency_range, refuse
-from disting.cli.paths import written_folder
+from disting.cli.output import written_folder
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:

@@ -11,9 +11,9 @@ from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import add_out, add_work, size_or_file
-from disting.cli.common import relations_in_words
 from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.parser import parser
+from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError

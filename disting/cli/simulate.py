@@ -4,8 +4,7 @@ import argparse
 from pathlib import Path
 
 from disting.cli.arguments import add_damped, add_quantity, refuse
-from disting.cli.output import emitted
-from disting.cli.paths import written_file
+from disting.cli.output import emitted, written_file
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named

@@ -17,11 +17,10 @@ from disting.cli.arguments import (
     sizes_or_file,
     whole,
 )
-from disting.cli.common import VIEWS, query, relations_in_words, rules_in_words
 from disting.cli.effort import announced, pairs_by_size, pairs_work
-from disting.cli.output import emitted
-from disting.cli.paths import written_file
+from disting.cli.output import emitted, written_file
 from disting.cli.plain import keep_apart
+from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general import ModelList, read_models
