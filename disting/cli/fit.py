@@ -5,7 +5,7 @@ the same positive models.
 import argparse
 import json
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from disting.fit.candidates import chosen_ports, whole_family
 from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.export import control_script, write_mat
 from disting.fit.loop import controller_named
+from disting.fit.named import Named, named_by
 from disting.fit.practical import Thresholds
 from disting.fit.select import Selection, select
 from disting.fit.selection_json import selection_to_dict
@@ -32,6 +33,9 @@ from disting.model.family import Family
 
 WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
+# options that name candidates, and where results go, with the number of words that follow
+CANDIDATES = {"--masses": 1, "--actuator": 1, "--gap": 1, "--family": 0}
+OUTPUTS = {"--out": 1, "--json": 1, "--site": 1, "--profiles": 0, "--left": 1, "--demo": 0}
 FEW = 30  # candidates that are fitted sooner than workers start
 
 
@@ -40,8 +44,10 @@ def run(options: argparse.Namespace) -> int:
     controller = controller_named(options.controller) if options.controller else None
     given = data(options)
     train, test = given.train, given.test
-    announced(Work.FITS, _counted(options), options.jobs or cores())
-    candidates = _candidates(options, given)
+    left = _left(options)
+    if left is None:
+        announced(Work.FITS, _counted(options), options.jobs or cores())
+    candidates = _candidates(options, given, left.chains if left else ())
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
     with engine_for(options) as (engine, pool, progress):
         found = select(
@@ -49,6 +55,7 @@ def run(options: argparse.Namespace) -> int:
             candidates,
             test=test,
             further=given.further,
+            home=_as_measured(left.model, given) if left else None,
             alike=options.weights == "none",
             thresholds=Thresholds(*options.thresholds),
             rule=Rule(options.rule),
@@ -65,6 +72,7 @@ def run(options: argparse.Namespace) -> int:
             executor=pool,
             progress=progress,
         )
+    found = replace(found, command=_again(options.words))
     if options.json:
         plain = selection_to_dict(found)
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
@@ -93,18 +101,55 @@ def _counted(options: argparse.Namespace) -> dict[int, int]:
     return {n: count * 2 ** (n + 2) for n, count in known.items()}
 
 
-def _candidates(options: argparse.Namespace, given: Data) -> tuple[Chain, ...]:
-    """The structures to fit; raises InputError where a parameter named by --fix or --bound is
-    in none of them.
+def _left(options: argparse.Namespace) -> Named | None:
+    """The earlier fit that names the candidates; raises InputError where options name others."""
+    if options.left is None:
+        return None
+    own = {word.partition("=")[0] for word in options.words} & CANDIDATES.keys()
+    if own or options.damped is not None:
+        raise InputError(
+            f"{options.left} names the candidates: leave"
+            f" {listed(sorted(own)) or '--damped and --undamped'} away"
+        )
+    return named_by(options.left)
+
+
+def _as_measured(chain: Chain, given: Data) -> Chain:
+    return replace(chain, sensor=given.train.sensor)
+
+
+def _again(words: Sequence[str]) -> str:
+    """The command without its candidates and without where it writes."""
+    kept, skipped = list[str](), 0
+    for word in words:
+        name, equals, _ = word.partition("=")
+        taken = (CANDIDATES | OUTPUTS).get(name)
+        if skipped:
+            skipped -= 1
+        elif taken is None:
+            kept.append(word)
+        else:
+            skipped = 0 if equals else taken
+    return shlex.join(["disting", *kept])
+
+
+def _candidates(
+    options: argparse.Namespace, given: Data, left: Sequence[Chain] = ()
+) -> tuple[Chain, ...]:
+    """The structures to fit, or those that an earlier fit left; raises InputError where a parameter
+    named by --fix or --bound is in none of them.
     """
     quantity = given.train.sensor
-    if options.family:
+    if left:
+        found = tuple(_as_measured(chain, given) for chain in left)
+    elif options.family:
         found = whole_family(options.masses, quantity)
     else:
         found = chosen_ports(
             options.masses, options.actuator, sensors(options)[0], options.gap, quantity
         )
-    found = tuple(replace(chain, damped=is_damped(options)) for chain in found)
+    if not left:
+        found = tuple(replace(chain, damped=is_damped(options)) for chain in found)
     known = {name for chain in found for name in chain.parameters}
     known |= {further.setup.delay for further in given.further} - {""}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]

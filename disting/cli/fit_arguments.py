@@ -47,7 +47,7 @@ def _responses(group: argparse._ArgumentGroup) -> None:
     text = (
         "another response of the same machine, fitted together: FILE:lock=2 (mass 2 does not"
         " move), FILE:inertia=1:0.5, FILE:brake=1:0.5 or FILE:spring=1:0.5 (a known inertia, damper"
-        " or spring to the ground added), FILE:sensor=3; may be repeated"
+        " or spring to the ground added), FILE:sensor=3, FILE:force=2; may be repeated"
     )
     group.add_argument(
         "--experiment", action="append", default=[], metavar="FILE:CHANGE", help=text
@@ -149,6 +149,11 @@ def _structures(group: argparse._ArgumentGroup) -> None:
         metavar="I",
         help="no spring right of mass I (default: 0, the ground)",
     )
+    text = (
+        "the structures that an earlier fit left, and what behaves as these do; places of further"
+        " responses are masses of the one that it selected, and every place of the others is tried"
+    )
+    group.add_argument("--left", type=Path, metavar="FIT.json", help=text)
     group.add_argument(
         "--family",
         action="store_true",

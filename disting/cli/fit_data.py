@@ -205,7 +205,7 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
     file, given = Path(found[1]), dict[str, list[str]]()
     for part in found[2].split(","):
         name, equals, value = part.partition("=")
-        if name not in ("sensor", "column", *CHANGED) or not (equals and value):
+        if name not in ("sensor", "force", "column", *CHANGED) or not (equals and value):
             raise InputError(f"{FORM}, not {shown(text)}")
         given.setdefault(name, []).append(value)
     changes = [
@@ -214,9 +214,10 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
         for value in given.get(name, ())
         for change in read_changes(kind, _measured(name, value), str)
     ]
-    setup = Setup(changes=changes)
+    force = given.get("force", [""])[-1]
+    setup = Setup(force=force, changes=changes)
     places = given.get("sensor", list(signs))
-    if not (changes or "sensor" in given):
+    if not (changes or force or "sensor" in given):
         raise InputError(f"{FORM}, not {shown(text)}")
     for k, place in enumerate(places):
         alone = "sensor" in given
@@ -228,7 +229,9 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
             together=not alone,
             column=",".join(given.get("column", ())),
         )
-        yield Further(response, replace(setup, sensor=place, sign=signs.get(place, 1)))
+        own = not alone and k == 0  # the sensor of the first response, wherever a candidate has it
+        seen = "" if own else place
+        yield Further(response, replace(setup, sensor=seen, sign=signs.get(place, 1)))
 
 
 def _measured(name: str, value: str) -> str:

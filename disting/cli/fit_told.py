@@ -20,6 +20,7 @@ from disting.fit.telling import (
     limits_in_words,
     renamed,
     suspicions,
+    which_mass,
 )
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -103,6 +104,7 @@ def _each(found: Selection) -> Iterator[str]:
         )
         yield f"{name}: {judged}fit {fit} of its training data"
     yield from learned(found)
+    yield from which_mass(found)
 
 
 def _excluded(found: Selection) -> Iterator[str]:

@@ -40,6 +40,7 @@ DOMAIN = (
     " of another structure can be any, as it is not known which is which"
 )
 
+AGAIN = "with what was measured next, NEW: fit both together"
 BRIEF = "menus on which nothing is surely enough are left out here; --json has them all"
 
 
@@ -96,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     """Of the structures that a fit left; only here are the libraries of fits loaded."""
     from disting.cli.next_fit import onward
-    from disting.report.fit.left_first import first_sentence
+    from disting.report.fit.left_first import again, first_sentence
     from disting.report.fit.left_words import (
         MEASURED_COLUMNS,
         left_rows,
@@ -110,14 +111,23 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     if options.csv:
         emitted(options.csv, _table([(*CSV_COLUMNS, *MEASURED_COLUMNS), *left_rows(found)]))
     if options.json:
-        plain = left_to_dict(found) | {"first": first_sentence(found)}
+        plain = left_to_dict(found) | {"first": first_sentence(found), "again": again(found)}
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
         emitted(options.json, text + "\n")
     if "-" not in (options.csv, options.json):
         menus = (line for group in found.groups for line in ("", *_told(group, brief=True)))
         domain = ["", DOMAIN, BRIEF] if found.groups else []
         first = [first_sentence(found), ""] if found.seen else []
-        lines = [*first, *set_in_words(found), "", *measured_in_words(found), *domain, *menus]
+        last = ["", AGAIN, f"  {again(found)}"] if again(found) else []
+        lines = [
+            *first,
+            *set_in_words(found),
+            "",
+            *measured_in_words(found),
+            *domain,
+            *menus,
+            *last,
+        ]
         print(printable("\n".join(lines)))
     return 0
 

@@ -84,7 +84,8 @@ def _kept(options: Namespace) -> str:
 
 def _parsed(arguments: Sequence[str] | None) -> Namespace:
     try:
-        return parser(whole=False).parse_args(arguments)
+        words = sys.argv[1:] if arguments is None else list(arguments)
+        return parser(whole=False).parse_args(words, Namespace(words=words))
     except SystemExit:  # help was asked for, and must have been written
         sys.stdout.flush()
         raise

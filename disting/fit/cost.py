@@ -142,6 +142,10 @@ class Cost(SquaredCost):
         """How the responses were measured."""
         return (Setup(),)
 
+    def setups_of(self, structure: Structure) -> tuple[Setup, ...]:
+        """The same of every structure."""
+        return self.setups
+
     @property
     def delays(self) -> tuple[str, ...]:
         """Dead times beside that of the chain: none."""

@@ -48,7 +48,7 @@ def estimates(
     store, run = store or Store.none(), method or estimate
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
-    for _, variants in groupby(wanted, key=_body):
+    for _, variants in groupby(wanted, key=body):
         fellows = list(variants)
         part = (
             replace(task, divided=min(1 + (len(fellows) - 1) // FELLOWS, PARTS))
@@ -149,7 +149,7 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
         *(part.measured.sensor.value for part in cost.parts),
         *(
             written((setup, len(p.measured)))
-            for setup, p in zip(cost.setups, cost.parts, strict=True)
+            for setup, p in zip(cost.setups_of(chain.structure), cost.parts, strict=True)
         ),
         written((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
     ]
@@ -180,11 +180,11 @@ def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estim
     return {c: known[c] for c in known if c in near}
 
 
-def _body(chain: Chain) -> tuple[int, str]:
+def body(chain: Chain) -> tuple[int, str]:
     """Masses, springs and ports: what candidates that exchange their fits have in common."""
     return chain.n_masses, written(replace(chain, ground_dampers=(), lag=False, dead_time=False))
 
 
 def _stage(chain: Chain) -> tuple[int, str, int]:
     """Order of work: what a candidate contains and what leads to it comes before it."""
-    return *_body(chain), len(chain.ground_dampers) + chain.lag + chain.dead_time
+    return *body(chain), len(chain.ground_dampers) + chain.lag + chain.dead_time

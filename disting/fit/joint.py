@@ -8,9 +8,10 @@ A machine in one state is eliminated once for all its sensors. A dead time of it
 second response, stands behind the parameters of the chain.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,7 +81,8 @@ class JointPlant:
         known: dict[tuple[object, ...], Motion] = {}
         found = []
         for part, at in zip(self.parts, self._places, strict=True):
-            state, own = (part.still, part.added, part.omega.tobytes()), p[..., at]
+            force = part.structure.ports[:2]
+            state, own = (force, part.still, part.added, part.omega.tobytes()), p[..., at]
             if state not in known:
                 known[state] = part.motion(own)
             found.append((part, own, at, known[state]))
@@ -106,12 +108,14 @@ class JointPlant:
 @dataclass(frozen=True, eq=False)
 class JointCost(SquaredCost):
     """The sum of the costs of several responses, each with its setup; `delays` as in
-    `JointPlant`.
+    `JointPlant`; `places`: the setups at the masses of each structure, where these are not those
+    that `setups` names.
     """
 
     parts: tuple[Cost, ...]
     setups: tuple[Setup, ...]
     delays: tuple[str, ...] = ()
+    places: Mapping[Structure, tuple[Setup, ...]] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return summary(self, plural(len(self.parts), "response"))
@@ -150,7 +154,7 @@ class JointCost(SquaredCost):
 
     def plant(self, structure: Structure, sign: int) -> JointPlant:
         """The structure under each setup at the lines of the data."""
-        n = structure.n_masses
+        n, setups = structure.n_masses, self.setups_of(structure)
         plants = [
             Plant(
                 setup.seen(structure, part.measured.sensor),
@@ -159,18 +163,25 @@ class JointCost(SquaredCost):
                 setup.still(n),
                 setup.added(n),
             )
-            for part, setup in zip(self.parts, self.setups, strict=True)
+            for part, setup in zip(self.parts, setups, strict=True)
         ]
-        return JointPlant(tuple(plants), self.setups, self.delays)
+        return JointPlant(tuple(plants), setups, self.delays)
+
+    def setups_of(self, structure: Structure) -> tuple[Setup, ...]:
+        """The setups, at the masses of a structure."""
+        return self.places.get(structure, self.setups)
 
     def on(self, chain: Chain) -> "AnyCost":
         """Of the responses that a chain has, such as one with fewer masses, where a place is
-        missing.
+        missing, or of which it is not known which mass is which: it has the first one.
         """
-        there = measurable(chain, self.setups)
+        setups = self.setups_of(chain.structure)
+        there = measurable(chain, setups)
+        if self.places and chain.structure not in self.places:
+            there = (True, *(False for _ in setups[1:]))
         if all(there):
             return self
-        kept = [(p, s) for p, s, has in zip(self.parts, self.setups, there, strict=True) if has]
+        kept = [(p, s) for p, s, has in zip(self.parts, setups, there, strict=True) if has]
         parts, setups = zip(*kept, strict=True)
         return JointCost(parts, setups, self.delays)
 
@@ -257,14 +268,21 @@ def judging_cost(
     """
     tests = [test, *(one.test for one in further)]
     kept = [
-        (replace(part, measured=data, lines=None), part, setup)
-        for part, setup, data in zip(cost.parts, cost.setups, tests, strict=True)
+        (replace(part, measured=data, lines=None), part)
+        for part, data in zip(cost.parts, tests, strict=True)
         if data is not None
     ]
-    plain = JointCost(tuple(p for p, *_ in kept), tuple(s for *_, s in kept), cost.delays)
+    tested = [data is not None for data in tests]
+    places = cost.places if isinstance(cost, JointCost) else {}
+    plain = JointCost(
+        tuple(part for part, _ in kept),
+        tuple(compress(cost.setups, tested)),
+        cost.delays,
+        {of: tuple(compress(setups, tested)) for of, setups in places.items()},
+    )
     each = [plain.by_line(response) for response in fitted(plain)]
     parts = []
-    for k, (part, trained, _) in enumerate(kept):
+    for k, (part, trained) in enumerate(kept):
         own = [responses[k] for responses in each]
         data = part.measured
         weights = np.ones(len(data)) if alike else _weights(data, trained.measured, lines, own)

@@ -49,7 +49,8 @@ class Named:
     the same, with the reason; `rivals` with their fitted values, none of those that were not
     fitted; `left`: the structures that the data leave, the selected one first; `scatter` of a line;
     `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell; `responses`:
-    how many were fitted together.
+    how many were fitted together; `command`: what fits the same data again, "" where it does not
+    tell.
     """
 
     model: Chain
@@ -63,6 +64,12 @@ class Named:
     high: float
     lines: int
     responses: int
+    command: str = ""
+
+    @property
+    def chains(self) -> tuple[Chain, ...]:
+        """The structures that the data leave."""
+        return tuple(one.chain for one in self.left)
 
 
 def named_by(path: Path) -> Named:
@@ -86,6 +93,7 @@ def named_by(path: Path) -> Named:
             number_of(range_of["high"], 0.0),
             _count(range_of["lines"]),
             len(plain.get("responses", [None])),
+            str(plain.get("command", "")),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise InputError(

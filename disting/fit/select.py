@@ -28,7 +28,7 @@ from disting.fit.candidates import reference
 from disting.fit.choice import akaike_weighted, choice
 from disting.fit.cost import Case, Cost
 from disting.fit.estimate import Method, Task
-from disting.fit.exchange import estimates
+from disting.fit.exchange import body, estimates
 from disting.fit.explained import Explanation
 from disting.fit.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.fit.judged import FOLDS, Candidate, judged
@@ -40,7 +40,12 @@ from disting.fit.practical import Thresholds
 from disting.fit.readings import Reading, readings
 from disting.fit.reliance import Statement, statements
 from disting.fit.signs import pilot, signed
-from disting.fit.together import alternatives_under_all, learning, representatives_under_all
+from disting.fit.together import (
+    alternatives_under_all,
+    learning,
+    located,
+    representatives_under_all,
+)
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.model.chain import Chain
 from disting.model.shown import Shown, plural, summary
@@ -75,7 +80,7 @@ class Selection(Shown):
     the test cost comes from, `judging` is that cost. Where several responses are fitted, `test` is
     the data of the first one, and `silent` names those that are zero, from which nothing is
     learned. `quantities`: sentences on the sensor quantities that explain the data as well as the
-    assumed one.
+    assumed one; `command`: what reads and fits the same data once more, without the candidates.
     """
 
     selected: Candidate | None
@@ -97,6 +102,7 @@ class Selection(Shown):
     test: FrequencyResponse = field(repr=False)
     judging: AnyCost = field(repr=False)
     quantities: tuple[str, ...] = ()
+    command: str = ""
 
     def __repr__(self) -> str:
         found = "none is admissible" if self.selected is None else reference(self.selected.chain)
@@ -129,6 +135,7 @@ def select(
     *,
     test: FrequencyResponse | None = None,
     further: Sequence[Further] = (),
+    home: Chain | None = None,
     alike: bool = False,
     thresholds: Thresholds | None = None,
     rule: Rule = Rule.NOT_EXCLUDED,
@@ -159,14 +166,17 @@ def select(
     `further`: responses of the same machine that are fitted together with `train`, one parameter
     vector for all; each counts in units of its own scatter (`joint_cost`). Candidates without their
     places are left out, and a response that is zero in every candidate: nothing is learned from it.
+    `home`: the chain whose masses the places of `further` name; of a candidate with other masses,
+    springs or ports every choice of places is fitted, and the best is taken (`together.located`).
     """
     _check(train, test, further, candidates)
-    candidates, further, silent = learning(candidates, further)
+    candidates, further, silent = learning(candidates, further, home)
     engine = engine or Engine(store=Store.none())
     weighed = partial(joint_cost, Cost(train, case, weights), further, lines, alike, test)
     asked = Task(weighed(), sign or 1, bounds or {}, fixed or {}, seed)
+    asked = asked if sign else signed(asked, _at_home(candidates, home))
     task, seen_by = _tried(
-        asked if sign else signed(asked, candidates),
+        located(asked, candidates, home, engine.store) if home else asked,
         candidates,
         weighed,
         by_scatter=lines is None and not alike,
@@ -211,6 +221,11 @@ def select(
     )
 
 
+def _at_home(candidates: Sequence[Chain], home: Chain | None) -> Sequence[Chain]:
+    """The candidates of which it is known which mass is which."""
+    return [c for c in candidates if body(c) == body(home)] if home else candidates
+
+
 def _tried(
     task: Task,
     candidates: Sequence[Chain],
@@ -237,7 +252,7 @@ def _representatives(
         return {c: c for c in candidates}
     # what stands for another in the first response need not do so in the others
     first = representatives(candidates, engine, within)
-    return representatives_under_all(first, task.cost.setups, within)
+    return representatives_under_all(first, task.cost, within)
 
 
 def _alternatives(
@@ -251,7 +266,7 @@ def _alternatives(
     if selected is None:
         return ()
     found = alternatives(selected.chain, candidates, engine, within)
-    return alternatives_under_all(selected.chain, found, task.cost.setups, engine, within)
+    return alternatives_under_all(selected.chain, found, task.cost, engine, within)
 
 
 def _readings(

@@ -18,7 +18,7 @@ from disting.fit.measured import assumed
 from disting.fit.members import Member
 from disting.fit.reliance import Statement
 from disting.fit.select import Selection
-from disting.fit.telling import suspicions
+from disting.fit.telling import places, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.schemas import Format
@@ -56,6 +56,7 @@ def selection_to_dict(found: Selection) -> dict[str, Any]:
         "rule": found.rule.value,
         "validation": found.validation,
         "sign": found.task.sign,
+        "command": found.command,
     } | (_joint_to_dict(found) if len(found.task.cost.parts) > 1 or found.silent else {})
 
 
@@ -91,6 +92,7 @@ def _joint_to_dict(found: Selection) -> dict[str, Any]:
             for at, (part, setup, residual) in enumerate(rows)
         ],
         "nothing_learned": list(found.silent),
+        "places": [{"name": name, "measured": there} for name, there in places(found)],
     }
 
 

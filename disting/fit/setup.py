@@ -1,8 +1,8 @@
 """How a further response of the same machine was measured: what differs from the first one.
 
-The force is the same. The sensor may be elsewhere, and the machine may be changed as in any
-experiment. Places are written as the commands write ports, such as 2, last or 1:3, since
-candidates of several sizes are asked: with so many masses a setup is an `Experiment`.
+Force and sensor may be elsewhere, and the machine may be changed as in any experiment. Places are
+written as the commands write ports, such as 2, last or 1:3, since candidates of several sizes are
+asked: with so many masses a setup is an `Experiment`.
 """
 
 import re
@@ -14,7 +14,7 @@ from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
 from disting.experiments import Change, Experiment, MeasuredChain
 from disting.experiments.changes import changes_of, in_order
-from disting.experiments.experiment import Entry
+from disting.experiments.experiment import Entry, Place
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Ports, Structure
 
@@ -23,8 +23,8 @@ from disting.model.structure import Ports, Structure
 class Setup:
     """One way to measure; as it stands, that of the first response.
 
-    `sensor`: a port, "" for that of the candidate; `changes` of the machine, sizes in the units of
-    its parameters, also by kind: `locked`, masses that do not move, `inertias`, `springs`,
+    `sensor`, `force`: a port, "" for that of the candidate; `changes` of the machine, sizes in the
+    units of its parameters, also by kind: `locked`, masses that do not move, `inertias`, `springs`,
     `brakes`, (mass, size) of what is added; `sign` = -1 for a sensor that is reversed against the
     first; `delay`: name of a dead time of its own, "" for the common one. Raises InputError.
 
@@ -33,6 +33,7 @@ class Setup:
     """
 
     sensor: str
+    force: str
     changes: tuple[Change[str], ...]
     sign: int
     delay: str
@@ -43,6 +44,7 @@ class Setup:
         sign: int = 1,
         delay: str = "",
         *,
+        force: str = "",
         changes: Iterable[Change[str]] = (),
         **by_kind: object,
     ) -> None:
@@ -54,6 +56,7 @@ class Setup:
             raise InputError(f"the sign of a sensor is 1 or -1, not {sign!r}")
         for name, value in (
             ("sensor", sensor),
+            ("force", force),
             ("changes", in_order(listed)),
             ("sign", sign),
             ("delay", delay),
@@ -63,7 +66,8 @@ class Setup:
     @property
     def text(self) -> str:
         """The setup in words."""
-        said = [f"sensor {self.sensor}"] * bool(self.sensor)
+        ports = (("force", self.force), ("sensor", self.sensor))
+        said = [f"{name} {place}" for name, place in ports if place]
         for change in self.changes:
             size = "" if change.size is None else f"{float(change.size):g}"
             said.append(change.kind.text.format(at=change.place, size=size))
@@ -73,16 +77,19 @@ class Setup:
         """What it is on a chain of n masses, without quantity, sign and dead time; raises
         InputError.
         """
-        minus, plus = port(self.sensor, n) if self.sensor else (0, 0)
+        force, sensor = (
+            port(text, n)[::-1] if text else None for text in (self.force, self.sensor)
+        )
         changes = [change.moved(partial(_mass, n=n)) for change in self.changes]
-        return Experiment(sensor=(plus, minus) if plus else None, changes=changes)
+        return Experiment(force, sensor, changes=changes)
 
     def moved(self, n: int, place: Callable[[int], int]) -> "Setup":
         """The same on another chain, at the masses that those of a chain of n masses become."""
         there = self.experiment(n).moved(place)
-        plus, minus = there.sensor or (0, 0)
         changes = tuple(change.moved(str) for change in there.changes)
-        return replace(self, sensor=f"{minus}:{plus}" if plus else "", changes=changes)
+        return replace(
+            self, sensor=_written(there.sensor), force=_written(there.force), changes=changes
+        )
 
     def still(self, n: int) -> tuple[int, ...]:
         """The masses of a chain of n masses that do not move; raises InputError."""
@@ -97,14 +104,11 @@ class Setup:
         )
 
     def seen(self, structure: Structure, quantity: Sensor) -> Structure:
-        """The structure with this sensor; raises InputError."""
-        ports, n = structure.ports, structure.n_masses
-        if self.sensor:
-            minus, plus = port(self.sensor, n)
-            if max(minus, plus) > n or minus == plus or not plus:
-                raise InputError(f"there is no place {self.sensor} in a chain of {n} masses")
-            ports = Ports(ports.act_minus, ports.act_plus, minus, plus)
-        return replace(structure, ports=ports, sensor_order=quantity.order)
+        """The structure with this force and this sensor; raises InputError."""
+        own, n = structure.ports, structure.n_masses
+        act = _ends(self.force, n) if self.force else own[:2]
+        meas = _ends(self.sensor, n) if self.sensor else own[2:]
+        return replace(structure, ports=Ports(*act, *meas), sensor_order=quantity.order)
 
     def missing(self, structure: Structure) -> str:
         """Why the machine cannot be measured so; "" where it can."""
@@ -131,6 +135,26 @@ def port(text: str, n: int) -> tuple[int, int]:
     if not match:
         raise InputError(f"a port is written like 2, last or 1:3, not {shown(text)}")
     return int(match[1] or 0), n if match[2] == "last" else int(match[2])
+
+
+def _ends(text: str, n: int) -> tuple[int, int]:
+    """(minus, plus) of a port that a chain of n masses has; raises InputError."""
+    minus, plus = port(text, n)
+    if max(minus, plus) > n or minus == plus or not plus:
+        raise InputError(f"there is no place {text} in a chain of {n} masses")
+    return minus, plus
+
+
+def _written(place: Place | None) -> str:
+    """A port as it is written, "" where it is that of the chain.
+
+    >>> _written((2, 0)), _written((3, 1))
+    ('2', '1:3')
+    """
+    if place is None:
+        return ""
+    plus, minus = place
+    return f"{minus}:{plus}" if minus else f"{plus}"
 
 
 def measured_chain(chain: Chain, setups: Sequence[Setup]) -> MeasuredChain:

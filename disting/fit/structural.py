@@ -47,7 +47,7 @@ def _told_together(chain: Chain, found: Practical, task: Task, settings: Setting
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
     if max(t.rank_by(common) for t in proof) == len(common):
         return found
-    measured = measured_chain(chain, task.cost.setups)
+    measured = measured_chain(chain, task.cost.setups_of(chain.structure))
     labels = (f"joint:{settings.seed}:{k}" for k in range(settings.points))
     rank = max(rank_by(measured, common, label) for label in labels)
     lacking = len(common) - rank

@@ -100,6 +100,28 @@ def learned(found: Selection) -> tuple[str, ...]:
     )
 
 
+def which_mass(found: Selection) -> tuple[str, ...]:
+    """Where further responses are in structures that have other places, in sentences."""
+    return tuple(
+        f"in {name} this is {there}: of all its masses these fit best"
+        for name, there in places(found)
+    )
+
+
+def places(found: Selection) -> tuple[tuple[str, str], ...]:
+    """Names of the structures that are left, or best, in which further responses have other places
+    than they are named by, and these places.
+    """
+    cost, shown = found.task.cost, [m.candidate for m in (*found.members, *found.containing)]
+    chains = dict.fromkeys(c.chain for c in (found.described, *shown))
+    each = ((reference(chain), cost.setups_of(chain.structure)) for chain in chains)
+    return tuple(
+        (name, " and ".join(setup.text for setup in setups[1:]))
+        for name, setups in each
+        if setups != cost.setups
+    )
+
+
 def _is_joint(found: Selection) -> bool:
     return len(found.task.cost.parts) > 1
 

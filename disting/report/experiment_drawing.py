@@ -90,9 +90,14 @@ def with_items(chain: Chain, items: Sequence[Item]) -> Scene:
     )
 
 
-def state(chain: Chain, sensors: Mapping[str, Port], changes: Sequence[Change[int]] = ()) -> Scene:
+def state(
+    chain: Chain,
+    sensors: Mapping[str, Port],
+    changes: Sequence[Change[int]] = (),
+    force: Port | None = None,
+) -> Scene:
     """A chain with the sensors that are read in one state of the machine, each under its sign; "y"
-    is that of the chain.
+    is that of the chain, as is a `force` that is None.
     """
     further = [sign for sign in sensors if sign != "y"]
     first = int("y" in sensors)
@@ -101,6 +106,9 @@ def state(chain: Chain, sensors: Mapping[str, Port], changes: Sequence[Change[in
     layers = [layer for layer in own.layers if layer.name != "sensor" or first]
     for place, sign in enumerate(further, first):
         layers.append(Layer(f"sensor {sign}", further_sensor(at, sensors[sign], place, sign)))
+    if force:
+        moved = (*_wall(at.axis - RISE), *force_bar(at, (force[1], force[0])))
+        layers = [*(layer for layer in layers if layer.name != "force"), Layer("force", moved)]
     height = Counter[int]()
     for change in changes:
         shapes = on_mass(at, change.kind, change.place, height[change.place])

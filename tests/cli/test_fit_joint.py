@@ -114,7 +114,7 @@ def test_experiments_say_what_is_locked_and_what_is_added(bench):
     inertias = (("2", 0.004), ("1", 0.001))
     assert load.setup == Setup("2", sign=-1, delay="Td2")
     assert locked.setup == Setup("1", locked=("2",), delay="Td3")
-    assert heavy.setup == Setup("1", inertias=inertias, delay="Td4")
+    assert heavy.setup == Setup(inertias=inertias, delay="Td4")
     assert loaded.setup == Setup("2", inertias=inertias, sign=-1, delay="Td5")
     assert between.setup == Setup("1:2", locked=("last",), delay="Td6")
     known = {"brakes": (("1", 0.3),), "springs": (("last", "1/3"),)}
@@ -137,7 +137,7 @@ def test_two_sensors_are_fitted_together(bench):
 def test_what_is_zero_teaches_nothing_and_the_output_says_so(bench):
     """A locked mass carries the force."""
     found, said = fitted(bench["motor"], "--experiment", f"{bench['locked']}:lock=1")
-    zero = "sensor 1, mass 1 locked"
+    zero = "mass 1 locked"
     assert f"  {zero}: that response is zero whatever the parameters, so nothing is" in said
     assert found["nothing_learned"] == [zero] and len(found["responses"]) == 1
 
@@ -187,7 +187,7 @@ REFUSED = [
         "size of a known inertia is missing: write inertia=1:1",
     ),
     (["motor", "--experiment", "{locked}"], "an experiment is written FILE:lock=2"),
-    (["motor", "--experiment", "{locked}:force=2"], "an experiment is written FILE:lock=2"),
+    (["motor", "--experiment", "{locked}:torque=2"], "an experiment is written FILE:lock=2"),
     (["motor", "--experiment", "nowhere.csv:lock=2"], "there is no file nowhere.csv"),
     (["motor", "load", "--sensor", "1,2", "--family"], "--family moves the sensor: leave it away"),
     (["both", "--sensor", "1,2", "--test", "{motor}"], "motor.csv holds 1 response"),
@@ -199,3 +199,50 @@ def test_what_cannot_be_fitted_is_refused_in_a_sentence(bench, arguments, said):
     given = [bench.get(a, a.format(**bench)) for a in arguments]
     done = called("fit", *given, "--masses", "2")
     assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
+
+
+MACHINE = Chain(3, 2, 2, 3, 2, 3, damped=True)  # 3:11: an experiment on 3:1 is one on it too
+OF_MACHINE = dict(zip(MACHINE.parameters, (1.1, 1.3, 1.1, 34e3, 66e3, 23.0, 17.0), strict=True))
+
+
+@pytest.mark.parametrize(
+    ("setup", "said"),
+    [
+        (Setup(sensor="1"), "sensor=2"),
+        (Setup(sensor="3"), "sensor=2"),
+        (Setup(force="2"), "force=3"),
+        (Setup(inertias=(("3", 0.5),)), "inertia=2:0.5"),
+    ],
+)
+def test_a_joint_fit_finds_the_twin_that_is_the_truth(tmp_path, setup, said):
+    """The set that a fit left, measured as one of its structures would be: what is a mass of that
+    one is some mass of the others.
+    """
+    omega = 2 * np.pi * np.geomspace(3.0, 150.0, 80)
+    p = np.array([OF_MACHINE[name] for name in MACHINE.parameters])
+    for k, one in enumerate((Setup(), setup)):
+        cost = JointCost((Cost(FrequencyResponse(omega, np.ones(80))),), (one,))
+        source = np.random.default_rng(k)
+        error = source.normal(size=80) + 1j * source.normal(size=80)
+        G = cost.plant(MACHINE.structure, 1).response(p) * (1 + 0.002 * error)
+        table = np.column_stack([omega / (2 * np.pi), G.real, G.imag])
+        name = tmp_path / ("first.csv", "next.csv")[k]
+        np.savetxt(name, table, delimiter=",", header="f [Hz],Re,Im", comments="")
+    first = ("fit", tmp_path / "first.csv", "--quantity", "acceleration", "--jobs", "1")
+    left = tmp_path / "left.json"
+    called(*first, "--masses", "3", "--json", left)
+    plain = json.loads(left.read_text(encoding="utf-8"))
+    assert plain["selected"]["name"] == "3:1" and "--masses" not in plain["command"]
+    onward = called("next", left).stdout
+    assert f"--left {left} --experiment NEW:sensor=2" in onward.splitlines()[-1]
+    again = (*first, "--left", left, "--experiment", f"{tmp_path / 'next.csv'}:{said}")
+    found = json.loads(called(*again, "--json", "-").stdout)
+    assert found["explained"] and found["selected"]["name"] == "3:11"
+    assert {"name": "3:11", "measured": setup.text} in found["places"]
+    assert f"in 3:11 this is {setup.text}" in called(*again).stdout
+
+
+def test_what_names_candidates_twice_is_refused(tmp_path):
+    np.savetxt(tmp_path / "a.csv", np.ones((9, 3)) * np.arange(1, 10)[:, None])
+    done = called("fit", tmp_path / "a.csv", "--left", tmp_path / "fit.json", "--masses", "2")
+    assert done.returncode == 2 and "leave --masses away" in done.stderr

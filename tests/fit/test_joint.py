@@ -46,6 +46,8 @@ SETUPS = [
     Setup(sensor="1", locked=("2",), sign=-1),
     Setup(sensor="2", inertias=(("2", 0.5),), springs=(("1", 30.0),), brakes=(("2", 0.4),)),
     Setup(brakes=(("last", 1.5), ("1", 0.25))),
+    Setup(force="2"),
+    Setup(sensor="2", force="1:last", inertias=(("1", 0.5),)),
 ]
 
 
@@ -67,8 +69,9 @@ def dense(chain, values, setup, quantity, s):
     held = [number[change.place] for change in setup.changes if change.size is None]
     moving = [i for i in range(1, n + 1) if i not in held]
     force, x = np.zeros(n + 1), np.zeros(n + 1, dtype=complex)
-    force[chain.act_plus] += 1.0
-    force[chain.act_minus] -= 1.0
+    driven = [number[e] for e in setup.force.split(":")] if setup.force else []
+    force[driven[-1] if driven else chain.act_plus] += 1.0
+    force[(driven[0] if len(driven) > 1 else 0) if driven else chain.act_minus] -= 1.0
     x[moving] = np.linalg.solve(whole[np.ix_(moving, moving)], force[moving])
     ends = [number[e] for e in setup.sensor.split(":")] if setup.sensor else []
     plus, minus = (
@@ -375,23 +378,24 @@ def test_mirrored_candidates_are_merged_where_every_response_is_mirrored(setup, 
     """
     other, engine = replace(MIRRORED, ground_dampers=(3,)), Engine(store=Store.none())
     assert representatives([MIRRORED, other], engine, {})[other] == MIRRORED
-    setups = (Setup(), setup)
-    found = representatives_under_all({MIRRORED: MIRRORED, other: MIRRORED}, setups, {})
+    cost = stack(MIRRORED, (Setup(), setup))
+    found = representatives_under_all({MIRRORED: MIRRORED, other: MIRRORED}, cost, {})
     assert found == {MIRRORED: MIRRORED, other: MIRRORED if same else other}
-    said = under_all(MIRRORED, other, setups, engine, {})
+    said = under_all(MIRRORED, other, cost, engine, {})
     if same:
         assert said.relation is Relation.INDISTINGUISHABLE
     else:
         assert said is None or said.relation is Relation.UNDECIDED
-    assert not is_same_under_all(MIRRORED, other, setups, {"b1": (1.0, 2.0)})
+    assert not is_same_under_all(MIRRORED, other, cost, {"b1": (1.0, 2.0)})
 
 
 def test_what_the_second_response_tells_apart_is_no_alternative():
     """By the conditions on the stacked coefficients."""
     one = Chain(2, meas_plus=2, damped=True, ground_dampers=(1,))
     other, engine = replace(one, ground_dampers=(2,)), Engine(store=Store.none())
-    assert under_all(one, other, (Setup(),), engine, {}).relation is Relation.INDISTINGUISHABLE
-    assert under_all(one, other, (Setup(), Setup(sensor="1")), engine, {}) is None
+    first, both = stack(one, [Setup()]), stack(one, [Setup(), Setup(sensor="1")])
+    assert under_all(one, other, first, engine, {}).relation is Relation.INDISTINGUISHABLE
+    assert under_all(one, other, both, engine, {}) is None
 
 
 def test_a_twin_must_have_all_responses():

@@ -1,5 +1,6 @@
 """What to measure next after a fit, in the first sentence."""
 
+import shlex
 from dataclasses import dataclass
 
 from disting.errors import listed
@@ -23,6 +24,21 @@ class Reach:
     left: tuple[tuple[int, float], ...]
 
 
+def again(found: Onward) -> str:
+    """The command that fits what the first sentence advises together with the data of the fit, NEW
+    its file; "" where the file of the fit does not tell its command.
+    """
+    if not found.named.command:
+        return ""
+    best = _best(found, found.seen, _others(found)) if found.seen else None
+    what = "sensor=MASS"
+    if best is not None:
+        kind, size = best.item.kind, ":SIZE" if best.item.kind.takes_size else ""
+        what = f"{kind.name}={best.item.at}{size}"
+    given = f"--left {shlex.quote(found.source)} --experiment NEW:{what}"
+    return f"{found.named.command} {given}"
+
+
 def first_sentence(found: Onward) -> str:
     """The experiment that parts the selected structure from most of the others, of equals the
     cheapest, and what it leaves; "" where the lines of the data are not known.
@@ -34,10 +50,8 @@ def first_sentence(found: Onward) -> str:
     if found.seen is None:
         return ""
     selected = found.left[0]
-    larger = [
-        k for k, o in enumerate(found.left) if k and joined(selected.chain, o.chain) == o.chain
-    ]
-    others = [k for k in range(1, len(found.left)) if k not in larger]
+    others = _others(found)
+    larger = [k for k in range(1, len(found.left)) if k not in others]
     best = _best(found, found.seen, others)
     said = (
         f"if it is {selected.name}, no experiment on the menu has power {percent(POWER)} against"
@@ -53,6 +67,12 @@ def first_sentence(found: Onward) -> str:
     contain = listed([found.left[k].name for k in larger])
     verb = "contains" if len(larger) == 1 else "contain"
     return said + f"; {contain} {verb} it, which no data exclude" * bool(larger)
+
+
+def _others(found: Onward) -> list[int]:
+    """The structures that do not contain the selected one."""
+    chain = found.left[0].chain
+    return [k for k, o in enumerate(found.left) if k and joined(chain, o.chain) != o.chain]
 
 
 def _best(found: Onward, seen: Foretold, others: list[int]) -> Reach | None:

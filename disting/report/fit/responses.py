@@ -102,7 +102,7 @@ def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]
 
 def seen_together(chain: Chain, selection: Selection) -> Scene:
     """A chain with all sensors that are read on the machine as it is."""
-    setups = [setup for setup in selection.task.cost.setups if not _is_changed(setup)]
+    setups = [setup for setup in _setups(chain, selection) if not _is_changed(setup)]
     signs = _signs(chain, selection)
     ports = {_port(chain, setup) for setup in setups}
     read = {sign: place for sign, place in signs.items() if place in ports}
@@ -112,9 +112,11 @@ def seen_together(chain: Chain, selection: Selection) -> Scene:
 
 def seen_alone(chain: Chain, selection: Selection, one: Response) -> Scene:
     """A chain as it is in one response."""
-    n, place = chain.n_masses, _port(chain, one.setup)
+    setup = _setups(chain, selection)[one.at]
+    n, place = chain.n_masses, _port(chain, setup)
     read = {sign: at for sign, at in _signs(chain, selection).items() if at == place}
-    scene = state(chain, read, one.setup.experiment(n).changes)
+    measured = setup.experiment(n)
+    scene = state(chain, read, measured.changes, measured.force)
     said = f"{draw(chain).title.removesuffix('.')}; measured here: {one.setup.text}."
     return replace(scene, title=said)
 
@@ -129,8 +131,13 @@ def drawing(scene: Scene) -> Markup:
 
 def _signs(chain: Chain, selection: Selection) -> dict[str, Port]:
     """All places of sensors, "y" that of the first response, then "y2", "y3" .. as they come."""
-    ports = dict.fromkeys(_port(chain, setup) for setup in selection.task.cost.setups)
+    ports = dict.fromkeys(_port(chain, setup) for setup in _setups(chain, selection))
     return {f"y{k}" if k > 1 else "y": place for k, place in enumerate(ports, 1)}
+
+
+def _setups(chain: Chain, selection: Selection) -> tuple[Setup, ...]:
+    """All setups, at the masses of a chain."""
+    return selection.task.cost.setups_of(chain.structure)
 
 
 def _port(chain: Chain, setup: Setup) -> Port:
@@ -145,4 +152,4 @@ def _named(place: Port) -> str:
 
 
 def _is_changed(setup: Setup) -> bool:
-    return bool(setup.changes)
+    return bool(setup.changes or setup.force)
