@@ -77,6 +77,11 @@ def _reading(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--repeat", type=Path, action="append", default=[], metavar="FILE", help=text
     )
+    text = (
+        "measurements, of three or more repeats or periods, that are not like the others: they are"
+        " named; drop leaves them out of the mean (default: keep)"
+    )
+    group.add_argument("--outliers", choices=("keep", "drop"), default="keep", help=text)
 
 
 def _quantities(group: argparse._ArgumentGroup) -> None:

@@ -141,12 +141,16 @@ def measured(
     settings = dict(options.read) | ({"column": options.column} if options.column else {})
     settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
     settings |= {"sensor": options.quantity} if options.quantity else {}
+    settings |= {"outliers": "drop"} if options.outliers == "drop" and len(files) == 1 else {}
     if count > 1:
         settings = _of_one(settings, which, count)
     if column:
         settings["column"] = column
     each = [_begun(f, settings, which) if together and count > 1 else settings for f in files]
-    found = mean_of([read(file, **own) for file, own in zip(files, each, strict=True)])
+    found = mean_of(
+        [read(file, **own) for file, own in zip(files, each, strict=True)],
+        outliers=options.outliers,
+    )
     found = scaled(found, options.scale) if options.scale is not None else found
     found = in_si(found, input=units.get("input"), output=units.get("output"))
     return (

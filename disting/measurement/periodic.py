@@ -18,6 +18,7 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.distortion import Distortion, distortion
+from disting.measurement.outliers import left_out
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
 # correlation of the input with itself, one period later, from which on it counts as periodic
@@ -42,6 +43,7 @@ class Estimated:
     notes: tuple[str, ...]
     distortion: Distortion | None = None
     freedom: float | None = None
+    doubts: tuple[str, ...] = ()
 
 
 def estimate(
@@ -53,9 +55,11 @@ def estimate(
     lines: Any,
     band: tuple[float, float] | None,
     excitation: Real,
+    outliers: str = "keep",
 ) -> Estimated:
     """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz];
-    `excitation` = u or a reference.
+    `excitation` = u or a reference; `outliers` among the periods as in
+    `repeats.mean_of`.
 
     Means over periods forget the noise that a controller feeds back, so G holds in closed loop as
     well.
@@ -81,7 +85,8 @@ def estimate(
     notes += ["one period alone: no standard deviation and no coherence"] * (len(inputs) == 1)
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     return replace(
-        _estimated(inputs[:, chosen], outputs[:, chosen], omega, tuple(notes)), distortion=between
+        _estimated(inputs[:, chosen], outputs[:, chosen], omega, tuple(notes), outliers),
+        distortion=between,
     )
 
 
@@ -155,16 +160,24 @@ def _given(lines: Any, spacing: float, count: int) -> np.ndarray[tuple[int], np.
     return np.unique(numbers.astype(np.intp))
 
 
-def _estimated(inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str, ...]) -> Estimated:
+def _estimated(
+    inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str, ...], outliers: str
+) -> Estimated:
     periods = len(inputs)
     if np.any(inputs.mean(axis=0) == 0):
         raise InputError(
             "the input is exactly zero at a chosen line; choose lines that are excited"
         )
-    mean = outputs.mean(axis=0) / inputs.mean(axis=0)
     if periods == 1:
-        return Estimated(omega=omega, G=mean, deviation=None, coherence=None, notes=notes)
-    deviation = np.std(outputs / inputs, axis=0, ddof=1) / np.sqrt(periods)
+        alone = outputs[0] / inputs[0]
+        return Estimated(omega=omega, G=alone, deviation=None, coherence=None, notes=notes)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        each = outputs / inputs
+    names = [f"period {i}" for i in range(1, periods + 1)]
+    kept, said, doubts = left_out(each, names, omega, outliers)
+    count = kept.sum(axis=0)
+    mean = outputs.mean(axis=0, where=kept) / inputs.mean(axis=0, where=kept)
+    deviation = np.std(each, axis=0, ddof=1, where=kept) / np.sqrt(count)
     power = np.sum(np.abs(inputs) ** 2, axis=0) * np.sum(np.abs(outputs) ** 2, axis=0)
     crossed = np.abs(np.sum(outputs * inputs.conj(), axis=0)) ** 2
     # 1 + rounding where nothing is noisy
@@ -174,8 +187,9 @@ def _estimated(inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str,
         G=mean,
         deviation=deviation,
         coherence=coherence,
-        notes=notes,
-        freedom=2.0 * (periods - 1),
+        notes=(*notes, *said),
+        freedom=2.0 * (int(count.min(initial=periods)) - 1),
+        doubts=doubts,
     )
 
 

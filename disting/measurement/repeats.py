@@ -9,6 +9,7 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.measurement.arrays import nearest
+from disting.measurement.outliers import left_out
 from disting.measurement.response import FrequencyResponse
 
 NEAR = 0.02  # relative distance of two frequencies at which a phase is compared
@@ -18,9 +19,10 @@ AGAINST = -0.5
 SAME = 1e-6  # relative distance of two frequencies that count as one
 
 
-def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
+def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> FrequencyResponse:
     """Mean of n responses at the same frequencies, with deviation = sqrt(sum |G_i - G|^2 / (n - 1)
-    / n), that of the mean.
+    / n), that of the mean. `outliers` among three or more are named; "drop" leaves them out
+    (`outliers.left_out`).
 
     Raises InputError where frequencies or sensor quantities differ.
     """
@@ -41,23 +43,27 @@ def mean_of(repeats: Sequence[FrequencyResponse]) -> FrequencyResponse:
     if n == 1:
         return first
     values = np.stack([one.G for one in repeats])
-    deviation = np.std(values, axis=0, ddof=1) / np.sqrt(n)
+    names = [one.origin or f"repeat {i}" for i, one in enumerate(repeats, 1)]
+    kept, notes, outlying = left_out(values, names, first.omega, outliers)
+    count = kept.sum(axis=0)
+    deviation = np.std(values, axis=0, ddof=1, where=kept) / np.sqrt(count)
     mean = replace(
         first,
-        G=values.mean(axis=0),
+        G=values.mean(axis=0, where=kept),
         deviation=deviation,
         coherence=None,
-        freedom=2.0 * (n - 1),
+        freedom=2.0 * (int(count.min()) - 1),
     )
-    relative = float(np.median(deviation * np.sqrt(n) / np.abs(mean.G)))
+    relative = float(np.median(deviation * np.sqrt(count) / np.abs(mean.G)))
     said = dict.fromkeys(note for one in repeats for note in one.notes)
-    doubts = [doubt for one in repeats for doubt in one.doubts]
+    doubts = [*(doubt for one in repeats for doubt in one.doubts), *outlying]
     if len(set(repeats)) < n:
         doubts.append("some repeats are the same numbers: they scatter less than the machine does")
     return (
         replace(mean, notes=tuple(said))
         .noted(
-            f"mean of {n} repeats, which scatter by {100 * relative:.2g} % (median of the lines)"
+            f"mean of {n} repeats, which scatter by {100 * relative:.2g} % (median of the lines)",
+            *notes,
         )
         .doubted(*doubts)
     )

@@ -60,6 +60,7 @@ def frequency_response(
     phase_unit: str | None = None,
     frequency_unit: str | None = None,
     magnitude_unit: str | None = None,
+    outliers: str = "keep",
 ) -> FrequencyResponse:
     """The first response of a table, or that of `column` (header, or number from 1); "all": the
     mean of all.
@@ -68,8 +69,8 @@ def frequency_response(
     none, or a unit of frequency, gain or phase) instead of its header; `sensor`, `phase_unit`
     ("deg", "rad", "gon", ..), `frequency_unit` ("Hz", "rad/s", ..), `magnitude_unit` ("dB", "%",
     "Np", "1") where the file does not say them, or says them wrongly; `sign` = -1 for a reversed
-    sensor. Raises InputError where columns are missing, with the table's first rows as `detail`,
-    and for a stated unit that is not known.
+    sensor; `outliers` as in `mean_of`. Raises InputError where columns are missing, with the
+    table's first rows as `detail`, and for a stated unit that is not known.
     """
     notes, doubts = list[str](), list[str]()
     if table.transposed:
@@ -99,7 +100,8 @@ def frequency_response(
     ]
     unit = taken_unit(grid, table.column(at), roles[at].unit)
     words = f"frequency in {unit} (column {at + 1})"
-    return mean_of(responses).noted(*notes).doubted(*doubts).read_as(f"{words}, {reading.words}")
+    mean = mean_of(responses, outliers=outliers)
+    return mean.noted(*notes).doubted(*doubts).read_as(f"{words}, {reading.words}")
 
 
 def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:

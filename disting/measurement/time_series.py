@@ -97,13 +97,15 @@ class TimeSeries:
         band: tuple[float, float] | None = None,
         segment: int | None = None,
         least_coherence: float | None = None,
+        outliers: str = "keep",
     ) -> FrequencyResponse:
         """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default:
         that of the record).
 
         Periodic excitation (module `periodic`): `period` [samples], detected where not given;
         `transient` = periods dropped at the beginning; `lines` = excited frequencies [Hz],
-        detected where not given. Any other excitation: `segment` [samples] of Welch's method
+        detected where not given; `outliers` among the periods as in `mean_of`. Any other
+        excitation: `segment` [samples] of Welch's method
         (module `welch`), which is used exactly where `segment` is given; lines of a coherence
         below `least_coherence` are left out then (default: what chance gives). A reference makes
         both methods hold in closed loop. `band` = (low, high) [Hz]. Raises InputError where no
@@ -119,7 +121,9 @@ class TimeSeries:
                         "least_coherence belongs to Welch's method: give --read segment=SAMPLES too"
                     )
                 excitation = self.u if self.reference is None else self.reference
-                found = periodic.estimate(*given, period, transient, lines, band, excitation)
+                found = periodic.estimate(
+                    *given, period, transient, lines, band, excitation, outliers
+                )
             else:
                 if period is not None or lines is not None:
                     raise InputError(
@@ -144,6 +148,7 @@ class TimeSeries:
             reading=f"record in time, input {self.input}, output {self.output}"
             + f", {REFERENCED}" * (self.reference is not None),
             freedom=found.freedom,
+            doubts=found.doubts,
         )
         return response if sensor is None else response.to_quantity(sensor)
 

@@ -5,8 +5,17 @@ import pytest
 
 from disting.cli import main
 from disting.errors import InputError
-from disting.measurement import FrequencyResponse, Signal, in_si, mean_of, read, read_time_series
+from disting.measurement import (
+    FrequencyResponse,
+    Signal,
+    TimeSeries,
+    in_si,
+    mean_of,
+    read,
+    read_time_series,
+)
 from disting.measurement.grid import in_omega
+from disting.measurement.outliers import outlying
 from disting.measurement.scaling import scaled, with_constant
 from disting.measurement.units import DRIVES, MOTIONS, motion, ratio
 from disting.model.chain import Sensor
@@ -203,6 +212,52 @@ def test_repeats_have_a_mean_and_a_scatter(tmp_path):
     for other in (repeats[0].sign_reversed().to_quantity("velocity"), repeats[0].masked(low=0.4)):
         with pytest.raises(InputError, match=r"one quantity|other frequencies"):
             mean_of([repeats[0], other])
+
+
+def repeated(n, seed, lines=100):
+    source = np.random.default_rng([seed, n])
+    noise = source.normal(size=(n, lines)) + 1j * source.normal(size=(n, lines))
+    return 1.0 + 0.1 * noise * source.uniform(0.2, 3.0, size=lines)
+
+
+@pytest.mark.parametrize("n", [2, 3, 5, 10])
+def test_repeats_of_one_noise_have_no_outliers(n):
+    """Neither lines nor whole repeats, in 300 sets."""
+    assert not any(outlying(repeated(n, seed)).any() for seed in range(300))
+
+
+def test_an_outlier_among_repeats_is_named_and_left_out_where_that_is_said():
+    frequency = np.geomspace(1.0, 100.0, 100)
+    values = repeated(10, 7)
+    values[3, 40:42] += 30.0
+    repeats = [FrequencyResponse(frequency, one, origin=f"{i}.csv") for i, one in enumerate(values)]
+    kept, dropped = mean_of(repeats), mean_of(repeats, outliers="drop")
+    hertz = ", ".join(f"{f:.4g}" for f in kept.frequency[40:42])
+    (doubt,) = kept.doubts
+    assert doubt.startswith(f"3.csv at {hertz} Hz: not like the other") and "--outliers" in doubt
+    np.testing.assert_array_equal(kept.G, values.mean(axis=0))
+    rest = np.delete(values, 3, axis=0)
+    np.testing.assert_allclose(dropped.G[40:42], rest.mean(axis=0)[40:42])
+    np.testing.assert_allclose(dropped.deviation[41], np.std(rest[:, 41], ddof=1) / 3)
+    np.testing.assert_allclose(np.delete(dropped.G, [40, 41]), np.delete(kept.G, [40, 41]))
+    assert not dropped.doubts and any(f"3.csv at {hertz} Hz" in n for n in dropped.notes)
+    assert (kept.freedom, dropped.freedom) == (18.0, 16.0)
+    with pytest.raises(InputError, match="--outliers is keep or drop"):
+        mean_of(repeats, outliers="median")
+
+
+def test_a_whole_repeat_and_a_period_that_are_not_like_the_others():
+    values = repeated(5, 1)
+    values[2] += 1.5 * np.std(values[[0, 1, 3, 4]], axis=0).max()
+    assert outlying(values)[2].all() and not outlying(values)[[0, 1, 3, 4]].any()
+    u = np.tile(np.random.default_rng(1).normal(size=64), 6)
+    y = u + 0.01 * np.random.default_rng(2).normal(size=u.size)
+    y[3 * 64 : 4 * 64] *= 1.5
+    record = TimeSeries(u, y, 64.0)
+    said = record.response(period=64, transient=0)
+    assert [d[:11] for d in said.doubts] == ["period 4 at"]
+    left = record.response(period=64, transient=0, outliers="drop")
+    assert left.freedom == 8.0 and np.allclose(left.to_quantity("position").G, 1.0, atol=0.05)
 
 
 def test_signals_of_a_record_have_units_in_their_headers(tmp_path):
