@@ -80,6 +80,11 @@ class DamperFamily:
         number, masses = self.name(place)
         return "+".join([f"{self.family.n_masses}:{number}", *(f"b{m}" for m in masses)])
 
+    def pair_text(self, left: int, right: int) -> str:
+        """Two models in a sentence, with what their names leave out."""
+        kind = "damped" if self.family.damped else "undamped"
+        return f"{self.text(left)} and {self.text(right)}, {kind}"
+
     @cached_property
     def _order(self) -> dict[Masses, int]:
         return {masses: k for k, masses in enumerate(self.sets)}

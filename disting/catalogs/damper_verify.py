@@ -55,9 +55,10 @@ def false_settled(stored: DamperFamily, folder: Path, progress: Progress = silen
     witness = Witness()
     for done, (names, found) in enumerate(known.items(), 1):
         left, right = (place[name] for name in names)
+        pair = stored.pair_text(left, right)
         chains = (canonical(stored.found.chains[i]).chain for i in (left, right))
         if found.evidence is None or not witness.confirms(found.evidence, "fibre", *chains):
-            yield f"{names[0]} and {names[1]}: the evidence does not hold"
+            yield f"{pair}: the evidence does not hold"
         if stored.found.relation(left, right) is not Relation.DISTINGUISHABLE:
-            yield f"{names[0]} and {names[1]}: settled, but not in the file"
+            yield f"{pair}: settled, but not in the file"
         progress("settled evidence", done, len(known))

@@ -3,12 +3,13 @@ compare says.
 """
 
 import json
+from dataclasses import replace
 from random import Random
 
 import pytest
 
 from disting import CatalogError, Engine, InputError, Query, Relation, View, catalog, compare
-from disting.catalogs.damper_family import damper_family
+from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import (
     SHIPPED_SIZES,
     _read,
@@ -19,16 +20,19 @@ from disting.catalogs.damper_files import (
     text_of,
     write,
 )
+from disting.catalogs.damper_settle import settle_dampers
 from disting.catalogs.damper_settled import read_settled
-from disting.catalogs.damper_verify import verify_dampers
+from disting.catalogs.damper_verify import false_settled, verify_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions import Outcome
+from disting.model.family import Family
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.limited import quick_finding, quick_profile
 from disting.store.scheduling import executor
+from disting.verdict.grouping import classes
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 MODELS = {3: 88, 4: 464, 5: 2336}
@@ -212,6 +216,19 @@ def assert_settled(known, pairs):
     chains = {str(c): c for c in canonicals}
     for names in pairs:
         assert Witness().confirms(known[names].evidence, "fibre", *(chains[n] for n in names))
+
+
+def test_what_is_settled_and_what_contradicts_the_file_is_said_by_the_names_of_the_models(tmp_path):
+    family, sets = Family(4, damped=True), ((1,),)
+    chains = [replace(chain, ground_dampers=(1,)) for chain in family]
+    found, lines = DamperFamily(family, sets, classes(chains, Engine(), more=[])), []
+    for count in (1, 0):
+        assert settle_dampers(found, tmp_path, Settings(), lines.append) == count
+    open_pair = "4:8+b1 and 4:19+b1, damped: the shares refute nothing"
+    assert lines == ["4:3+b1 and 4:7+b1, damped: distinguishable", open_pair, open_pair]
+    assert list(false_settled(found, tmp_path)) == [
+        "4:3+b1 and 4:7+b1, damped: settled, but not in the file"
+    ]
 
 
 def test_a_condition_of_any_name_is_read_as_it_was_written():
