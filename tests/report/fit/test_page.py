@@ -146,6 +146,11 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     )
 
 
+def test_that_a_chain_explains_does_not_make_the_machine_one(written: list[Path]) -> None:
+    page = written[0].read_text(encoding="utf-8")
+    assert page.count("whether the machine is one cannot be seen") == 1
+
+
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
     rows = [t for t, a in outline.elements if t == "th" and a.get("scope") == "row"]
     assert len(rows) >= len(selection.candidates)
