@@ -16,7 +16,6 @@ from disting.catalogs.files import (
 )
 from disting.catalogs.provenance import write_provenance
 from disting.conditions.rule import Stage
-from disting.evidence.plain import to_dict
 from disting.files import write_whole
 from disting.model.domain import Domain
 from disting.model.family import Family
@@ -142,5 +141,5 @@ def step(decided: Decisions, i: int, j: int) -> Record:
         "decided_by": verdict.decided_by,
         "certainty": verdict.certainty.value,
         "safety": verdict.safety,
-        "evidence": to_dict(verdict.evidence),
+        "evidence": verdict.evidence.to_dict(),
     }

@@ -13,7 +13,6 @@ from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Re
 from disting.conditions.rule import Role, Stage
 from disting.conditions.table import RULES
 from disting.evidence.kinds import evidence_from
-from disting.evidence.plain import to_dict
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Premise
 from disting.model.domain import Domain
@@ -107,7 +106,7 @@ def _positively(record: Record) -> tuple[Stage, dict[str, Any]]:
         "certainty": f.certainty.value,
         "safety": f.safety,
     }
-    return Stage.PARAMETERS, plain | {"evidence": to_dict(f.evidence)}
+    return Stage.PARAMETERS, plain | {"evidence": f.evidence.to_dict()}
 
 
 def _distinguishing(record: Record) -> tuple[Stage, dict[str, Any]]:

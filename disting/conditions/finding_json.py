@@ -6,7 +6,6 @@ from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT, Rule
 from disting.evidence.kinds import evidence_from
-from disting.evidence.plain import to_dict
 
 # what the files have in the place of the rule where a decision found it, since the first of them:
 # a mark, and no place in the table of conditions, of which one called 10 is written as text
@@ -15,7 +14,7 @@ WRITTEN = 10
 
 def finding_to_json(finding: Finding) -> str:
     """Compact JSON text of a finding of a decision; its rule is known to whoever asked."""
-    evidence = to_dict(finding.evidence) if finding.evidence else None
+    evidence = finding.evidence.to_dict() if finding.evidence else None
     data = [WRITTEN, finding.outcome, finding.certainty, finding.safety, evidence, finding.note]
     return json.dumps(data, separators=(",", ":"))
 

@@ -5,6 +5,8 @@ each checked again alone.
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
+from disting.evidence.kind import Claim, Inside, Kind
+
 _WORDS = {"∞": "without bound", "0": "zero"}
 
 
@@ -42,7 +44,7 @@ class RowLimit(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Kind):
     """The smaller chain is a limit of the larger one, row by row; a row that is not named comes to
     rest.
 
@@ -51,6 +53,7 @@ class Limit:
     """
 
     kind: ClassVar[str] = "limit"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
     left_is_larger: bool
     parts: tuple[RowLimit, ...]
     smaller: tuple[int, ...] = ()
@@ -87,12 +90,13 @@ class Limit:
 
 
 @dataclass(frozen=True, slots=True)
-class Meeting:
+class Meeting(Kind):
     """Dimensions of closures add up (see `meeting`), so a common factor exists with which the
     smaller model is a limit.
     """
 
     kind: ClassVar[str] = "meeting"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
     left_is_larger: bool
     rank: int
     coordinates: int
@@ -117,12 +121,13 @@ class Meeting:
 
 
 @dataclass(frozen=True, slots=True)
-class TooLarge:
+class TooLarge(Kind):
     """Numbers of determinable parameters, in the pair's order: the chain with fewer masses has
     as many or more.
     """
 
     kind: ClassVar[str] = "too-large"
+    claim: ClassVar[Claim] = Claim(inside=Inside.NO_LIMIT)
     left: int
     right: int
 
@@ -140,7 +145,7 @@ class TooLarge:
 
 
 @dataclass(frozen=True, slots=True)
-class PoleSharing:
+class PoleSharing(Kind):
     """Smaller models whose poles cannot be distributed to the rows of the larger chain (see
     `pole_sharing`).
 
@@ -150,6 +155,7 @@ class PoleSharing:
     """
 
     kind: ClassVar[str] = "pole-sharing"
+    claim: ClassVar[Claim] = Claim(inside=Inside.NO_LIMIT)
     left_is_larger: bool
     label: str
     points: tuple[tuple[int, ...], ...]
@@ -171,7 +177,7 @@ class PoleSharing:
 
 
 @dataclass(frozen=True, slots=True)
-class LimitFibre:
+class LimitFibre(Kind):
     """Generic smaller models are found, with an error bound, among what limits of the larger
     chain's rows lead to.
 
@@ -181,6 +187,7 @@ class LimitFibre:
     """
 
     kind: ClassVar[str] = "limit-fibre"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
     left_is_larger: bool
     steps: tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
     small_given: bool

@@ -3,23 +3,30 @@ masses.
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import ClassVar
+
+from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind
+from disting.model.domain import Domain
+from disting.model.relation import Relation
 
 Labels = tuple[str, ...]
 TRANSCENDENTAL = (
     "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
 )
+_APART = Claim(Carrier.CONDITION, Relation.DISTINGUISHABLE)
+_SAME = Claim(Carrier.CONDITION, Relation.INDISTINGUISHABLE, COMPLEX)
 
 
 @dataclass(frozen=True, slots=True)
-class Counts:
+class Counts(Kind):
     """Conditions 1 and 2: degrees (numerator n, denominator m) of both transfer functions; of
     several experiments one pair after the other, (-1, 0) where nothing moves the sensor.
     """
 
     kind: ClassVar[str] = "counts"
+    claim: ClassVar[Claim] = replace(_APART, inside=Inside.NO_LIMIT)
     left: tuple[int, ...]
     right: tuple[int, ...]
 
@@ -49,10 +56,11 @@ class Counts:
 
 
 @dataclass(frozen=True, slots=True)
-class Forms:
+class Forms(Kind):
     """Condition 3: the invariants that vary in one model only."""
 
     kind: ClassVar[str] = "forms"
+    claim: ClassVar[Claim] = _APART
     only_left: Labels
     only_right: Labels
 
@@ -73,10 +81,11 @@ class Forms:
 
 
 @dataclass(frozen=True, slots=True)
-class Ranks:
+class Ranks(Kind):
     """Conditions 4 and 5: a set of invariants whose Jacobian rows have different generic ranks."""
 
     kind: ClassVar[str] = "ranks"
+    claim: ClassVar[Claim] = _APART
     rows: Labels
     left: int
     right: int
@@ -99,12 +108,15 @@ class Ranks:
 
 
 @dataclass(frozen=True, slots=True)
-class Renaming:
+class Renaming(Kind):
     """Condition 6: pairs (left parameter, right parameter), and the symmetries that give the
     renaming, if any do.
     """
 
     kind: ClassVar[str] = "renaming"
+    claim: ClassVar[Claim] = Claim(
+        Carrier.CONDITION | Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE
+    )
     pairs: tuple[tuple[str, str], ...]
     symmetries: tuple[str, ...]
 
@@ -123,12 +135,17 @@ class Renaming:
         """All pairs."""
         return ", ".join(f"{a} → {b}" for a, b in self.pairs)
 
+    def without_exception(self, domain: Domain) -> bool:
+        """It carries all parameters over."""
+        return True
+
 
 @dataclass(frozen=True, slots=True)
-class FreeChoice:
+class FreeChoice(Kind):
     """Condition 7: as many determinable parameters as non-constant invariants, on both sides."""
 
     kind: ClassVar[str] = "free-choice"
+    claim: ClassVar[Claim] = _SAME
     rank: int
     free: Labels
 
@@ -147,12 +164,13 @@ class FreeChoice:
 
 
 @dataclass(frozen=True, slots=True)
-class Embedding:
+class Embedding(Kind):
     """Condition 8: the side that is the submodel, the numbering of its masses in the larger
     model, the common rank.
     """
 
     kind: ClassVar[str] = "embedding"
+    claim: ClassVar[Claim] = _SAME
     left_is_submodel: bool
     numbering: tuple[tuple[int, int], ...]
     rank: int
@@ -173,10 +191,11 @@ class Embedding:
 
 
 @dataclass(frozen=True, slots=True)
-class Supermodel:
+class Supermodel(Kind):
     """Condition 9: the parameters of the common supermodel and the rank that all three share."""
 
     kind: ClassVar[str] = "supermodel"
+    claim: ClassVar[Claim] = _SAME
     parameters: Labels
     rank: int
 

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from disting.evidence.conditions import TRANSCENDENTAL
+from disting.evidence.kind import Carrier, Claim, Inside, Kind
+from disting.model.domain import Domain
+from disting.model.relation import Relation
 
 THEOREMS = {
     "Foster and Cauer": (
@@ -37,12 +40,13 @@ TITLES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Theorem:
+class Theorem(Kind):
     """A theorem of that `name` gives each model an equivalent in the other, with positive
     parameters if its own are.
     """
 
     kind: ClassVar[str] = "theorem"
+    claim: ClassVar[Claim] = Claim(~Carrier.NOBODY, grounds="a theorem")
     name: str
 
     def __post_init__(self) -> None:
@@ -64,14 +68,32 @@ class Theorem:
         """The theorem by name."""
         return f"{self.name} theorem"
 
+    def shows(self, domain: Domain) -> Relation:
+        """Of positive models of chains it is told which way they have equivalents (`BothWays`)."""
+        known = {
+            Domain.COMPLEX: True,
+            Domain.REAL: self.name in RATIONAL,
+            Domain.POSITIVE: self.name == "Foster and Cauer",
+        }
+        return Relation.INDISTINGUISHABLE if known[domain] else Relation.UNDECIDED
+
+    def without_exception(self, domain: Domain) -> bool:
+        """Symmetries of a chain carry all parameters over. So does duality where they are positive:
+        its formulas divide by sums of masses alone. Foster's and Cauer's theorems speak of generic
+        ones: of a chain with the force on its middle mass and both sides alike a pole is cancelled,
+        and a chain with the force at its end has always all of them.
+        """
+        return self.name == "symmetry" or (self.name == "duality" and domain is Domain.POSITIVE)
+
 
 @dataclass(frozen=True, slots=True)
-class DeadTime:
+class DeadTime(Kind):
     """Exact decision: one of the two has a dead time, so a factor that is no rational function
     (see `exact`).
     """
 
     kind: ClassVar[str] = "dead time"
+    claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds="dead time")
     left_given: bool
 
     def sentence(self, left: str, right: str) -> str:
@@ -84,9 +106,14 @@ class DeadTime:
         """The factor."""
         return "exp(−Td s), Td ≠ 0, is not rational"
 
+    @property
+    def title(self) -> str:
+        """What settles it."""
+        return self.kind
+
 
 @dataclass(frozen=True, slots=True)
-class FibreUnder:
+class FibreUnder(Kind):
     """Exact decision under several experiments: at a rational point of one model all parameters
     of the other one that fit experiment `listed`, and for each an experiment that it misses.
 
@@ -95,6 +122,7 @@ class FibreUnder:
     """
 
     kind: ClassVar[str] = "fibre under experiments"
+    claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds="one fibre")
     left_given: bool
     point: tuple[tuple[str, str], ...]
     listed: int
@@ -122,7 +150,7 @@ class FibreUnder:
 
 
 @dataclass(frozen=True, slots=True)
-class FibreAt:
+class FibreAt(Kind):
     """Exact decision: the fibre of one model over the transfer function of the other at a rational
     parameter point.
 
@@ -132,6 +160,7 @@ class FibreAt:
     """
 
     kind: ClassVar[str] = "fibre"
+    claim: ClassVar[Claim] = Claim(Carrier.EXACT, grounds="one fibre")
     left_given: bool
     point: tuple[tuple[str, str], ...]
     grounds: str
@@ -160,3 +189,14 @@ class FibreAt:
         if self.grounds == "refuted":
             return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
         return f"|Φ₂⁻¹(Φ₁(p₀))| ≥ {self.solutions}"
+
+    def shows(self, domain: Domain) -> Relation:
+        """Nothing of real and positive parameters where there are solutions."""
+        if self.grounds == "refuted":
+            return Relation.DISTINGUISHABLE
+        return Relation.INDISTINGUISHABLE if domain is Domain.COMPLEX else Relation.UNDECIDED
+
+    @property
+    def inside(self) -> Inside:
+        """Solutions have elements that are neither zero nor infinite."""
+        return Inside.EQUIVALENT if self.solutions > 0 else Inside.NO_EQUIVALENT

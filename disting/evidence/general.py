@@ -5,7 +5,9 @@ and without one; constants.
 from dataclasses import dataclass
 from typing import ClassVar
 
+from disting.evidence.kind import Carrier, Claim, Kind
 from disting.model.domain import Domain
+from disting.model.relation import Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
 """Left given; polynomials in its parameters that are positive; values of the other model's
@@ -18,7 +20,16 @@ BOTH = (True, False)  # ways from one model to the other
 
 
 @dataclass(frozen=True, slots=True)
-class Explicit:
+class _OverDomain(Kind):
+    domain: str
+
+    def shows(self, domain: Domain) -> Relation:
+        """What its kind claims, over the domain that it names."""
+        return self.claim.relation if self.domain == domain else Relation.UNDECIDED
+
+
+@dataclass(frozen=True, slots=True)
+class Explicit(_OverDomain):
     """All generic parameters of either model have an equivalent: those of the first formula
     that applies.
 
@@ -27,17 +38,18 @@ class Explicit:
     """
 
     kind: ClassVar[str] = "explicit"
-    domain: str
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE)
     formulas: tuple[Formula, ...]
 
-    @property
-    def without_exception(self) -> bool:
+    def without_exception(self, domain: Domain) -> bool:
         """Whether it holds for special values too."""
         plain = all(
             not where and not root and not any("-" in value for _, value in values)
             for _, where, values, root in self.formulas
         )
-        return self.domain == Domain.POSITIVE and plain and len(self.formulas) == len(BOTH)
+        return (
+            self.domain == domain == Domain.POSITIVE and plain and len(self.formulas) == len(BOTH)
+        )
 
     def sentence(self, left: str, right: str) -> str:
         """One formula each way, and how many there are."""
@@ -46,7 +58,7 @@ class Explicit:
             every = [f for f in self.formulas if f[0] is way]
             more = f" ({len(every)} formulas for different parameters)" if len(every) > 1 else ""
             said.append(f"{given} is {searched} at {_told(every[0])}{more}")
-        values = "" if self.without_exception else " but special ones"
+        values = "" if self.without_exception(Domain.POSITIVE) else " but special ones"
         return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
 
     @property
@@ -63,7 +75,7 @@ def _told(formula: Formula) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class NoEquivalent:
+class NoEquivalent(_OverDomain):
     """No generic parameters of one model have an equivalent: in each case one of the
     `contradictions` would have to hold.
 
@@ -72,7 +84,7 @@ class NoEquivalent:
     """
 
     kind: ClassVar[str] = "no equivalent"
-    domain: str
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.DISTINGUISHABLE)
     left_given: bool
     contradictions: tuple[str, ...]
 
@@ -94,10 +106,11 @@ class NoEquivalent:
 
 
 @dataclass(frozen=True, slots=True)
-class Constants:
+class Constants(Kind):
     """Coefficients of the monic form that are constant in both models and have different values."""
 
     kind: ClassVar[str] = "constants"
+    claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds="constants")
     labels: tuple[str, ...]
     left: tuple[str, ...]
     right: tuple[str, ...]
@@ -116,7 +129,7 @@ class Constants:
 
 
 @dataclass(frozen=True, slots=True)
-class Witnesses:
+class Witnesses(_OverDomain):
     """At the rational `point_with` the other model has the `equivalent` (rounded), at
     `point_without` none in the domain.
 
@@ -126,7 +139,7 @@ class Witnesses:
     """
 
     kind: ClassVar[str] = "witnesses"
-    domain: str
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.SOMETIMES)
     with_left_given: bool
     point_with: Point
     equivalent: Point

@@ -5,16 +5,18 @@ A label stands for a random prime and a random point, so evidence holds labels, 
 """
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, get_args
+from typing import Any, ClassVar, Self, get_args
 
-from disting.evidence import plain
+from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, read
+from disting.model.relation import Relation
 
 _FULL = "have as many determinable parameters as coefficients ({})"
+_IDEAL = "the ideal of one fibre"
 SAME = 0  # in place of the number of coefficients of a row
 
 
 @dataclass(frozen=True, slots=True)
-class Solved:
+class Solved(Kind):
     """At the prime and point of each label the searched model has the parameters `solutions` with
     the same transfer function.
 
@@ -24,6 +26,9 @@ class Solved:
     """
 
     kind: ClassVar[str] = "solved"
+    claim: ClassVar[Claim] = Claim(
+        Carrier.EXACT, Relation.INDISTINGUISHABLE, COMPLEX, _IDEAL, Inside.LIMIT
+    )
     left_given: bool
     labels: tuple[str, ...]
     solutions: tuple[tuple[int, ...], ...]
@@ -45,7 +50,7 @@ class Solved:
 
 
 @dataclass(frozen=True, slots=True)
-class Refuted:
+class Refuted(Kind):
     """At the prime and point of each label the equations of the fibre have no solution: 1 is a
     combination of degree `degree`.
 
@@ -54,6 +59,7 @@ class Refuted:
     """
 
     kind: ClassVar[str] = "refuted"
+    claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds=_IDEAL)
     left_given: bool
     labels: tuple[str, ...]
     degree: int
@@ -76,7 +82,7 @@ class Refuted:
 
 
 @dataclass(frozen=True, slots=True)
-class Vanishing:
+class Vanishing(Kind):
     """Markov parameter `index` of a row is a product of elements and has to be zero, or is
     zero and has to be something.
     """
@@ -98,7 +104,7 @@ class RowStep:
 
 
 @dataclass(frozen=True, slots=True)
-class ByRows:
+class ByRows(Kind):
     """In each split a row that cannot be, or in one split two rows that can; `left_given`:
     the right model is searched.
     """
@@ -111,6 +117,11 @@ class ByRows:
     def is_member(self) -> bool:
         """Whether it speaks for inclusion."""
         return bool(self.steps) and all(isinstance(s.shown, Solved) for s in self.steps)
+
+    @property
+    def inside(self) -> Inside:
+        """Two rows that can be are a limit: elements may be zero."""
+        return Inside.LIMIT if self.is_member else Inside.NO_EQUIVALENT
 
     @property
     def is_proven(self) -> bool:
@@ -143,19 +154,19 @@ class ByRows:
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON: what is shown of a row stands beside its name."""
-        steps = [{"split": s.split, "part": s.part, **plain.to_dict(s.shown)} for s in self.steps]
+        steps = [{"split": s.split, "part": s.part, **s.shown.to_dict()} for s in self.steps]
         return {"kind": self.kind, "left_given": self.left_given, "steps": steps}
 
-    @staticmethod
-    def from_dict(data: dict[str, Any]) -> "ByRows":
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Self:
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
         if not isinstance(data["steps"], list):
             raise TypeError("the steps are a list")
-        return ByRows(bool(data["left_given"]), tuple(map(_step, data["steps"])))
+        return cls(bool(data["left_given"]), tuple(map(_step, data["steps"])))
 
 
 @dataclass(frozen=True, slots=True)
-class Shared:
+class Shared(Kind):
     """No way to share out the roots of N at the prime and point of `label` leaves parameters of
     the searched row.
 
@@ -165,6 +176,11 @@ class Shared:
     """
 
     kind: ClassVar[str] = "shared"
+    claim: ClassVar[Claim] = Claim(
+        Carrier.EXACT,
+        Relation.DISTINGUISHABLE,
+        grounds="all ways to share out the zeros of a row",
+    )
     left_given: bool
     part: str
     label: str
@@ -189,12 +205,18 @@ class Shared:
 
 
 @dataclass(frozen=True, slots=True)
-class FullRows:
+class FullRows(Kind):
     """Exact decision: `free` coefficients of each row, as many as its rank; 0 where both
     chains have the very same row.
     """
 
     kind: ClassVar[str] = "full-parts"
+    claim: ClassVar[Claim] = Claim(
+        Carrier.EXACT,
+        Relation.INDISTINGUISHABLE,
+        COMPLEX,
+        "rows that can have any receptance",
+    )
     free: tuple[int, ...]
 
     def sentence(self, left: str, right: str) -> str:
@@ -222,7 +244,7 @@ def _times(count: int, what: str) -> str:
 
 def _step(data: dict[str, Any]) -> RowStep:
     shown = {name: value for name, value in data.items() if name not in ("split", "part")}
-    return RowStep(str(data["split"]), str(data["part"]), plain.from_dict(shown, get_args(Shown)))
+    return RowStep(str(data["split"]), str(data["part"]), read(shown, get_args(Shown)))
 
 
 def _told(step: RowStep, searched: str) -> str:

@@ -8,6 +8,7 @@ from itertools import groupby
 from typing import ClassVar, NamedTuple
 
 from disting.evidence.conditions import Labels, spelled
+from disting.evidence.kind import Claim, Inside, Kind
 
 
 class Why(StrEnum):
@@ -48,7 +49,7 @@ WHOLE = "whole"
 
 
 @dataclass(frozen=True, slots=True)
-class _Steps:
+class _Steps(Kind):
     left_given: bool
     steps: tuple[RowLimits, ...]
 
@@ -69,6 +70,7 @@ class Outside(_Steps):
     """
 
     kind: ClassVar[str] = "outside"
+    claim: ClassVar[Claim] = Claim(inside=Inside.NO_LIMIT)
 
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
@@ -101,6 +103,7 @@ class RowsInside(_Steps):
     """In one split every row can be, at least in a limit, and sums of limits are limits."""
 
     kind: ClassVar[str] = "parts-inside"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
 
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
@@ -140,12 +143,13 @@ _FORMULAS = {
 
 
 @dataclass(frozen=True, slots=True)
-class LargerProjection:
+class LargerProjection(Kind):
     """The invariants `rows` have a larger rank in the model of the smaller rank; ranks in the
     pair's order.
     """
 
     kind: ClassVar[str] = "larger-projection"
+    claim: ClassVar[Claim] = Claim(inside=Inside.NO_LIMIT)
     rows: Labels
     left: int
     right: int
@@ -164,7 +168,7 @@ class LargerProjection:
 
 
 @dataclass(frozen=True, slots=True)
-class MissingElements:
+class MissingElements(Kind):
     """One model is what remains of the other one when elements tend to zero or grow without bound
     (see `disting.model.minors`), all experiments at the same masses.
 
@@ -173,6 +177,7 @@ class MissingElements:
     """
 
     kind: ClassVar[str] = "missing-elements"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
     left_is_part: bool
     numbering: tuple[tuple[int, int], ...]
 
@@ -206,12 +211,13 @@ class MissingElements:
 
 
 @dataclass(frozen=True, slots=True)
-class FullImage:
+class FullImage(Kind):
     """The model of the larger rank has as many determinable parameters as non-constant
     invariants.
     """
 
     kind: ClassVar[str] = "full-image"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
     left_is_larger: bool
     rank: int
     free: Labels
@@ -231,7 +237,7 @@ class FullImage:
 
 
 @dataclass(frozen=True, slots=True)
-class RelativeDegrees:
+class RelativeDegrees(Kind):
     """Relative degrees of the receptances in s, in the pair's order, where no finite elements
     other than zero give the larger model that of the smaller one.
     """

@@ -9,11 +9,11 @@ import json
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from math import sqrt
-from typing import Any, ClassVar, get_args
+from typing import Any, ClassVar, Self, get_args
 
 from disting.algebra.certainty import Certainty, shortfall
-from disting.evidence import plain
 from disting.evidence.decision import Theorem
+from disting.evidence.kind import Kind, plain_fields, read
 
 Values = tuple[tuple[str, str], ...]  # parameter name, fraction
 Z95 = 1.96  # quantile of the normal distribution for 95 %
@@ -42,7 +42,7 @@ _OBSTACLES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Excluded:
+class Excluded(Kind):
     """NEVER: the statement of that `name`, see `positivity.obstacles`; at the rational `point`, if
     one is needed, balls are looked at.
     """
@@ -69,9 +69,14 @@ class Excluded:
         """The statement by name."""
         return f"{self.name} exclude positive equivalents"
 
+    @property
+    def title(self) -> str:
+        """The statement by name."""
+        return self.name
+
 
 @dataclass(frozen=True, slots=True)
-class EmptyFibre:
+class EmptyFibre(Kind):
     """NEVER: at this rational point of `given` no parameters of `other`, not even complex ones,
     are equivalent.
     """
@@ -108,7 +113,7 @@ class RowWords:
 
 
 @dataclass(frozen=True, slots=True)
-class Interlacing:
+class Interlacing(Kind):
     """ALWAYS or SOMETIMES: how poles and zeros of each row may lie; rational points with and
     without an equivalent.
     """
@@ -141,15 +146,20 @@ class Interlacing:
             f"{name}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for name, n in counted
         )
 
-    @staticmethod
-    def from_dict(data: dict[str, Any]) -> "Interlacing":
+    @property
+    def title(self) -> str:
+        """What settles it."""
+        return "order of poles and zeros"
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Self:
         """From plain data; raises KeyError or TypeError for what is none."""
-        rows = tuple(RowWords(**plain.fields(row)) for row in data["parts"])
-        return Interlacing(**plain.fields(data) | {"parts": rows})
+        rows = tuple(RowWords(**plain_fields(row)) for row in data["parts"])
+        return cls(**plain_fields(data) | {"parts": rows})
 
 
 @dataclass(frozen=True, slots=True)
-class Points:
+class Points(Kind):
     """SOMETIMES: rational points of `given`, one in an open set with positive equivalents, one
     in an open set without.
     """
@@ -172,7 +182,7 @@ class Points:
 
 
 @dataclass(frozen=True, slots=True)
-class BoxMap:
+class BoxMap(Kind):
     """ALWAYS, within ranges: a renaming (given, other) takes the ranges of `given` into those
     of `other`.
     """
@@ -194,7 +204,7 @@ class BoxMap:
 
 
 @dataclass(frozen=True, slots=True)
-class OnlyOne:
+class OnlyOne(Kind):
     """ALWAYS, of models under several experiments: in one of them (counted from 1) there is always
     a positive equivalent and no other, complex ones included.
     """
@@ -323,7 +333,7 @@ class PositiveFinding:
             told |= {
                 "certainty": self.certainty.value,
                 "safety": self.safety,
-                "evidence": plain.to_dict(self.evidence),
+                "evidence": self.evidence.to_dict(),
             }
         if self.empirical:
             told["empirical"] = asdict(self.empirical)
@@ -334,9 +344,7 @@ class PositiveFinding:
         """Inverse of `to_dict`; raises ValueError, KeyError or TypeError for what is none."""
         certainty = Certainty(data["certainty"]) if "certainty" in data else None
         evidence = (
-            plain.from_dict(data["evidence"], get_args(PositiveEvidence))
-            if "evidence" in data
-            else None
+            read(data["evidence"], get_args(PositiveEvidence)) if "evidence" in data else None
         )
         empirical = Empirical(**data["empirical"]) if "empirical" in data else None
         return PositiveFinding(

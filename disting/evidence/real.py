@@ -3,21 +3,32 @@ odd numbers of equivalents.
 """
 
 from dataclasses import asdict, dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from disting.evidence.decision import Theorem
+from disting.evidence.kind import Carrier, Claim, Kind
 from disting.evidence.positive import PositiveFinding, Share
+from disting.model.domain import Domain
+from disting.model.relation import Relation
 
 Point = tuple[tuple[str, str], ...]  # parameter name, fraction
+_REAL = (Domain.REAL,)
+_RELATIONS = {
+    Share.ALWAYS: Relation.INDISTINGUISHABLE,
+    Share.NEVER: Relation.DISTINGUISHABLE,
+    Share.SOMETIMES: Relation.SOMETIMES,
+    Share.UNKNOWN: Relation.UNDECIDED,
+}
 
 
 @dataclass(frozen=True, slots=True)
-class RealFactors:
+class RealFactors(Kind):
     """Every polynomial that either chain must split into real factors can be split so (see
     `questions.positive.real`).
     """
 
     kind: ClassVar[str] = "real factors"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE, _REAL)
 
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says."""
@@ -32,9 +43,14 @@ class RealFactors:
         """The factors."""
         return "ℝ[x] ∋ P = A·B, deg A as needed, both ways"
 
+    @property
+    def title(self) -> str:
+        """What settles it."""
+        return self.kind
+
 
 @dataclass(frozen=True, slots=True)
-class RealWitnesses:
+class RealWitnesses(Kind):
     """Some real models have real equivalents and others have none, either kind in an open set.
 
     `without`: a rational point of the left chain (`without_left_given`) or the right one, around
@@ -43,6 +59,7 @@ class RealWitnesses:
     """
 
     kind: ClassVar[str] = "real witnesses"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.SOMETIMES, _REAL)
     without_left_given: bool
     without: Point
     with_left_given: bool
@@ -69,12 +86,12 @@ class RealWitnesses:
         """Plain data, ready for JSON."""
         return {"kind": self.kind, **asdict(self), "with_one": self.with_one.to_dict()}
 
-    @staticmethod
-    def from_dict(data: dict[str, Any]) -> "RealWitnesses":
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Self:
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
         without = tuple((str(name), str(value)) for name, value in data["without"])
         with_one = PositiveFinding.from_dict(data["with_one"])
-        return RealWitnesses(
+        return cls(
             bool(data["without_left_given"]), without, bool(data["with_left_given"]), with_one
         )
 
@@ -85,7 +102,7 @@ def _rounded(value: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class BothWays:
+class BothWays(Kind):
     """Which positive models of the left chain have a positive equivalent in the right one, and the
     reverse.
 
@@ -93,6 +110,7 @@ class BothWays:
     """
 
     kind: ClassVar[str] = "both ways"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE)
     left: PositiveFinding
     right: PositiveFinding
 
@@ -121,18 +139,33 @@ class BothWays:
         )
         return here if here == there else f"→ {here}; ← {there}"
 
+    def shows(self, domain: Domain) -> Relation:
+        """What the share says, of positive parameters alone."""
+        return _RELATIONS[self.share] if domain is Domain.POSITIVE else Relation.UNDECIDED
+
+    def without_exception(self, domain: Domain) -> bool:
+        """Whether both ways are so."""
+        ways = (self.left.evidence, self.right.evidence)
+        return all(way is not None and way.without_exception(domain) for way in ways)
+
+    @property
+    def title(self) -> str:
+        """Of both ways, each once."""
+        ways = (way.evidence.title for way in (self.left, self.right) if way.evidence)
+        return " and ".join(dict.fromkeys(filter(None, ways)))
+
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
         return {"kind": self.kind, "left": self.left.to_dict(), "right": self.right.to_dict()}
 
-    @staticmethod
-    def from_dict(data: dict[str, Any]) -> "BothWays":
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Self:
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        return BothWays(*(PositiveFinding.from_dict(data[side]) for side in ("left", "right")))
+        return cls(*(PositiveFinding.from_dict(data[side]) for side in ("left", "right")))
 
 
 @dataclass(frozen=True, slots=True)
-class OddFibres:
+class OddFibres(Kind):
     """Over real parameters: so many parameter vectors of either chain have one generic behaviour,
     all of them simple.
 
@@ -141,6 +174,7 @@ class OddFibres:
     """
 
     kind: ClassVar[str] = "odd fibres"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE, _REAL)
     left: int
     right: int
 
@@ -157,6 +191,11 @@ class OddFibres:
     def formula(self) -> str:
         """Both numbers."""
         return f"|Φ₁⁻¹(Φ₁(p))| = {self.left}, |Φ₂⁻¹(Φ₂(q))| = {self.right}"
+
+    @property
+    def title(self) -> str:
+        """What settles it."""
+        return self.kind
 
 
 def _equivalents(count: int) -> str:

@@ -16,7 +16,6 @@ from markupsafe import Markup
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.table import RULES
 from disting.evidence.conditions import capital
-from disting.evidence.kinds import without_exception
 from disting.evidence.positive import Share
 from disting.model.domain import Domain
 from disting.report.domains import Over
@@ -172,7 +171,7 @@ def _shares(verdict: Verdict) -> Iterator[str]:
                 if found.share is Share.SOMETIMES and found.empirical
                 else ""
             )
-            every = found.evidence and without_exception(found.evidence, Domain.POSITIVE)
+            every = found.evidence and found.evidence.without_exception(Domain.POSITIVE)
             generic = "" if every else " generic"
             yield SHARES[found.share].format(given, other, generic=generic) + seen + "."
 

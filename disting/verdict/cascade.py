@@ -15,9 +15,11 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import Role, Stage
-from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
+from disting.conditions.rule import ADMISSIBLE, EXACT, Role, Stage
+from disting.conditions.table import CONDITIONS, RULES, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
+from disting.evidence.kind import Carrier
+from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.domain import Domain
 from disting.model.shown import summary
@@ -38,6 +40,12 @@ PROVES: dict[Role, dict[Outcome, Relation]] = {
     Role.STRUCTURAL: _SAME,
     Role.DECISION: _APART | _SAME | {Outcome.SOMETIMES: Relation.SOMETIMES},
 }  # what an outcome proves; others prove nothing
+STAGES = {
+    Role.NECESSARY: SUMMARIES,
+    Role.SUFFICIENT: SUMMARIES,
+    Role.STRUCTURAL: (Stage.STRUCTURE,),
+    Role.DECISION: (Stage.FIBRE,),
+}  # at which a rule over complex parameters decides
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +105,22 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
 def open_note(reason: str) -> str:
     """What is said of a pair that is open over admissible parameters only."""
     return f"over complex parameters they are indistinguishable; {reason}"
+
+
+def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:
+    """Whether evidence of this kind shows this relation, by a rule of this kind, over this domain,
+    where the query lets it decide. Over real and positive parameters equality is shown by the rule
+    that asks for such; a difference over complex ones is one there too.
+    """
+    rule, at = RULES[v.decided_by], v.representation
+    carrier = {EXACT: Carrier.EXACT, ADMISSIBLE: Carrier.ADMISSIBLE}.get(rule, Carrier.CONDITION)
+    if carrier not in evidence.claim.carriers or v.relation is not evidence.shows(v.domain):
+        return False
+    if rule is ADMISSIBLE:
+        return at is Stage.PARAMETERS and v.domain is not Domain.COMPLEX
+    proves = v.relation in PROVES[rule.role].values()
+    over = v.domain is Domain.COMPLEX or v.relation is Relation.DISTINGUISHABLE
+    return at in STAGES[rule.role] and proves and over and at in query.view.representations
 
 
 def _with_shares(verdict: Verdict, left: Compared, right: Compared) -> Verdict:

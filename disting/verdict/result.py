@@ -6,9 +6,8 @@ from disting.algebra.certainty import Certainty, bits_in_words
 from disting.conditions.rule import EXACT, Role, Stage
 from disting.conditions.table import RULES
 from disting.evidence.conditions import capital
-from disting.evidence.kinds import GROUNDS, Evidence, theorem_named, without_exception
+from disting.evidence.kinds import Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
-from disting.evidence.plain import to_dict as evidence_to
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.chain import Premise
@@ -101,7 +100,7 @@ class Verdict(Shown):
         """
         if self.certainty is None:
             return ""
-        return self.certainty.in_words(self.safety, theorem_named(self.evidence))
+        return self.certainty.in_words(self.safety, self.evidence.title if self.evidence else "")
 
     @property
     def has_exceptions(self) -> bool:
@@ -110,7 +109,7 @@ class Verdict(Shown):
         """
         if self.relation is not Relation.INDISTINGUISHABLE or self.evidence is None:
             return False
-        return not without_exception(self.evidence, self.domain)
+        return not self.evidence.without_exception(self.domain)
 
     @property
     def models(self) -> str:
@@ -146,7 +145,7 @@ class Verdict(Shown):
         if rule.role is not Role.DECISION:
             where = WHERE.get(self.representation, "structure")
             return f"{rule.in_words()}, {where}"
-        grounds = GROUNDS.get(self.evidence.kind, "") if self.evidence and rule is EXACT else ""
+        grounds = self.evidence.claim.grounds if self.evidence and rule is EXACT else ""
         return ", ".join(filter(None, [rule.in_words(self.domain).removeprefix("the "), grounds]))
 
     @property
@@ -156,7 +155,7 @@ class Verdict(Shown):
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; error bound and sentence are derived."""
-        evidence = evidence_to(self.evidence) if self.evidence else {}
+        evidence = self.evidence.to_dict() if self.evidence else {}
         return {
             "left": self.left,
             "right": self.right,

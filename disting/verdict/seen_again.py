@@ -5,7 +5,7 @@ are compared with those that the settings give, found again with evidence of thi
 chains under several experiments and general models have evidence of their own.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from disting.algebra.certainty import Certainty, Grade
@@ -15,7 +15,6 @@ from disting.conditions.rule import EXACT
 from disting.errors import InputError
 from disting.evidence.conditions import FreeChoice
 from disting.evidence.general import Constants
-from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
@@ -84,9 +83,8 @@ class _Chains:
             return None
         first, second = self.left.in_order(self.right)
         turned = first != self.left.canonical.chain
-        if turned and isinstance(evidence, Solved | Refuted):
-            evidence = replace(evidence, left_given=not evidence.left_given)
-        found = decided_again.exact_again(evidence, first, second, self.left.settings)
+        asked = evidence.turned if turned else evidence
+        found = decided_again.exact_again(asked, first, second, self.left.settings)
         if found is None:
             return None
         profiles = self.left.transfer_profile, self.right.transfer_profile

@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from disting.errors import DistingError, InputError, shown
-from disting.evidence.plain import is_well_typed
+from disting.evidence.kind import is_well_typed
 from disting.experiments import Experiment
 from disting.files import __version__
 from disting.general import AnyModel, Model, as_chain

@@ -11,7 +11,6 @@ import pytest
 from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
-from disting.evidence.plain import to_dict
 from disting.model.settings import Settings
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding, mirrored
@@ -88,7 +87,7 @@ def test_the_exact_decision_knows_the_theorem():
     )
     assert mirrored(found) == exact_finding(other, plain, Settings())
     assert "B has a dead time, A has none" in found.evidence.sentence("A", "B")
-    assert evidence_from(to_dict(found.evidence)) == found.evidence
+    assert evidence_from(found.evidence.to_dict()) == found.evidence
     witness = Witness()
     assert witness.confirms(found.evidence, "fibre", plain, other)
     assert not witness.confirms(found.evidence, "fibre", other, plain)

@@ -28,7 +28,6 @@ from disting.catalogs.build import build
 from disting.catalogs.export import decisions_csv
 from disting.catalogs.verify import false_evidence
 from disting.evidence.kinds import evidence_from
-from disting.evidence.plain import to_dict
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors
 from disting.fibres.synthesis.fibre import fibre
@@ -109,7 +108,7 @@ def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
     assert 0 < low < v.right_positive.empirical.hits / 100 < high < 1
     assert f"empirically {low:.0%} to {high:.0%}" in v.sentence
     assert Witness().confirms(v.evidence, v.representation, a, b)
-    assert Verdict.from_dict(v.to_dict()) == v and evidence_from(to_dict(v.evidence)) == v.evidence
+    assert Verdict.from_dict(v.to_dict()) == v and evidence_from(v.evidence.to_dict()) == v.evidence
 
 
 @settings(max_examples=30, deadline=None)

@@ -11,6 +11,7 @@ import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
 from disting.evidence.ideals import ByRows, Refuted, RowStep, Solved, Vanishing
+from disting.evidence.kind import read
 from disting.evidence.kinds import (
     Evidence,
     InclusionEvidence,
@@ -18,7 +19,6 @@ from disting.evidence.kinds import (
     inclusion_evidence_from,
 )
 from disting.evidence.limits import LargerProjection
-from disting.evidence.plain import from_dict, to_dict
 from disting.evidence.positive import EmptyFibre, Interlacing, PositiveEvidence, RowWords
 
 UNIONS = [set(get_args(union)) for union in (Evidence, InclusionEvidence, PositiveEvidence)]
@@ -48,13 +48,13 @@ def test_no_two_kinds_of_one_statement_have_one_name(union):
 
 def test_what_belongs_to_another_statement_is_refused():
     projection = LargerProjection(("b0",), 2, 1)
-    assert inclusion_evidence_from(to_dict(projection)) == projection
+    assert inclusion_evidence_from(projection.to_dict()) == projection
     with pytest.raises(KeyError):
-        evidence_from(to_dict(projection))
+        evidence_from(projection.to_dict())
     with pytest.raises(KeyError):
-        inclusion_evidence_from(to_dict(Theorem("duality")))
+        inclusion_evidence_from(Theorem("duality").to_dict())
     with pytest.raises(KeyError):
-        from_dict(to_dict(Counts((1, 2), (2, 2))), get_args(PositiveEvidence))
+        read(Counts((1, 2), (2, 2)).to_dict(), get_args(PositiveEvidence))
 
 
 @pytest.mark.parametrize(
@@ -107,13 +107,13 @@ def test_what_belongs_to_another_statement_is_refused():
     ],
 )
 def test_files_have_this_form_and_it_is_read_back(found, plain):
-    assert to_dict(found) == plain
-    assert from_dict(plain, set.union(*UNIONS)) == found
+    assert found.to_dict() == plain
+    assert read(plain, set.union(*UNIONS)) == found
 
 
 def test_a_name_that_no_theorem_has_is_refused():
     with pytest.raises(ValueError, match="no theorem is called"):
         evidence_from({"kind": "theorem", "name": "wishful"})
-    assert evidence_from(to_dict(Solved(True, ("a",), ((1, 2),)))) == Solved(
+    assert evidence_from(Solved(True, ("a",), ((1, 2),)).to_dict()) == Solved(
         True, ("a",), ((1, 2),)
     )

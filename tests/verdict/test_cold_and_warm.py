@@ -12,10 +12,9 @@ from hypothesis import strategies as st
 
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
-from disting.evidence import plain
 from disting.evidence.decision import THEOREMS, Theorem
+from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
-from disting.evidence.plain import is_well_typed
 from disting.evidence.positive import Empirical, Excluded, PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays, RealWitnesses
 from disting.experiments import MeasuredChain
@@ -215,8 +214,8 @@ findings = st.builds(PositiveFinding, st.just(Share.UNKNOWN), reason=st.text()) 
 @given(st.data())
 def test_every_kind_of_evidence_is_read_as_it_was_written(kind, data):
     made = data.draw(made_of(kind))
-    text = json.dumps(plain.to_dict(made))
-    again = plain.from_dict(json.loads(text), KINDS)
+    text = json.dumps(made.to_dict())
+    again = read(json.loads(text), KINDS)
     assert is_well_typed(made) and is_well_typed(again)
     assert again == made and repr(again) == repr(made)
-    assert json.dumps(plain.to_dict(again)) == text
+    assert json.dumps(again.to_dict()) == text

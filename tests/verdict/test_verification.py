@@ -10,7 +10,6 @@ import pytest
 
 from disting import Chain, Experiment, Family, Query, Relation, Settings, View, verdict_file, verify
 from disting.catalogs import catalog
-from disting.evidence.plain import to_dict as plain_evidence
 from disting.model.symmetry import canonical
 from disting.questions.same.exact import by_synthesis, mirrored
 from disting.verdict.verification import Standing
@@ -123,7 +122,7 @@ def test_a_fibre_of_models_of_unequal_rank_does_not_make_them_the_same() -> None
         "representation": "fibre",
         "certainty": "bounded",
         "safety": found.safety,
-        "evidence": plain_evidence(found.evidence),
+        "evidence": found.evidence.to_dict(),
         "inclusions": {},
         "image": "equal",
         "closure": "equal",

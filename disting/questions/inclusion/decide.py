@@ -23,11 +23,9 @@ from dataclasses import replace
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
-from disting.evidence.across_sizes import LimitFibre, PoleSharing
-from disting.evidence.decision import DeadTime, FibreAt
-from disting.evidence.ideals import ByRows, Refuted, Solved
+from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import InclusionEvidence
-from disting.evidence.limits import Outside, RelativeDegrees, RowsInside
+from disting.evidence.limits import RowsInside
 from disting.fibres.ideals import (
     Limits,
     coefficient_map,
@@ -145,7 +143,8 @@ def turned(found: InclusionFinding) -> InclusionFinding:
     """The finding on the pair in the other order; for findings whose left model is the smaller
     one.
     """
-    return replace(found, inclusion=found.inclusion.turned, evidence=_turned(found.evidence))
+    evidence = None if found.evidence is None else found.evidence.turned
+    return replace(found, inclusion=found.inclusion.turned, evidence=evidence)
 
 
 def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
@@ -228,20 +227,6 @@ def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> I
         Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known"
     )
     return Inclusions(InclusionFinding(Inclusion.NEITHER, grade, safety, evidence), limits)
-
-
-def _turned(evidence: InclusionEvidence | None) -> InclusionEvidence | None:
-    match evidence:
-        case FibreAt() | Solved() | Refuted() | ByRows() | Outside() | RowsInside():
-            return replace(evidence, left_given=not evidence.left_given)
-        case PoleSharing() | LimitFibre():
-            return replace(evidence, left_is_larger=not evidence.left_is_larger)
-        case RelativeDegrees():
-            return RelativeDegrees(not evidence.left_is_larger, evidence.right, evidence.left)
-        case DeadTime():
-            return DeadTime(not evidence.left_given)
-        case _:
-            return evidence
 
 
 CLOSURE = Question("closures", closure_of, inclusion_to_json, inclusion_from_json)

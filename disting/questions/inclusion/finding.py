@@ -11,15 +11,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.algebra.certainty import Certainty, shortfall
-from disting.evidence.kinds import (
-    InclusionEvidence,
-    excludes_equivalents,
-    excludes_limits,
-    inclusion_evidence_from,
-    tells_equivalents,
-    tells_limits,
-)
-from disting.evidence.plain import to_dict
+from disting.evidence.kind import Inside
+from disting.evidence.kinds import InclusionEvidence, inclusion_evidence_from
 
 
 class Inclusion(StrEnum):
@@ -108,13 +101,11 @@ class Inclusions:
 
     def __post_init__(self) -> None:
         image, closure = self.image, self.closure
-        proofs = (
-            (image, tells_equivalents, excludes_equivalents),
-            (closure, tells_limits, excludes_limits),
-        )
-        for found, tells, excludes in proofs:
-            holds = excludes if found.inclusion is Inclusion.NEITHER else tells
-            if found.evidence is not None and not holds(found.evidence):
+        equivalents = ((Inside.EQUIVALENT,), (Inside.NO_EQUIVALENT, Inside.NO_LIMIT))
+        limits = ((Inside.EQUIVALENT, Inside.LIMIT), (Inside.NO_LIMIT,))
+        for found, proofs in ((image, equivalents), (closure, limits)):
+            proof = proofs[found.inclusion is Inclusion.NEITHER]
+            if found.evidence is not None and found.evidence.inside not in proof:
                 raise ValueError(
                     f"evidence of kind {found.evidence.kind} does not prove {found.inclusion} in"
                     " this sense"
@@ -175,7 +166,7 @@ def inclusion_to_dict(found: InclusionFinding) -> dict[str, object]:
     certainty = found.certainty.value if found.certainty else ""
     head = {"inclusion": found.inclusion.value, "certainty": certainty, "safety": found.safety}
     return head | {
-        "evidence": to_dict(found.evidence) if found.evidence else {},
+        "evidence": found.evidence.to_dict() if found.evidence else {},
         "reason": found.reason,
     }
 

@@ -45,7 +45,7 @@ from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.ideals import Refuted, Shared, Solved
+from disting.evidence.ideals import Refuted, Solved
 from disting.fibres import ideals
 from disting.fibres.decision import Decision
 from disting.fibres.ideals import Limits, chains_told_apart, coefficient_map, normalised
@@ -177,10 +177,8 @@ def rational_part(chain: Chain) -> Structure:
 
 def mirrored(finding: Finding) -> Finding:
     """The finding on the pair in the other order."""
-    if not isinstance(finding.evidence, FibreAt | Solved | Refuted | Shared | DeadTime):
-        return finding
-    return replace(
-        finding, evidence=replace(finding.evidence, left_given=not finding.evidence.left_given)
+    return (
+        finding if finding.evidence is None else replace(finding, evidence=finding.evidence.turned)
     )
 
 

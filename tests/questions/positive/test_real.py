@@ -8,7 +8,6 @@ import pytest
 
 from disting import Chain, Family, Query, Relation, View, compare
 from disting.evidence.kinds import evidence_from
-from disting.evidence.plain import to_dict
 from disting.evidence.real import RealFactors
 from disting.fibres.synthesis import Answer, Status, fibre, target
 from disting.model.symmetry import canonical
@@ -133,7 +132,7 @@ def test_altered_real_evidence_is_refused():
     evidence, witness = found.evidence, Witness()
     assert (
         witness.confirms(evidence, "parameters", a, b)
-        and evidence_from(to_dict(evidence)) == evidence
+        and evidence_from(evidence.to_dict()) == evidence
     )
     for lie in (
         replace(evidence, without_left_given=not evidence.without_left_given),
