@@ -2,7 +2,6 @@
 
 import argparse
 import re
-import shlex
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,7 +18,7 @@ from disting.model.kinds import CHANGES
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
-MANY, ENOUGH = 10_000, 2000  # lines: more than the first are advised to be thinned to the second
+MOST = 10_000  # lines of a response that are fitted, unless --lines says how many
 OF_READER = ("frequency", "phase", "magnitude")  # units that a reader takes
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
 CHANGED = {kind.name: kind for kind in CHANGES}
@@ -49,16 +48,11 @@ def data(options: argparse.Namespace) -> Data:
     else:
         found = _from_files(options)
     found = _each(found, lambda one: one.masked(*options.band)) if options.band else found
-    found = _each(found, lambda one: one.thinned(options.lines)) if options.lines else found
+    found = _each(found, lambda one: one.thinned(options.lines or MOST))
     both = [(found.train, found.test), *((f.measured, f.test) for f in found.further)]
     for response in (one for pair in both for one in pair if one is not None):
         for note in (*response.notes, *response.suspicions):
             complain(f"{response.origin or 'data'}: {note}")
-        if len(response) > MANY:
-            complain(
-                f"{len(response)} lines take long, and say hardly more than {ENOUGH}; thin them"
-                f" out: disting fit {shlex.join(map(str, options.train))} --lines {ENOUGH}"
-            )
     return found
 
 

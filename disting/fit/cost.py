@@ -25,9 +25,12 @@ from disting.errors import InputError
 from disting.fit.plant import Complex, Differentiable, Plant, Real
 from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import evenly
 from disting.model.chain import Chain
 from disting.model.shown import plural, summary
 from disting.model.structure import Structure
+
+NOISE = 3.0  # times the usual step of a response from line to line: what noise may make
 
 
 class Case(IntEnum):
@@ -164,6 +167,16 @@ class Cost(SquaredCost):
         lines = np.ones(len(self.measured)) if self.lines is None else self.lines
         return replace(self, lines=np.where(out, 0.0, lines))
 
+    def thinned(self, count: int) -> "Cost":
+        """The cost of `count` of the lines, half of them evenly spaced on a logarithmic scale, half
+        where the response moves; itself if there are no more.
+        """
+        if count >= len(self.measured):
+            return self
+        at = evenly(_way(self.measured), count)
+        lines = None if self.lines is None else self.lines[at]
+        return replace(self, measured=self.measured.subset(at), lines=lines)
+
     def by_line(self, values: NDArray) -> list[NDArray]:  # type: ignore[type-arg]
         """Values of lines for each response."""
         return [values]
@@ -181,6 +194,17 @@ class Cost(SquaredCost):
     @cached_property
     def _inverse(self) -> Complex:
         return 1.0 / self.measured.G
+
+
+def _way(measured: FrequencyResponse) -> Real:
+    """The logarithm of the frequency, and how far ln G has moved by more than it does from line to
+    line by noise, each from 0 to 1, in sum; shape (n_f,).
+    """
+    logarithm = np.log(measured.omega / measured.omega[0])
+    steps = np.abs(np.log(measured.G[1:] / measured.G[:-1]))
+    moved = np.append(0.0, np.cumsum(np.maximum(steps - NOISE * np.median(steps), 0.0)))
+    tiny = np.finfo(float).tiny
+    return np.asarray(logarithm / logarithm[-1] + moved / max(float(moved[-1]), tiny))
 
 
 def lines_by_deviation(measured: FrequencyResponse) -> Real:

@@ -29,6 +29,7 @@ FARTHEST = 60.0
 SMALLEST = 1e-200  # of a parameter: repeated runs towards zero end here, before numbers do
 # of the largest curvature, added to each: an element without effect must not take an unlimited step
 TINY = 1e-9
+LAST = 1e-12  # relative gain of cost at which the last digit is reached
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,8 +122,12 @@ def _step(curvature: Real, slope: Real, damping: Real) -> Real:
     return np.asarray(np.clip(step, -LARGEST_STEP, LARGEST_STEP))
 
 
-def fine(plant: AnyPlant, cost: SquaredCost, box: Box, start: Real) -> tuple[Real, float]:
-    """A local minimum, shape (n_p,), and its cost: never above that of the start."""
+def fine(
+    plant: AnyPlant, cost: SquaredCost, box: Box, start: Real, gain: float = LAST
+) -> tuple[Real, float]:
+    """A local minimum, shape (n_p,), and its cost: never above that of the start; the search ends
+    where a step gains less than the share `gain` of the cost.
+    """
     free = box.free
     origin = box.clipped(start)
 
@@ -152,7 +157,7 @@ def fine(plant: AnyPlant, cost: SquaredCost, box: Box, start: Real) -> tuple[Rea
         sensitivity,
         bounds=bounds,
         xtol=1e-10,
-        ftol=1e-12,
+        ftol=gain,
         gtol=1e-12,
         max_nfev=300,
     )

@@ -8,11 +8,12 @@ worse: the smaller one's fit, the additional elements hardly felt, is a start.
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from hashlib import sha256
 from math import inf
 
 import numpy as np
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from disting.errors import InputError
 from disting.fit.descent import Box, fine, rough
@@ -87,6 +88,11 @@ class Task:
         """The task of a chain that may have fewer places: of the responses that it has."""
         return replace(self, cost=self.cost.on(chain))
 
+    def thinned(self, count: int) -> "Task":
+        """The task of at most so many lines of each response; itself if there are no more."""
+        cost = self.cost.thinned(count)
+        return self if cost is self.cost else replace(self, cost=cost)
+
     def box(self, names: Sequence[str]) -> Box:
         """Bounds as arrays."""
         limits = [
@@ -134,9 +140,16 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     task = task.on(chain)
     first = sha256(str(chain).encode()).digest()[0] % task.divided
     starts = _stacked(list(_starts(chain, task, known))[first :: task.divided], chain, task)
-    # One thread of linear algebra: matrices are small, and workers share the processors.
-    with threadpool_limits(1):
+    with _libraries().limit(limits=1):
         return _best(chain, task, known, starts)
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """The libraries of linear algebra of this process, looked up once, which takes as long as many
+    a search. They get one thread: matrices are small, and workers share the processors.
+    """
+    return ThreadpoolController()
 
 
 def evaluated(chain: Chain, task: Task) -> Estimate:
@@ -159,7 +172,7 @@ def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
         [start for fit in offered for start in carried(chain, fit, size)], chain, task
     )
     plant, box = task.plant(chain), task.box(names)
-    with threadpool_limits(1):
+    with _libraries().limit(limits=1):
         points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
         i = int(np.argmin(costs))
         p, j = np.array([own.parameters[name] for name in names]), own.j
@@ -168,6 +181,21 @@ def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
         p, j = _nested(chain, task, known, p, j)
     tried = tuple(sorted([*own.costs, *map(float, costs)]))
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried)
+
+
+def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+    """The candidate's estimate in `known`, found on other lines, on those of the task; no worse
+    than what it contains.
+    """
+    task = task.on(chain)
+    own, names = known[chain], task.names(chain)
+    start = np.array([own.parameters[name] for name in names])
+    with _libraries().limit(limits=1):
+        p, j = fine(task.plant(chain), task.cost, task.box(names), start)
+        p, j = _nested(chain, task, known, p, j)
+    share = j / own.j if own.j else 1.0
+    costs = tuple(share * cost for cost in own.costs)
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs)
 
 
 def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:

@@ -17,7 +17,15 @@ from itertools import groupby
 import numpy as np
 
 from disting.algebra.content import written
-from disting.fit.estimate import Estimate, Method, Task, estimate, evaluated, improved
+from disting.fit.estimate import (
+    Estimate,
+    Method,
+    Task,
+    estimate,
+    evaluated,
+    improved,
+    refined,
+)
 from disting.fit.neighbours import neighbours
 from disting.fit.starts import merged, shortened
 from disting.model.chain import Chain
@@ -27,6 +35,7 @@ from disting.verdict.engine import mapped
 
 # every so many candidates that exchange divide their starts into one part more, up to so many parts
 FELLOWS, PARTS = 8, 6
+SEARCHED = 2000  # lines of a response on which a search is made
 ROUNDS = 20  # of the exchange between neighbours, at most: it stands still after fewer
 
 
@@ -42,10 +51,17 @@ def estimates(
     """Best parameters of every candidate and of the smaller ones that lead to them; what `store`
     holds is not fitted again.
 
-    Another `method` than structured starts, such as `swarm.by_swarm`, gets no fits of smaller
-    candidates.
+    The search is on `SEARCHED` lines of each response, where there are more; what it finds is
+    brought to the last digit on all. Another `method` than structured starts, such as
+    `swarm.by_swarm`, gets no fits of smaller candidates.
     """
     store, run = store or Store.none(), method or estimate
+    few = task.thinned(SEARCHED)
+    if few is not task:
+        rough = estimates(
+            candidates, few, method=method, store=store, executor=executor, progress=progress
+        )
+        return _polished(rough, task, store, executor, progress)
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, variants in groupby(wanted, key=body):
@@ -68,6 +84,35 @@ def estimates(
                 known[found.chain] = found
                 progress("fit", len(known), len(wanted))
     return known
+
+
+def _polished(
+    rough: Mapping[Chain, Estimate],
+    task: Task,
+    store: Store,
+    executor: Executor | None,
+    progress: Callable[[str, int, int], object],
+) -> dict[Chain, Estimate]:
+    """The estimates of a search on few lines, on those of the task; what a candidate contains comes
+    before it.
+    """
+    found: dict[Chain, Estimate] = {}
+    for _, stage in groupby(sorted(rough, key=_stage), key=_stage):
+        whole = list(stage)
+        found |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+        helpful = {c: _helpful(c, found) | {c: rough[c]} for c in whole if c not in found}
+        for one in _results(refined, helpful, task, store, executor):
+            found[one.chain] = one
+            progress("fit on all lines", len(found), len(rough))
+    return found
+
+
+def explored(known: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
+    """The task on few lines, on which much can be tried, and estimates of the whole one there."""
+    few = task.thinned(SEARCHED)
+    if few is task:
+        return task, list(known)
+    return few, [refined(one.chain, few, {one.chain: one}) for one in known]
 
 
 def _exchanged(

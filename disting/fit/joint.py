@@ -190,6 +190,12 @@ class JointCost(SquaredCost):
         each = zip(self.parts, self.by_line(out), strict=True)
         return replace(self, parts=tuple(part.without(own) for part, own in each))
 
+    def thinned(self, count: int) -> "JointCost":
+        """The cost of at most so many lines of each response; itself if there are no more."""
+        parts = tuple(part.thinned(count) for part in self.parts)
+        fewer = any(few is not part for few, part in zip(parts, self.parts, strict=True))
+        return replace(self, parts=parts) if fewer else self
+
     def by_line(self, values: NDArray[np.generic]) -> list[NDArray]:  # type: ignore[type-arg]
         """Stacked values of lines, shape (..., n_f), for each response."""
         ends = np.cumsum([len(part.measured) for part in self.parts])[:-1]

@@ -25,6 +25,7 @@ from disting.model.settings import Settings
 from disting.model.shown import summary
 
 FOLDS = 5  # of the cross-validation
+FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
 WITNESSES = 5  # best candidates that help to see how much the data scatter
 
@@ -201,6 +202,7 @@ def _cross_validated(found: Estimate, task: Task, p: Real) -> Complex:
     whole = np.empty(len(at), dtype=np.complex128)
     for fold in range(FOLDS):
         kept = replace(task, cost=cost.without(at == fold))
-        there, _ = fine(kept.plant(found.chain), kept.cost, kept.box(task.names(found.chain)), p)
+        box = kept.box(task.names(found.chain))
+        there, _ = fine(kept.plant(found.chain), kept.cost, box, p, FOLD_GAIN)
         whole[at == fold] = plant.response(there)[at == fold]
     return whole

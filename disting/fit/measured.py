@@ -16,7 +16,7 @@ import numpy as np
 from disting.fit.candidates import reference
 from disting.fit.cost import Case
 from disting.fit.estimate import Estimate, Task
-from disting.fit.exchange import estimates
+from disting.fit.exchange import estimates, explored
 from disting.fit.joint import JointCost
 from disting.fit.judged import Candidate
 from disting.fit.plant import Real
@@ -72,14 +72,15 @@ def other_quantities(
     taken = assumed(cost.measured)
     if taken is None:
         return ()
-    before = min(_criterion(c.estimate, task) for c in candidates)
+    task, known = explored((c.estimate for c in candidates), task)
+    before = min(_criterion(fit, task) for fit in known)
     found = list[tuple[float, Sensor, Estimate]]()
     for quantity in Sensor:
         if quantity is taken:
             continue
         progress(f"read as {quantity.value}", len(found), len(Sensor) - 1)
-        other = replace(cost, measured=_shifted(cost.measured, taken.order - quantity.order))
-        seen = replace(task, cost=other)
+        shifted = _shifted(task.cost.measured, taken.order - quantity.order)
+        seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
         fits = estimates(_small(candidates), seen, store=store, executor=executor).values()
         best = min(fits, key=lambda fit: _criterion(fit, seen))
         if _criterion(best, seen) <= before + AS_WELL:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation
 from disting.fit.estimate import Estimate, Task
-from disting.fit.exchange import estimates
+from disting.fit.exchange import estimates, explored
 from disting.fit.judged import Candidate
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
@@ -52,7 +52,8 @@ def readings(
     """Readings under which the data fit much better than the best of the candidates does, small
     changes first.
     """
-    lowest = min(c.j_train for c in candidates)
+    task, known = explored((c.estimate for c in candidates), task)
+    lowest = min(fit.j for fit in known)
     small = [c for c in candidates if c.chain.n_masses <= SMALL] or candidates
     base = min(small, key=lambda c: c.j_train).chain
     largest = max((c.chain for c in candidates), key=lambda c: c.n_masses)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from disting.fit.estimate import Task
-from disting.fit.exchange import estimates
+from disting.fit.exchange import SEARCHED, estimates
 from disting.fit.joint import AnyCost, JointCost
 from disting.fit.plant import Complex
 from disting.model.chain import Chain
@@ -21,11 +21,11 @@ def signed(task: Task, candidates: Sequence[Chain]) -> Task:
     of each size; of further responses each is tried beside the first one.
     """
     asked = _extremes(candidates)
-    cost = task.cost
+    cost = task.cost.thinned(SEARCHED)
     first = replace(task, cost=cost.parts[0])
     found = _better([replace(first, sign=sign) for sign in (1, -1)], asked)
-    if not isinstance(cost, JointCost):
-        return found
+    if not isinstance(task.cost, JointCost):
+        return replace(task, sign=found.sign)
     setups = [cost.setups[0]]
     for part, setup in zip(cost.parts[1:], cost.setups[1:], strict=True):
         pairs = [
@@ -34,7 +34,8 @@ def signed(task: Task, candidates: Sequence[Chain]) -> Task:
         ]
         best = _better([replace(found, cost=pair) for pair in pairs], asked)
         setups.append(replace(setup, sign=best.cost.setups[1].sign))
-    return replace(found, cost=replace(cost, setups=tuple(setups)))
+    whole = replace(task.cost, setups=tuple(setups))
+    return replace(task, sign=found.sign, cost=whole)
 
 
 def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[Complex]]:
@@ -43,7 +44,7 @@ def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[C
     """
     least = min(c.n_masses for c in candidates)
     asked = _extremes([c for c in candidates if c.n_masses <= max(PILOT, least)])
-    known = estimates(asked, task)  # and smaller chains, which may lack a place
+    known = estimates(asked, task.thinned(SEARCHED))  # and smaller chains, which may lack a place
     there = min((known[chain] for chain in asked), key=lambda e: e.j)
     p = np.array([there.parameters[n] for n in task.names(there.chain)])
     return lambda cost: [replace(task, cost=cost).plant(there.chain).response(p)]

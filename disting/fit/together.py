@@ -17,7 +17,7 @@ from disting.experiments.polynomials import is_renaming
 from disting.fit.alternatives import Alternative, Limits, is_within
 from disting.fit.candidates import reference
 from disting.fit.estimate import Task
-from disting.fit.exchange import body, estimates
+from disting.fit.exchange import SEARCHED, body, estimates
 from disting.fit.joint import AnyCost, Further, JointCost
 from disting.fit.plant import Complex
 from disting.fit.setup import Setup, measurable, measured_chain
@@ -155,10 +155,11 @@ def located(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) 
     }
     found = dict[Structure, tuple[Setup, ...]]()
     least = dict[Chain, float]()
+    few = cost.thinned(SEARCHED)
     for k in range(max(map(len, ways.values()))):
         tried = {c: each[k] for c, each in ways.items() if k < len(each)}
         there = {c.structure: setups for c, setups in tried.items()}
-        fits = estimates(tried, replace(task, cost=replace(cost, places=there)), store=store)
+        fits = estimates(tried, replace(task, cost=replace(few, places=there)), store=store)
         for c, setups in tried.items():
             if fits[c].j < least.get(c, inf):
                 least[c], found[c.structure] = fits[c].j, setups

@@ -51,6 +51,20 @@ def nearest(ordered: Real, wanted: Real) -> NDArray[np.intp]:
     return np.where(wanted - ordered[above - 1] <= ordered[above] - wanted, above - 1, above)
 
 
+def evenly(ordered: Real, count: int) -> NDArray[np.intp]:
+    """Indices, rising and all different, of `count` of the rising numbers `ordered`, as near as can
+    be to numbers spaced evenly over their range.
+
+    >>> evenly(np.array([0.0, 5.0, 6.0, 7.0, 8.0, 9.0]), 4).tolist()
+    [0, 1, 2, 5]
+    """
+    steps = np.arange(count)
+    at = nearest(ordered, np.linspace(ordered[0], ordered[-1], count))
+    # each once, where they lie too wide
+    apart = np.maximum.accumulate(at - steps) + steps
+    return np.minimum(apart, len(ordered) - count + steps)
+
+
 def applied(function: Callable[[Real], Real], array: Real | None) -> Real | None:
     """The function's value, or None for None."""
     return None if array is None else function(array)

@@ -15,8 +15,8 @@ from disting.measurement.arrays import (
     Real,
     applied,
     complex_,
+    evenly,
     frozen,
-    nearest,
     optional,
     real,
     same,
@@ -194,17 +194,15 @@ class FrequencyResponse(Shown):
 
     def thinned(self, count: int) -> "FrequencyResponse":
         """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale;
-        all if there are fewer.
+        all if there are fewer. `reading` says so.
         """
         if count < checks.FEWEST:
             raise InputError(f"at least {checks.FEWEST} lines are kept, not {count}")
         if count >= len(self):
             return self
-        wanted = np.linspace(np.log(self.omega[0]), np.log(self.omega[-1]), count)
-        steps = np.arange(count)
-        # each line once, where the measured ones lie too wide
-        apart = np.maximum.accumulate(nearest(np.log(self.omega), wanted) - steps) + steps
-        return self.subset(np.minimum(apart, len(self) - count + steps))
+        some = f"{count} of {len(self)} lines, evenly spaced on a logarithmic scale"
+        reading = "; ".join(filter(None, [self.reading, some]))
+        return self.subset(evenly(np.log(self.omega), count)).read_as(reading)
 
     def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":
         """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =

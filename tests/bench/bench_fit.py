@@ -23,7 +23,7 @@ from disting.model.chain import Chain
 from disting.simulation import demo
 from tests.bench.measure import alternating, seconds, table
 from tests.fit.best_known import best_known, name
-from tests.fit.drives import bench
+from tests.fit.drives import bench, response
 from tests.measurement.bench_data import DATA
 
 pytestmark = pytest.mark.bench
@@ -203,3 +203,19 @@ def test_one_residual_and_jacobian(benchmark) -> None:
         ["analytic", "central differences", "ratio"],
         [(*micro.values(), ratio)],
     )
+
+
+def test_many_lines() -> None:
+    """Processor time of 24 candidates by the number of lines, a ratio to that of 1000."""
+    values = {"m1": 4.5e-3, "m2": 5e-3, "k12": 550.0, "d12": 0.08, "b1": 0.1, "Td": 3e-4}
+    chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
+    taken, rows = [], []
+    for count in (1000, 10_000):
+        measured = response(chain, values, 2 * np.pi * np.linspace(5.0, 250.0, count), noise=0.02)
+        start = time.process_time()
+        found = select(measured, figure_1([1, 2]))
+        taken.append(time.process_time() - start)
+        assert found.selected.chain == chain
+        rows.append((str(count), f"{taken[-1]:.1f} s", f"{taken[-1] / taken[0]:.1f}"))
+    table("24 candidates, one process", ["lines", "processor time", "ratio"], rows)
+    assert taken[1] < 10 * taken[0]

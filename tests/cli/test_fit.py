@@ -220,16 +220,16 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
     assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
 
 
-def test_many_lines_are_advised_to_be_thinned_by_the_command(tmp_path):
-    frequency = np.linspace(5.0, 300.0, 12_000)
+def test_of_very_many_lines_some_are_fitted_and_text_and_json_say_so(tmp_path):
+    frequency = np.linspace(5.0, 300.0, 100_000)
     response = 1 / (0.01 * (1 + 0.002j * frequency))
     text = [f"{f},{g.real},{g.imag}" for f, g in zip(frequency, response, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join(["f [Hz],Re,Im", *text]))
-    options = ("--masses", "1", "--lines", "20")
-    done = called("fit", tmp_path / "a.csv", *options, "--json", "-")
-    assert done.returncode == 0 and json.loads(done.stdout)["frequencies"]["lines"] == 20
-    assert "thin them out" not in done.stderr
-    advice = f"thin them out: disting fit {tmp_path / 'a.csv'} --lines 2000"
-    refused = called("fit", tmp_path / "a.csv", "--fix", "m9=1")
-    assert refused.returncode == 2 and "12000 lines take long" in refused.stderr
-    assert advice in refused.stderr
+    options = ("fit", tmp_path / "a.csv", "--masses", "1", "--quantity", "velocity")
+    for more, count in (((), 10_000), (("--lines", "20"), 20)):
+        done = called(*options, *more, "--json", tmp_path / "fit.json")
+        said = f"; {count} of 100000 lines, evenly spaced on a logarithmic scale"
+        assert done.returncode == 0 and said in done.stdout.splitlines()[0]
+        plain = json.loads((tmp_path / "fit.json").read_text())
+        assert plain["data"][0]["reading"].endswith(said)
+        assert plain["frequencies"]["lines"] == count

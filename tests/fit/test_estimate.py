@@ -298,3 +298,25 @@ def test_smaller_candidates_lead_to_larger_ones():
     assert [c.ground_dampers for c in shortened(chain)] == [(3,), (2,), (2, 3)]
     gap = Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=False)
     assert [c.indices for _, c in merged(gap)] == [(2, 1, 1, 2, 1, 2)]
+
+
+# two lines wide, where lines of a logarithmic scale lie 23 lines apart
+NARROW = {"m1": 1.0, "m2": 5e-4, "k12": 5e-4 * (2 * np.pi * 1500) ** 2, "d12": 1e-3}
+
+
+def test_a_resonance_between_the_lines_of_the_search_is_found():
+    chain, omega = Chain(2, damped=True), 2 * np.pi * np.linspace(1.0, 2000.0, 8000)
+    task = Task(Cost(response(chain, NARROW, omega, noise=0.01)))
+    exact = task.plant(chain).response(np.array([NARROW[n] for n in chain.parameters]))
+    found = estimates([chain], task)
+    assert found[chain].j <= task.cost.total(exact) < 0.9 * found[Chain(1, damped=True)].j
+    assert found[chain].parameters == pytest.approx(NARROW, rel=0.1)
+
+
+def test_the_lines_of_the_search_are_those_of_the_data_with_their_weights():
+    chain, omega = Chain(2, damped=True), 2 * np.pi * np.linspace(1.0, 2000.0, 8000)
+    measured = response(chain, NARROW, omega, noise=0.01)
+    few = Cost(measured, lines=omega / omega[-1]).thinned(500)
+    at = np.searchsorted(omega, few.measured.omega)
+    assert len(np.unique(at)) == 500 and few.measured == measured.subset(at)
+    assert (few.lines == omega[at] / omega[-1]).all() and few.thinned(500) is few
