@@ -13,8 +13,8 @@ from disting.catalogs.files import (
     Record,
     lines,
     name_of,
+    write_provenance,
 )
-from disting.catalogs.provenance import write_provenance
 from disting.conditions.rule import Stage
 from disting.files import write_whole
 from disting.model.domain import Domain

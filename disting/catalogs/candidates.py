@@ -16,8 +16,7 @@ from pathlib import Path
 from string import ascii_letters
 
 from disting.algebra.certainty import Certainty
-from disting.catalogs.files import Record, lines, shipped_folder
-from disting.catalogs.provenance import write_provenance
+from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
 from disting.conditions.table import RULES
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole

@@ -6,17 +6,26 @@ deciding step in each representation, absent where nothing decides, the `inclusi
 unequal rank (`closure`: limits; `image`: finite elements other than zero, absent where both have
 one reason), and which positive models of either side have a positive equivalent on the other
 (`left_positive`, `right_positive`), where generic ones have equivalents.
+
+What the data files of a folder are: `provenance.json` with the digest of each, compared
+whenever one is read.
+
+The file that `disting catalog settle` appends to is named with the length that it had: what is
+appended later is the user's own. See `disting.files.intact_text`, which compares.
 """
 
 import hashlib
 import json
+import platform
+from importlib.metadata import version
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
+from disting.catalogs.damper_settled import FILE as SETTLED
 from disting.errors import CatalogError
 from disting.files import PROVENANCE as PROVENANCE
-from disting.files import intact_text
+from disting.files import __version__, intact_text, write_whole
 from disting.files import shipped_folder as shipped_folder
 
 SCHEMA = 4
@@ -76,3 +85,27 @@ def _numbers(records: list[Record]) -> list[Any]:
 def digest(path: Path) -> str:
     """SHA-256 of a file."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def provenance_of(folder: Path) -> Record:
+    """Schema, software versions, command and the digest of each data file in a folder."""
+    return {
+        "schema": SCHEMA,
+        "command": "disting catalog build 1 2 3 4 5",
+        "software": (
+            {"disting": __version__, "python": platform.python_version()}
+            | {name: version(name) for name in ("numpy", "python-flint")}
+        ),
+        "files": {p.name: _told(p) for p in sorted(folder.glob("*.jsonl"))},
+    }
+
+
+def write_provenance(folder: Path) -> Path:
+    """Write it anew, after the files of the folder; returns its path."""
+    return write_whole(
+        folder / PROVENANCE, [json.dumps(provenance_of(folder), indent=1, sort_keys=True), "\n"]
+    )
+
+
+def _told(path: Path) -> str:
+    return f"{digest(path)}:{path.stat().st_size}" if path.name == SETTLED else digest(path)

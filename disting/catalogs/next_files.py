@@ -22,8 +22,7 @@ from pathlib import Path
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets, Masses
-from disting.catalogs.files import Record, lines, shipped_folder
-from disting.catalogs.provenance import write_provenance
+from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
 from disting.errors import CatalogError
 from disting.experiments.menu import Costs, Gain
 from disting.files import intact_text, write_whole

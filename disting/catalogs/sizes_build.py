@@ -8,8 +8,14 @@ from pathlib import Path
 from disting.catalogs.build import step
 from disting.catalogs.catalog import catalog
 from disting.catalogs.combined import answers_in, combined
-from disting.catalogs.files import INCLUSIONS, SHIPPED_SIZES, Record, lines, shipped_folder
-from disting.catalogs.provenance import write_provenance
+from disting.catalogs.files import (
+    INCLUSIONS,
+    SHIPPED_SIZES,
+    Record,
+    lines,
+    shipped_folder,
+    write_provenance,
+)
 from disting.catalogs.sizes_files import COMMAND, SCHEMA, SizesCatalog, name_of, sizes_catalog
 from disting.files import write_whole
 from disting.questions.inclusion import confirms, inclusions_to_dict

@@ -97,7 +97,7 @@ def settle(options: argparse.Namespace) -> int:
     files.
     """
     from disting.catalogs.damper_files import read
-    from disting.catalogs.damper_settle import settle_dampers
+    from disting.catalogs.damper_verify import settle_dampers
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:

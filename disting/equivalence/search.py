@@ -14,11 +14,20 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from disting.equivalence.completeness import not_covered, sentence, special, under_all
+from disting.equivalence.cauer import common_ratio, proportional_solutions
 from disting.equivalence.given import Value, chains_of, point_of
 from disting.equivalence.images import DUALITY, Image, images
-from disting.equivalence.listing import Equivalent, Equivalents, Listing, Origin, Signs
-from disting.equivalence.proportional import common_ratio, proportional_solutions
+from disting.equivalence.listing import (
+    Equivalent,
+    Equivalents,
+    Listing,
+    Origin,
+    Signs,
+    not_covered,
+    sentence,
+    special,
+    under_all,
+)
 from disting.equivalence.residual import difference
 from disting.equivalence.under import Bench, benches
 from disting.errors import ContradictionError, InputError

@@ -14,8 +14,7 @@ from disting.measurement.matlab import responses, variables
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.source import Source
 from disting.measurement.stored import chosen_response, from_stored
-from disting.measurement.table import Table
-from disting.measurement.table_series import is_time, time_series
+from disting.measurement.table import Table, is_time, time_series
 from disting.measurement.tabular import frequency_response, response_columns
 from disting.measurement.text_table import decoded, table
 from disting.measurement.time_series import TimeSeries

@@ -1,11 +1,20 @@
-"""Columns of numbers with headers, from a text file or a data frame."""
+"""Columns of numbers with headers, from a text file or a data frame.
 
+Time series from a table of columns.
+"""
+
+import re
 from dataclasses import dataclass
 
 import numpy as np
 
 from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
+from disting.measurement.column_words import parted
+from disting.measurement.response import Signal, as_sign
+from disting.measurement.time_series import TimeSeries, said
+from disting.measurement.units import TIMES, drive, known_unit, motion
+from disting.model.chain import Sensor
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,3 +74,90 @@ class Table:
     def listed(self) -> str:
         """All headers, for messages."""
         return listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
+
+
+BRACKETED = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
+
+
+def time_series(
+    table: Table,
+    input: str | int,
+    output: str | int,
+    *,
+    reference: str | int | None = None,
+    sampling_rate: float | None = None,
+    time: str | int | None = None,
+    sensor: Sensor | str | None = None,
+    sign: int = 1,
+) -> TimeSeries:
+    """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate`
+    [Hz] or column `time` [s].
+
+    `reference` = the column of what a controller was asked for, where the record is of a closed
+    loop.
+    """
+    if sampling_rate is None:
+        at = (
+            table.at(time)
+            if time is not None
+            else next((i for i, h in enumerate(table.headers) if is_time(h)), None)
+        )
+        if at is None:
+            raise InputError(
+                f"{table.origin}: give --read sampling_rate=HZ or --read time=COLUMN; headers:"
+                f" {table.listed()}"
+            )
+        sampling_rate = rate_of(table.column(at) * _seconds(table, at), table.origin)
+    u, y = table.at(input), table.at(output)
+    labels = named(table.headers[u]), named(table.headers[y])
+    origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
+    quantity, notes = said(sensor, labels[1].unit)
+    wanted = None if reference is None else table.column(table.at(reference))
+    samples = table.column(u), table.column(y) * as_sign(sign)
+    return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, notes, wanted)
+
+
+def named(header: str) -> Signal:
+    """Name and unit of a signal headed like `iq [A]`; no unit where the brackets hold another word.
+
+    >>> named("angle (deg)"), named("out (filtered)")
+    (Signal(label='angle', unit='deg'), Signal(label='out (filtered)', unit=''))
+    """
+    parts = BRACKETED.match(header)
+    return (
+        Signal(parts[1], parts[2])
+        if parts and (motion(parts[2]) or drive(parts[2]))
+        else Signal(header)
+    )
+
+
+def rate_of(time: Real, origin: str) -> float:
+    """Sampling rate [Hz] of equidistant times [s]; raises InputError for others."""
+    steps = np.diff(time)
+    if not len(steps) or np.any(steps <= 0) or np.ptp(steps) > 1e-3 * np.mean(steps):
+        raise InputError(
+            f"{origin}: the times are not equidistant and rising; resample, or give --read"
+            " sampling_rate=HZ"
+        )
+    return float(len(steps) / (time[-1] - time[0]))
+
+
+def _seconds(table: Table, at: int) -> float:
+    """What a time of 1 in the unit of a column is in seconds; raises InputError for a stated unit
+    that is not known.
+    """
+    header = table.headers[at]
+    last = header.split()[-1] if header.split() else ""
+    unit = parted(header)[1] or (last if known_unit(last, TIMES) else "s")
+    name = known_unit(unit, TIMES)
+    if name is None:
+        raise InputError(
+            f"{table.origin}, {table.named(at)}: {shown(unit)} is no unit of time that is known;"
+            f" known are {', '.join(TIMES)}: give --read sampling_rate=HZ"
+        )
+    return TIMES[name]
+
+
+def is_time(header: str) -> bool:
+    """Whether a column is the time."""
+    return re.match(r"(t|time|zeit)\b", header.lower()) is not None

@@ -21,7 +21,7 @@ from disting.measurement.response import (
     Signal,
     as_sign,
 )
-from disting.measurement.table_series import rate_of
+from disting.measurement.table import rate_of
 from disting.measurement.time_series import TimeSeries, said
 from disting.model.chain import Sensor, as_sensor
 

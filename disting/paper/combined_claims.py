@@ -9,10 +9,21 @@ from disting.conditions.finding import Outcome as Holding
 from disting.conditions.rule import Stage
 from disting.conditions.structural import condition_9
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, Seen, families, pairs
+from disting.paper.claim import (
+    Claim,
+    Found,
+    Outcome,
+    Pair,
+    Seen,
+    counted,
+    families,
+    named,
+    pairs,
+    told,
+    undecided,
+)
 from disting.paper.damped_claims import MISREAD
 from disting.paper.findings import Findings
-from disting.paper.told import Pair, counted, named, told, undecided
 from disting.verdict import Relation, View
 
 CASES = families(3) + families(3, damped=True) + families(4)

@@ -5,10 +5,23 @@ from collections import Counter
 import numpy as np
 
 from disting.conditions.necessary import DEPENDENCES
-from disting.paper.claim import Claim, Found, Outcome, Seen, families, models, pairs
+from disting.paper.claim import (
+    Claim,
+    Found,
+    Outcome,
+    Pair,
+    Seen,
+    counted,
+    deciding,
+    families,
+    models,
+    named,
+    pairs,
+    told,
+    undecided,
+)
 from disting.paper.family_claims import coefficients
 from disting.paper.findings import Findings
-from disting.paper.told import Pair, counted, deciding, named, told, undecided
 from disting.verdict import Relation, View
 
 A1_A4 = (*pairs(3, [(1, 4)], damped=True), Seen(3, False, ("1", "4")))

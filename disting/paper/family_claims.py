@@ -5,9 +5,8 @@ from dataclasses import replace
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices, violated
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, families, models
+from disting.paper.claim import Claim, Found, Outcome, families, models, named
 from disting.paper.findings import Findings
-from disting.paper.told import named
 
 FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 

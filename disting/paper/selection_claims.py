@@ -13,9 +13,8 @@ from disting.fit.practical import collinearity_index, condition_indices, importa
 from disting.fit.sweep import CRITERIA, sweep
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.paper.claim import Claim, Found, Outcome
+from disting.paper.claim import Claim, Found, Outcome, named
 from disting.paper.findings import Findings
-from disting.paper.told import named
 
 SAMPLE = np.array([[3.0, 1.0], [4.0, 2.0], [0.0, 2.0]])  # columns of lengths 5 and 3
 # condition index, PII ratio, collinearity index: their thresholds, test bed 1, test bed 2

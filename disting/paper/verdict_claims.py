@@ -10,9 +10,18 @@ from disting.conditions.finding import Outcome as Holding
 from disting.conditions.sufficient import condition_7
 from disting.model.chain import Sensor
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, families, models, pairs
+from disting.paper.claim import (
+    Claim,
+    Found,
+    Outcome,
+    counted,
+    families,
+    models,
+    pairs,
+    told,
+    undecided,
+)
 from disting.paper.findings import Findings
-from disting.paper.told import counted, told, undecided
 from disting.verdict import Relation, View
 
 BOTH = families(3) + families(3, damped=True)

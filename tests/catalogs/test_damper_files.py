@@ -20,9 +20,8 @@ from disting.catalogs.damper_files import (
     text_of,
     write,
 )
-from disting.catalogs.damper_settle import settle_dampers
 from disting.catalogs.damper_settled import read_settled
-from disting.catalogs.damper_verify import false_settled, verify_dampers
+from disting.catalogs.damper_verify import false_settled, settle_dampers, verify_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions import Outcome

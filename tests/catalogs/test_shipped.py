@@ -7,8 +7,7 @@ import pytest
 
 from disting import CatalogError, Engine, Query, Relation, View, catalog
 from disting.catalogs.build import build, write
-from disting.catalogs.files import PROVENANCE, lines, name_of, shipped_folder
-from disting.catalogs.provenance import provenance_of
+from disting.catalogs.files import PROVENANCE, lines, name_of, provenance_of, shipped_folder
 from disting.catalogs.verify import false_evidence, verify
 from disting.errors import InputError
 from disting.questions.same.evidence_check import Witness

@@ -6,7 +6,7 @@ import scipy.io
 
 from disting.errors import InputError
 from disting.measurement import read
-from disting.measurement.signal_words import guessed
+from disting.measurement.reading import guessed
 from tests.measurement.bench_data import measured_data
 
 TIME = np.arange(6000) / 1000

@@ -25,13 +25,12 @@ from typing import TypeVar
 from flint import acb, acb_poly, ctx, fmpq
 
 from disting.algebra.sampling import residues
-from disting.fibres.synthesis.ball import Ball, Imprecise, roots, shifted
+from disting.fibres.synthesis.ball import Ball, Imprecise, Receptance, roots, shifted
 from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf
 from disting.fibres.synthesis.construction import exact_rows, is_untested
 from disting.fibres.synthesis.fibre import PRECISIONS, fibre
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
-from disting.fibres.synthesis.receptance import Receptance
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import Target, is_regular, target
 from disting.fibres.synthesis.undamped import neighbours_at

@@ -4,13 +4,18 @@ A ball holds a number that is not known exactly. It proves that a number is not 
 zero out; it never proves that a number is zero. So a branch is killed by a ball, and never
 accepted by one: a survivor is consistent, no more. Balls that hold zero but are wide prove nothing
 either way and call for more bits.
+
+The receptance of a row that is to be realised, as balls.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx
+
+from disting.model.row import Row
 
 Ball = Any  # acb: flint has no usable types
 Poly = Any  # acb_poly
@@ -147,3 +152,27 @@ def splits(items: list[Ball], size: int) -> Iterator[tuple[list[Ball], list[Ball
     """Every choice of `size` items, with the rest."""
     for chosen in combinations(range(len(items)), size):
         yield [items[i] for i in chosen], [z for i, z in enumerate(items) if i not in chosen]
+
+
+@dataclass(frozen=True, slots=True)
+class Receptance:
+    """Numerator over monic denominator, in s, or in x = s^2 where there is no damper.
+
+    `exact`: the numerator as fmpq_poly, if the coefficients of both are rational and known.
+    """
+
+    numerator: Poly
+    denominator: Poly
+    exact: Poly | None = None
+
+    def gain(self, row: Row) -> Ball:
+        """Leading coefficient of the numerator, in the row's own variable."""
+        return self.numerator[row.numerator_degree]
+
+    def own(self, row: Row, q: int) -> "Receptance":
+        """In the row's own variable, from that of q: in x for a row without any damper."""
+        if row.q == q:
+            return self
+        return Receptance(
+            acb_poly(self.numerator.coeffs()[::2]), acb_poly(self.denominator.coeffs()[::2])
+        )

@@ -8,10 +8,9 @@ W_R(0) = 0), which settles the polynomial part.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from disting.fibres.synthesis.ball import Ball, Poly, poly, product, roots, splits
+from disting.fibres.synthesis.ball import Ball, Poly, Receptance, poly, product, roots, splits
 from disting.fibres.synthesis.branch_ends import Leaf, RowValues, combined
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 

@@ -35,6 +35,7 @@ from disting.fibres.synthesis.ball import (
     Ball,
     Imprecise,
     Poly,
+    Receptance,
     cut,
     enclosed,
     is_boundary,
@@ -47,7 +48,6 @@ from disting.fibres.synthesis.ball import (
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
 from disting.fibres.synthesis.conjugate import conjugate_factors
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 DEGREE_LIMIT = 40  # of E(d): the time grows with its square

@@ -23,6 +23,7 @@ from disting.fibres.synthesis import friction
 from disting.fibres.synthesis.ball import (
     Ball,
     Poly,
+    Receptance,
     cut,
     is_boundary,
     poly,
@@ -34,7 +35,6 @@ from disting.fibres.synthesis.ball import (
 )
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from disting.fibres.synthesis.ball import (
     Ball,
     Poly,
+    Receptance,
     cut,
     is_boundary,
     poly,
@@ -26,7 +27,6 @@ from disting.fibres.synthesis.ball import (
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
 from disting.fibres.synthesis.collocated import Residue, inverse_residues, over
 from disting.fibres.synthesis.friction import NOTHING, Side, peel, slope
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 

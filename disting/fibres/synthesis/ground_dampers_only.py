@@ -16,6 +16,7 @@ from disting.fibres.synthesis import friction
 from disting.fibres.synthesis.ball import (
     Ball,
     Poly,
+    Receptance,
     cut,
     is_boundary,
     poly,
@@ -24,7 +25,6 @@ from disting.fibres.synthesis.ball import (
     shifted,
 )
 from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 

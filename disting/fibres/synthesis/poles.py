@@ -11,9 +11,18 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from disting.fibres.synthesis.ball import Ball, Poly, cut, product, roots, shifted, splits, vanishes
+from disting.fibres.synthesis.ball import (
+    Ball,
+    Poly,
+    Receptance,
+    cut,
+    product,
+    roots,
+    shifted,
+    splits,
+    vanishes,
+)
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Dead
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 

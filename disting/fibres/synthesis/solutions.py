@@ -5,8 +5,7 @@ from dataclasses import replace
 from flint import arb
 
 from disting.fibres.synthesis.ball import Ball
-from disting.fibres.synthesis.check import Checked
-from disting.fibres.synthesis.confirm import confirmation
+from disting.fibres.synthesis.confirm import Checked, confirmation
 from disting.fibres.synthesis.result import Answer, Solution
 from disting.fibres.synthesis.target import Target
 from disting.model.chain import Chain

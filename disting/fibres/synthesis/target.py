@@ -7,7 +7,7 @@ from typing import Any
 from flint import acb_poly, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
-from disting.fibres.synthesis.receptance import Receptance
+from disting.fibres.synthesis.ball import Receptance
 from disting.model.row import Row
 from disting.model.structure import Structure
 

@@ -14,6 +14,7 @@ from typing import Any
 from disting.algebra.sampling import residues
 from disting.fibres.synthesis.ball import (
     Ball,
+    Receptance,
     cut,
     is_boundary,
     poly,
@@ -25,7 +26,6 @@ from disting.fibres.synthesis.ball import (
 from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues, combined
 from disting.fibres.synthesis.collocated import between, inverse_residues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
-from disting.fibres.synthesis.receptance import Receptance
 from disting.model.row import Row
 
 

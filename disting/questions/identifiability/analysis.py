@@ -1,17 +1,34 @@
 """From a chain to its identifiability: rank and row space, then the fibre, then what both say
 together.
+
+It is found on a canonical form and told in the parameters of the chain as given.
+
+Whether an identifiable function has one value for all parameters with the same behaviour, or
+several, is seen at one random point. A difference there is one for generic points, where the
+solutions vary continuously; agreement at exactly known solutions, which are rational functions of
+the point, is generic but for a probability like that of their number.
+
+A scaling leaves the behaviour as it is: p_i -> t^w_i p_i for all t, with integer weights w.
+Numerator and denominator written out are sums of monomials p^a with non-zero coefficients. If all
+monomials of both have one weight w.a, the quotient does not change: an exact proof. The weights
+are the integer kernel of the differences of exponents. As w_i p_i is in the kernel of the Jacobian
+at every point, a few points prove that there are none, without writing anything out.
 """
 
 import json
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from flint import acb, fmpq
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.algebra.sampling import enough
+from disting.behaviour.expanded import expanded
 from disting.behaviour.profile import minor_size
 from disting.behaviour.sample import Representation
 from disting.errors import ContradictionError
-from disting.fibres.synthesis.result import Status
+from disting.fibres.synthesis.result import Answer, Status
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.question import Question
@@ -20,12 +37,25 @@ from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.basis import Basis, basis
-from disting.questions.identifiability.naming import renamed
-from disting.questions.identifiability.parts import Level, Scaling
-from disting.questions.identifiability.scaling import scalings
-from disting.questions.identifiability.solutions import Listing, is_self_dual, listing, renamings
-from disting.questions.identifiability.tangent import Tangent, most_invariants, proof_tangents
-from disting.questions.identifiability.uniqueness import combination
+from disting.questions.identifiability.formula import Formula, monomial
+from disting.questions.identifiability.functions import Candidate
+from disting.questions.identifiability.parts import Combination, Level, Origin, Renaming, Scaling
+from disting.questions.identifiability.solutions import (
+    Listing,
+    Member,
+    is_self_dual,
+    listing,
+    renamings,
+)
+from disting.questions.identifiability.tangent import (
+    Tangent,
+    integer_kernel,
+    maybe_scaled,
+    most_invariants,
+    proof_tangents,
+    search_tangents,
+    short_vectors,
+)
 
 
 def identifiability(
@@ -162,3 +192,109 @@ def _from_json(text: str) -> Identifiability:
 
 
 IDENTIFIABILITY = Question("identifiability", _canonically, _to_json, _from_json)
+
+
+def renamed(found: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
+    """`names` leads from the canonical parameters to those of `chain`, whose order is kept
+    everywhere.
+    """
+    place = {name: i for i, name in enumerate(chain.parameters)}
+    order = [monomial(**{name: 1}) for name in chain.parameters]
+    singles = sorted(
+        (_combination(c, names, place) for c in found.singles), key=lambda c: order.index(c.formula)
+    )
+    return replace(
+        found,
+        parameters=chain.parameters,
+        singles=tuple(singles),
+        basis=tuple(_combination(c, names, place) for c in found.basis),
+        scalings=tuple(_scaling(s, names, place) for s in found.scalings),
+        renamings=tuple(_renaming(r, names, place) for r in found.renamings),
+        point=tuple(
+            sorted(((names[n], v) for n, v in found.point), key=lambda pair: place[pair[0]])
+        ),
+    )
+
+
+def _combination(c: Combination, names: Mapping[str, str], place: Mapping[str, int]) -> Combination:
+    terms = (
+        (k, tuple(sorted(((names[n], e) for n, e in powers), key=lambda pair: place[pair[0]])))
+        for k, powers in c.formula.terms
+    )
+    return replace(
+        c, formula=Formula(tuple(sorted(terms, key=lambda t: [place[n] for n, _ in t[1]])))
+    )
+
+
+def _scaling(s: Scaling, names: Mapping[str, str], place: Mapping[str, int]) -> Scaling:
+    return Scaling(
+        tuple(sorted(((names[n], w) for n, w in s.weights), key=lambda pair: place[pair[0]]))
+    )
+
+
+def _renaming(r: Renaming, names: Mapping[str, str], place: Mapping[str, int]) -> Renaming:
+    moved = sorted(((names[a], names[b]) for a, b in r.moved), key=lambda pair: place[pair[0]])
+    return Renaming(tuple(moved), r.symmetries)
+
+
+Judgement = tuple[Answer, Certainty]
+
+
+def combination(candidate: Candidate, known: Listing) -> Combination:
+    """The candidate with the answer that the listed solutions give."""
+    return Combination(candidate.formula, candidate.name, *_judged(candidate, known))
+
+
+def _judged(candidate: Candidate, known: Listing) -> Judgement:
+    """Different at a solution that exists: NO. Equal at all exact ones, none other: YES. The
+    rest rests on balls or is open.
+    """
+    if candidate.name:
+        return Answer.YES, Certainty.THEOREM  # a coefficient is what an experiment shows
+    here = candidate.formula.value(known.point)
+    apart = [
+        m.said.certainty
+        for m in known.members
+        if not _same(here, candidate.formula.value(m.values))
+    ]
+    for certainty in (Certainty.THEOREM, Certainty.PROVEN, Certainty.NUMERICAL):
+        if certainty in apart:
+            return Answer.NO, certainty
+    if known.status not in (Status.COMPLETE, Status.INFINITE):
+        return Answer.UNKNOWN, Certainty.NUMERICAL
+    return Answer.YES, (
+        known.grade[0] if known.most == _exact(known.members) else Certainty.NUMERICAL
+    )
+
+
+def _exact(members: tuple[Member, ...]) -> int:
+    return sum(m.said.origin is not Origin.OTHER for m in members)
+
+
+def _same(here: fmpq, there: Any) -> bool:
+    return here == there if isinstance(there, fmpq) else bool(there.overlaps(acb(here)))
+
+
+POINTS = 4
+
+
+def scalings(structure: Structure, seed: str = "disting") -> tuple[Scaling, ...]:
+    """A basis of the scaling symmetries, few parameters first.
+
+    >>> from disting.model.chain import Chain
+    >>> [s.text for s in scalings(Chain(3, 2, 1, 3, 2, 3, damped=False).structure)]
+    []
+    """
+    if not maybe_scaled(list(search_tangents(structure, seed, POINTS))):
+        return ()
+    powers = [p[1:] for part in expanded(structure) for p in part.monoms()]
+    differences = [[a - b for a, b in zip(p, powers[0], strict=True)] for p in powers[1:]]
+    names = [p for p in structure.parameters if p != "Td"]
+    found = [_signed(v) for v in short_vectors(integer_kernel(differences, len(names)))]
+    shown = sorted(found, key=lambda v: (sum(map(bool, v)), [-x for x in v]))
+    return tuple(Scaling(tuple((n, w) for n, w in zip(names, v, strict=True) if w)) for v in shown)
+
+
+def _signed(vector: list[int]) -> list[int]:
+    first = next(x for x in vector if x)
+    return vector if first > 0 else [-x for x in vector]

@@ -6,6 +6,8 @@ v = 0 for all v of the kernel (E. Walter, L. Pronzato 1997). With f = sum c_j f_
 constants c_j this is a linear system in c, one row for each kernel vector at each point: its
 solutions are all identifiable combinations of the f_j with constant coefficients. Monomials p^a
 are those of f_j = log p_j.
+
+Integer weights of monomials form lattices, of which kernels and short bases are asked.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -13,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
-from flint import nmod_mat
+from flint import fmpz_mat, nmod_mat
 
 from disting.algebra.quotient import matrix, rational
 from disting.algebra.sampling import about, prime, residues
@@ -21,7 +23,6 @@ from disting.behaviour.powers import powers
 from disting.behaviour.sample import Drawn, Representation, drawn, quotient, seen_at
 from disting.model.structure import Structure
 from disting.questions.identifiability.formula import Formula
-from disting.questions.identifiability.lattice import short_vectors
 
 COEFFICIENT_LIMIT = 60  # larger numbers are artefacts of the reconstruction, or not readable
 
@@ -153,3 +154,33 @@ def _integral(column: list[int], modulus: int) -> list[int]:
 
 def _dot(left: Sequence[int], right: Sequence[int]) -> int:
     return sum(a * b for a, b in zip(left, right, strict=True))
+
+
+def short_vectors(vectors: Sequence[Sequence[int]]) -> list[list[int]]:
+    """A reduced basis (A. Lenstra, H. Lenstra, L. Lovasz 1982) of the lattice of independent
+    integer vectors.
+
+    >>> short_vectors([[1, 0], [7, 1]])
+    [[1, 0], [0, 1]]
+    """
+    return (
+        [[int(x) for x in row] for row in fmpz_mat([list(v) for v in vectors]).lll().tolist()]
+        if vectors
+        else []
+    )
+
+
+def integer_kernel(rows: Sequence[Sequence[int]], columns: int) -> list[list[int]]:
+    """A basis of the integer vectors v with row . v = 0 for all rows.
+
+    >>> short_vectors(integer_kernel([[1, -1, 0]], 3))
+    [[0, 0, 1], [1, 1, 0]]
+    """
+    # the transforming matrix of the Hermite form of the transpose has them below the rank: append
+    # the identity
+    size = len(rows)
+    appended = [
+        [row[j] for row in rows] + [int(i == j) for i in range(columns)] for j in range(columns)
+    ]
+    reduced = fmpz_mat(appended).hnf().tolist()
+    return [[int(x) for x in row[size:]] for row in reduced if not any(row[:size])]

@@ -44,7 +44,7 @@ of the row, and for all their limits.
 
 from typing import Any
 
-from disting.algebra.resultant import polynomial, resultant
+from disting.algebra.fractionfree import polynomial, resultant
 from disting.model.row import Row
 
 

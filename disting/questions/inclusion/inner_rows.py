@@ -27,7 +27,7 @@ is e/2 - 2, else e/2 - 1.
 
 from typing import Any
 
-from disting.algebra.resultant import interpolated, polynomial, resultant
+from disting.algebra.fractionfree import interpolated, polynomial, resultant
 from disting.model.row import Row
 
 

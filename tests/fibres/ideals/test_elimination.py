@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from disting.algebra.groebner.elimination import TooLarge, basis_steps
 from disting.algebra.groebner.macaulay import reaches_one
-from disting.algebra.groebner.monomials import Order
+from disting.algebra.groebner.modular import Order
 from disting.algebra.groebner.points import free_variable, solution
 
 P = 10007

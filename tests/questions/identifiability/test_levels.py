@@ -22,10 +22,9 @@ from disting.questions.identifiability import (
     identifiabilities,
     identifiability,
 )
-from disting.questions.identifiability.analysis import judged
-from disting.questions.identifiability.lattice import integer_kernel, short_vectors
-from disting.questions.identifiability.scaling import scalings
+from disting.questions.identifiability.analysis import judged, scalings
 from disting.questions.identifiability.solutions import Listing, foster_count, images
+from disting.questions.identifiability.tangent import integer_kernel, short_vectors
 
 
 def levels(n_masses, damped):

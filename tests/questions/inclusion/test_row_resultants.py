@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from disting.algebra.resultant import polynomial, resultant
+from disting.algebra.fractionfree import polynomial, resultant
 from disting.algebra.sampling import prime, residues
 from disting.model.row import Row
 from disting.questions.inclusion.end_rows import end_resultant
