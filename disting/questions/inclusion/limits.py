@@ -122,7 +122,10 @@ def is_limit(row: Row, s: Specialised) -> bool:
     num, den = (_part(p, s.element.parameter, s.limit) for p in (num, den))
     new = {name: sum((values[old] for old in olds), zero) for name, olds in moved.items()}
     small_num, small_den = _written(s.row, new | {"s": ring["s"]})
-    return not den.is_zero() and (num * small_den - small_num * den).is_zero()
+    # what is left over, such as the minor of a row that was split off, is a common factor; cross
+    # products would be larger by far
+    factor, rest = divmod(den, small_den)
+    return not den.is_zero() and rest.is_zero() and (num - factor * small_num).is_zero()
 
 
 def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> Iterator[Specialised]:
