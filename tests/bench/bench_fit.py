@@ -14,7 +14,8 @@ import pytest
 
 from disting.fit.candidates import figure_1
 from disting.fit.cost import Cost
-from disting.fit.estimate import Task
+from disting.fit.descent import WORTHLESS, fine, rough
+from disting.fit.estimate import ITERATIONS, Task
 from disting.fit.exchange import estimates
 from disting.fit.select import select
 from disting.fit.swarm import by_swarm, search_box
@@ -203,6 +204,34 @@ def test_one_residual_and_jacobian(benchmark) -> None:
         ["analytic", "central differences", "ratio"],
         [(*micro.values(), ratio)],
     )
+
+
+def test_rough_search_beside_least_squares() -> None:
+    """From the same starts, to the same relative gain: many at once against one after the other."""
+    task = Task(Cost(measured()[0]))
+    source, rows, ratios = np.random.default_rng(1), [], []
+    for chain in (*TRIED[1:], LARGER):
+        best = estimates([chain], task)[chain]
+        plant, box = task.plant(chain), task.box(task.names(chain))
+        there = np.array(list(best.parameters.values()))
+        starts = there * np.exp(source.uniform(-1.0, 1.0, (40, len(there))))
+        costs = dict[str, np.ndarray]()
+
+        def ours(plant=plant, box=box, starts=starts, costs=costs) -> None:
+            costs["ours"] = rough(plant, task.cost, box, starts, ITERATIONS)[1]
+
+        def scipys(plant=plant, box=box, starts=starts, costs=costs) -> None:
+            ends = [fine(plant, task.cost, box, start, WORTHLESS)[1] for start in starts]
+            costs["scipy"] = np.array(ends)
+
+        taken = alternating({"ours": ours, "scipy": scipys}, 3)
+        ratios.append(taken["scipy"] / taken["ours"])
+        near = {name: f"{np.mean(j <= 1.001 * best.j):.0%}" for name, j in costs.items()}
+        each = [f"{1e3 * taken[name] / len(starts):.1f} ms" for name in ("ours", "scipy")]
+        rows.append((f"{len(there)}", *each, f"{ratios[-1]:.1f}", near["ours"], near["scipy"]))
+    heads = ["parameters", "a start", "by scipy", "ratio", "reach the optimum", "by scipy"]
+    table("40 starts within a factor e of the optimum", heads, rows)
+    assert min(ratios) > 2
 
 
 def test_many_lines() -> None:
