@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from disting.catalogs import Catalog as Catalog
     from disting.catalogs import ModelRow as ModelRow
     from disting.catalogs import catalog as catalog
-    from disting.conditions import CONDITIONS as CONDITIONS
-    from disting.conditions import Finding as Finding
-    from disting.conditions import Outcome as Outcome
+    from disting.conditions.finding import Finding as Finding
+    from disting.conditions.finding import Outcome as Outcome
+    from disting.conditions.table import CONDITIONS as CONDITIONS
     from disting.equivalence import equivalents as equivalents
     from disting.equivalence import explicit_map as explicit_map
     from disting.errors import CatalogError as CatalogError
@@ -74,7 +74,8 @@ _NAMES = {
     "disting.algebra.certainty": "Certainty",
     "disting.behaviour.expanded": "transfer_function",
     "disting.catalogs": "Catalog ModelRow catalog",
-    "disting.conditions": "CONDITIONS Finding Outcome",
+    "disting.conditions.finding": "Finding Outcome",
+    "disting.conditions.table": "CONDITIONS",
     "disting.equivalence": "equivalents explicit_map",
     "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",
     "disting.experiments": "Experiment",

@@ -17,7 +17,7 @@ from string import ascii_letters
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor

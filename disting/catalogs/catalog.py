@@ -20,7 +20,7 @@ from disting.catalogs.files import (
     shipped_folder,
 )
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES
 from disting.errors import CatalogError, InputError, of_type
 from disting.model.chain import Chain, Premise
 from disting.model.family import Family

@@ -10,8 +10,7 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
-from disting.conditions.rule import Role, Stage
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES, Role, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Premise

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.output import written_file, written_folder
+from disting.conditions.rule import RULES
 from disting.errors import shown
 from disting.model.chain import Sensor
 from disting.model.domain import Domain
@@ -82,9 +83,7 @@ def frequency_range(text: str) -> tuple[float, float]:
 
 def conditions(text: str) -> tuple[str, ...]:
     """Names and ranges such as 1-5,8, in the order of the table."""
-    from disting.conditions.table import CONDITIONS  # where it is asked for: it imports much
-
-    names = [c.rule.name for c in CONDITIONS]
+    names = [rule.name for rule in RULES.values() if rule.is_condition]
     chosen = set[str]()
     for part in text.split(","):
         low, dash, high = part.strip().partition("-")

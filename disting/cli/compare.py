@@ -1,4 +1,8 @@
-"""disting compare: one verdict, explained."""
+"""disting compare: one verdict, explained.
+
+What proves, writes a file or goes through experiments is imported where it is asked for: a look-up
+needs none of it.
+"""
 
 import argparse
 import json
@@ -32,10 +36,6 @@ from disting.model.names import chains_named, name_of, read
 from disting.model.settings import Settings
 from disting.verdict import Query, Verdict, View
 from disting.verdict.comparison import compare, names_of
-from disting.verdict.everywhere import compare_everywhere
-from disting.verdict.everywhere_file import everywhere_file
-from disting.verdict.proof import prove
-from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
 
 FILE = ".json:"  # between a file and the name of a model in it
 MODEL = (
@@ -89,6 +89,9 @@ def run(options: argparse.Namespace) -> int:
 
 def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models, as they are named, with all that its check needs."""
+    from disting.verdict.everywhere_file import everywhere_file
+    from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
+
     sides = _sides(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
     chains = _chains(sides)
@@ -140,6 +143,8 @@ def _parted(text: str) -> tuple[str, str]:
 
 def _under_experiments(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> int:
     """Explain what further experiments tell, the chains as they are included."""
+    from disting.verdict.everywhere import compare_everywhere
+
     left, right = chains
     with engine_for(options) as (engine, _, _progress):
         found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
@@ -162,7 +167,11 @@ def decided(
             found = compare(*chains, query=asked, engine=engine)
     turned = found.left != names_of(chains[0], chains[1])[0]
     ordered = list(reversed(chains)) if turned else list(chains)
-    return ordered, prove(found, ordered[0], ordered[1]) if options.prove else found
+    if options.prove:
+        from disting.verdict.proof import prove
+
+        found = prove(found, ordered[0], ordered[1])
+    return ordered, found
 
 
 def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:

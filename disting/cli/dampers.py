@@ -17,7 +17,7 @@ from disting.cli.effort import Work, announced
 from disting.cli.output import emitted, emitted_lines, written_file
 from disting.cli.relations import relations_in_words
 from disting.cli.workers import engine_for
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES
 from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.model.drawing import text_drawing

@@ -8,7 +8,6 @@ import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import TextIO
 
 from disting.errors import InputError
@@ -54,6 +53,8 @@ def _takes_files(folder: Path) -> bool:
     """Whether a file can be made there: tried, since permissions do not tell it of all folders, nor
     of all users.
     """
+    from tempfile import TemporaryFile
+
     try:
         with TemporaryFile(dir=folder):
             return True

@@ -13,6 +13,7 @@ from importlib import import_module
 from typing import Any
 
 from disting.cli.plain import complain
+from disting.conditions.rule import RULES
 from disting.errors import LONGEST_ECHO, shown
 from disting.files import __version__
 
@@ -200,10 +201,10 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
 
     `whole`: with the arguments of all commands, else each declares its own when it is named.
     """
-    top = _Top(
+    top = _Parser(
         prog="disting",
         description=DESCRIPTION,
-        epilog=epilog() if whole else "",
+        epilog=epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action="version", version=f"disting {__version__}")
@@ -217,10 +218,8 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
 
 
 def epilog() -> str:
-    """The table of conditions, which takes a while to import, and what exit statuses mean."""
-    from disting.conditions.table import CONDITIONS
-
-    rows = (f"  {c.rule.name}  {c.rule.title}: {c.rule.text}" for c in CONDITIONS)
+    """The conditions, and what exit statuses mean."""
+    rows = (f"  {r.name}  {r.title}: {r.text}" for r in RULES.values() if r.is_condition)
     return "\n".join(["conditions:", *rows, "", STATUS])
 
 
@@ -274,15 +273,6 @@ class _Parser(argparse.ArgumentParser):
         """Say what is wrong and where help is; exit status 2."""
         complain(f"{_short(message).rstrip('.')} (see '{self.prog} --help')")
         self.exit(2)
-
-
-class _Top(_Parser):
-    """The parser of the program, whose help has the table of conditions."""
-
-    def format_help(self) -> str:
-        """As usual."""
-        self.epilog = self.epilog or epilog()
-        return super().format_help()
 
 
 def _offered(action: argparse.Action) -> list[str]:

@@ -10,7 +10,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterable
 
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES
 from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.verdict import Query, Relation, View

@@ -12,7 +12,6 @@ from time import monotonic
 from disting.cli.plain import complain
 from disting.errors import InputError, shown
 from disting.store import Store
-from disting.store.scheduling import executor
 from disting.verdict import Engine, Progress
 
 BARS_AFTER = 2.0  # seconds of silence on a terminal
@@ -29,6 +28,8 @@ def cores() -> int:
 @contextmanager
 def engine_for(options: argparse.Namespace) -> Iterator[tuple[Engine, Executor | None, Progress]]:
     """Engine with the user's store, workers as asked, and progress on standard error."""
+    from disting.store.scheduling import executor  # and with it the processes of the library
+
     with ExitStack() as stack:
         store = stack.enter_context(Store.open("" if getattr(options, "no_cache", False) else None))
         pool = stack.enter_context(

@@ -12,19 +12,10 @@ from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import Role, Rule
+from disting.conditions.rule import DEGREES, DEPENDENCES, FORM, INVARIANTS, RANK, Rule
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.kinds import Evidence
 
-INVARIANTS = Rule("1", Role.NECESSARY, "number of invariants", "equally many moment invariants")
-DEGREES = Rule(
-    "2", Role.NECESSARY, "degrees", "equally many numerator and denominator coefficients"
-)
-FORM = Rule("3", Role.NECESSARY, "symbolic form", "the same invariants are constant")
-RANK = Rule("4", Role.NECESSARY, "generic rank", "equally many determinable parameters")
-DEPENDENCES = Rule(
-    "5", Role.NECESSARY, "dependences", "the same sets of invariants are independent"
-)
 NO_DEGREES = (
     "Markov parameters have no numerator and denominator, and equally many of them are compared"
 )

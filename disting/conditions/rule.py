@@ -60,6 +60,11 @@ class Rule:
         """What a field of a matrix shows."""
         return self.mark or self.name
 
+    @property
+    def is_condition(self) -> bool:
+        """Whether it is asked as a row of the table of conditions."""
+        return self.role is not Role.DECISION
+
     def in_words(self, domain: Domain = Domain.POSITIVE) -> str:
         """The rule in a sentence.
 
@@ -69,6 +74,30 @@ class Rule:
         return self.phrase.format(domain=domain) if self.phrase else f"condition {self.name}"
 
 
+INVARIANTS = Rule("1", Role.NECESSARY, "number of invariants", "equally many moment invariants")
+DEGREES = Rule(
+    "2", Role.NECESSARY, "degrees", "equally many numerator and denominator coefficients"
+)
+FORM = Rule("3", Role.NECESSARY, "symbolic form", "the same invariants are constant")
+RANK = Rule("4", Role.NECESSARY, "generic rank", "equally many determinable parameters")
+DEPENDENCES = Rule(
+    "5", Role.NECESSARY, "dependences", "the same sets of invariants are independent"
+)
+RENAMING = Rule(
+    "6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical"
+)
+FREE_CHOICE = Rule(
+    "7",
+    Role.SUFFICIENT,
+    "free choice",
+    "as many determinable parameters as non-constant invariants",
+)
+SUBMODEL = Rule(
+    "8", Role.STRUCTURAL, "submodel", "one model is a part of the other, with equal rank"
+)
+SUPERMODEL = Rule(
+    "9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank"
+)
 EXACT = Rule(
     name="exact",
     role=Role.DECISION,
@@ -85,3 +114,13 @@ ADMISSIBLE = Rule(
     phrase="equivalents with {domain} parameters",
     mark="+",
 )
+RULES = {
+    rule.name: rule
+    for rule in (
+        *(INVARIANTS, DEGREES, FORM, RANK, DEPENDENCES),
+        *(RENAMING, FREE_CHOICE),
+        *(SUBMODEL, SUPERMODEL),
+        *(EXACT, ADMISSIBLE),
+    )
+}
+"""Every rule by its name, in the order in which they are asked."""

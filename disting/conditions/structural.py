@@ -12,16 +12,10 @@ from disting.algebra.certainty import Grade, graded
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import Role, Rule
+from disting.conditions.rule import SUBMODEL, SUPERMODEL
 from disting.conditions.side import Side
 from disting.evidence.conditions import Embedding, Supermodel
 
-SUBMODEL = Rule(
-    "8", Role.STRUCTURAL, "submodel", "one model is a part of the other, with equal rank"
-)
-SUPERMODEL = Rule(
-    "9", Role.STRUCTURAL, "supermodel", "both are parts of a third model, with equal rank"
-)
 NO_ELEMENTS = "of general models no elements are left out"
 NO_THIRD = f"{NO_ELEMENTS}, and under several experiments no third model is measured"
 

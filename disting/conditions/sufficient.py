@@ -8,19 +8,10 @@ from disting.algebra.certainty import Certainty
 from disting.algebra.colouring import renamings
 from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import Role, Rule
+from disting.conditions.rule import FREE_CHOICE, RENAMING
 from disting.conditions.side import Side
 from disting.evidence.conditions import FreeChoice, Renaming
 
-RENAMING = Rule(
-    "6", Role.SUFFICIENT, "renaming", "a renaming of the parameters makes the invariants identical"
-)
-FREE_CHOICE = Rule(
-    "7",
-    Role.SUFFICIENT,
-    "free choice",
-    "as many determinable parameters as non-constant invariants",
-)
 INCOMPLETE = "fewer than N_S1 + N_S2 Markov parameters are not exhaustive"
 CANDIDATES = 50  # of a renaming that are verified; a colouring leaves one or two in practice
 

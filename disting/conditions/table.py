@@ -1,8 +1,8 @@
 """The ordered table of conditions: it is the programme, and it prints itself into help texts,
 legends and pages.
 
-A new condition is a row here. Its rule says what it is called and what its outcome proves; the row
-says how it is asked.
+A new condition is a rule, which says what it is called and what its outcome proves, and a row here,
+which says how it is asked.
 """
 
 from collections.abc import Callable, Hashable
@@ -13,7 +13,18 @@ from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions import necessary, structural, sufficient
 from disting.conditions.finding import Finding
-from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
+from disting.conditions.rule import (
+    DEGREES,
+    DEPENDENCES,
+    FORM,
+    FREE_CHOICE,
+    INVARIANTS,
+    RANK,
+    RENAMING,
+    SUBMODEL,
+    SUPERMODEL,
+    Rule,
+)
 from disting.conditions.side import Side
 from disting.model.shown import summary
 
@@ -76,25 +87,23 @@ def _free_choice(left: Side, right: Side, representation: Representation, count:
 _n = necessary
 NECESSARY = (
     Necessary(
-        _n.INVARIANTS, _n.number_of_invariants, _n.degree_grade, _n.condition_1, of_degrees=True
+        INVARIANTS, _n.number_of_invariants, _n.degree_grade, _n.condition_1, of_degrees=True
     ),
     Necessary(
-        _n.DEGREES, _n.numbers_of_coefficients, _n.degree_grade, _n.condition_2, of_degrees=True
+        DEGREES, _n.numbers_of_coefficients, _n.degree_grade, _n.condition_2, of_degrees=True
     ),
-    Necessary(_n.FORM, _n.symbolic_form, _n.form_grade, _n.condition_3),
-    Necessary(_n.RANK, _n.generic_rank, _n.rank_grade, _n.condition_4),
+    Necessary(FORM, _n.symbolic_form, _n.form_grade, _n.condition_3),
+    Necessary(RANK, _n.generic_rank, _n.rank_grade, _n.condition_4),
     Necessary(
-        _n.DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5, of_dependences=True
+        DEPENDENCES, _n.dependences, _n.dependence_grade, _n.condition_5, of_dependences=True
     ),
 )
 SUFFICIENT = (
-    Sufficient(sufficient.RENAMING, _renaming),
-    Sufficient(sufficient.FREE_CHOICE, _free_choice),
+    Sufficient(RENAMING, _renaming),
+    Sufficient(FREE_CHOICE, _free_choice),
 )
 STRUCTURAL = (
-    Structural(structural.SUBMODEL, structural.condition_8),
-    Structural(structural.SUPERMODEL, structural.condition_9),
+    Structural(SUBMODEL, structural.condition_8),
+    Structural(SUPERMODEL, structural.condition_9),
 )
 CONDITIONS: tuple[Necessary | Sufficient | Structural, ...] = (*NECESSARY, *SUFFICIENT, *STRUCTURAL)
-RULES = {rule.name: rule for rule in (*(c.rule for c in CONDITIONS), EXACT, ADMISSIBLE)}
-"""Every rule by its name, in the order in which they are asked."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from itertools import combinations
 
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES
 from disting.paper.findings import Findings
 from disting.verdict import Decisions
 

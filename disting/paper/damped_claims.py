@@ -4,7 +4,7 @@ from collections import Counter
 
 import numpy as np
 
-from disting.conditions.necessary import DEPENDENCES
+from disting.conditions.rule import DEPENDENCES
 from disting.paper.claim import (
     Claim,
     Found,

@@ -12,8 +12,7 @@ from itertools import groupby
 from disting.catalogs.damper_family import DamperFamily, Name
 from disting.catalogs.dampers import spelled
 from disting.catalogs.files import name_of as chains_name
-from disting.conditions.rule import EXACT
-from disting.conditions.table import RULES
+from disting.conditions.rule import EXACT, RULES
 from disting.model.chain import Chain
 from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
 from disting.report.drawing import draw

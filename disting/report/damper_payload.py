@@ -15,10 +15,7 @@ from numpy.typing import NDArray
 
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import Masses
-from disting.conditions.rule import EXACT
-from disting.conditions.structural import SUBMODEL, SUPERMODEL
-from disting.conditions.sufficient import FREE_CHOICE, RENAMING
-from disting.conditions.table import CONDITIONS
+from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING, RULES, SUBMODEL, SUPERMODEL
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.report.payload import packed, script_json
@@ -123,8 +120,9 @@ def mirror(chain: Chain) -> int:
 def rules() -> dict[str, Rule]:
     """What the page says of every rule."""
     said = {
-        c.rule.name: (c.rule.sign, f"{c.rule.in_words()}, {c.rule.title}", c.rule.text)
-        for c in CONDITIONS
+        rule.name: (rule.sign, f"{rule.in_words()}, {rule.title}", rule.text)
+        for rule in RULES.values()
+        if rule.is_condition
     }
     return said | {EXACT.name: (EXACT.sign, EXACT.in_words(), "")}
 

@@ -14,8 +14,7 @@ from disting.catalogs import Catalog
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.next_files import NextCatalog
 from disting.catalogs.sizes_files import name_of as sizes_name
-from disting.conditions.rule import EXACT, Role, Rule
-from disting.conditions.table import RULES
+from disting.conditions.rule import EXACT, RULES, Role, Rule
 from disting.files import __version__
 from disting.model.chain import Chain
 from disting.report.domains import VIEWS, Over, over

@@ -13,8 +13,7 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from disting.conditions.rule import ADMISSIBLE
-from disting.conditions.table import RULES
+from disting.conditions.rule import ADMISSIBLE, RULES
 from disting.evidence.conditions import capital
 from disting.evidence.positive import Share
 from disting.model.domain import Domain

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sized
 from typing import Protocol
 
 from disting.catalogs import Catalog
-from disting.conditions.table import RULES
+from disting.conditions.rule import RULES
 from disting.model.domain import Domain
 from disting.model.shown import plural as plural
 from disting.verdict import Relation, Verdict, View

@@ -11,7 +11,6 @@ import sys
 from collections.abc import Iterator
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import version
 from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1]
@@ -28,6 +27,8 @@ def digest(module: str) -> str:
     >>> digest("disting.fit.exchange") == digest("disting.verdict.engine")
     False
     """
+    from importlib.metadata import version
+
     sources = _sources()
     versions = [sys.version.split()[0], *(f"{name} {version(name)}" for name in LIBRARIES)]
     texts = [text for name in modules_of(module) for text in (name, sources[name])]

@@ -13,9 +13,6 @@ import sqlite3
 from pathlib import Path
 from typing import Final
 
-import platformdirs
-from filelock import FileLock
-
 from disting.errors import InputError, shown
 
 Identity = tuple[int, int]  # device and inode number: which file a path holds
@@ -50,7 +47,7 @@ def located(where: str | Path | None) -> str:
     """The absolute path of the database file, or MEMORY, or NOWHERE; raises InputError where the
     variable holds none of them.
     """
-    default = str(platformdirs.user_cache_path("disting") / "cache.sqlite3")
+    default = str(_usual_folder() / "cache.sqlite3")
     text = os.environ.get(VARIABLE) if where is None else str(where)
     word = default if text is None else text.strip().lower()
     if word in (NOWHERE, OFF):
@@ -61,6 +58,12 @@ def located(where: str | Path | None) -> str:
         _refuse_no_file(text)
     # Symbolic links are followed, so that all processes lock and rename beside the same file.
     return os.path.realpath(os.path.expanduser(default if text is None else text))
+
+
+def _usual_folder() -> Path:
+    from platformdirs import user_cache_path
+
+    return user_cache_path("disting")
 
 
 def _refuse_no_file(text: str) -> None:
@@ -133,6 +136,8 @@ def _set_aside(path: str) -> str:
 
 def replace(path: str, suspect: Identity, wait: float) -> str:
     """Put an empty database in place of `suspect`; "" if there was nothing to set aside."""
+    from filelock import FileLock
+
     os.makedirs(os.path.dirname(path), exist_ok=True)
     if suspect != MISSING and not _was_ours(path):
         raise OSError(
@@ -154,7 +159,7 @@ def _was_ours(path: str) -> bool:
     read only here, where it could not be used: to close it would drop the locks on one that is in
     use.
     """
-    if os.path.lexists(path + LOCK) or Path(path).parent == platformdirs.user_cache_path("disting"):
+    if os.path.lexists(path + LOCK) or Path(path).parent == _usual_folder():
         return True
     with contextlib.suppress(OSError), open(path, "rb") as file:
         head = file.read(100)

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE, EXACT, Role, Stage
-from disting.conditions.table import CONDITIONS, RULES, Necessary, Structural, Sufficient
+from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
+from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence

@@ -24,9 +24,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.conditions.rule import EXACT
-from disting.conditions.structural import SUBMODEL, SUPERMODEL
-from disting.conditions.sufficient import FREE_CHOICE, RENAMING
+from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING, SUBMODEL, SUPERMODEL
 from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.verdict.result import Relation

@@ -15,8 +15,8 @@ from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
-from disting.conditions.rule import ADMISSIBLE, Stage
-from disting.conditions.table import NECESSARY, RULES
+from disting.conditions.rule import ADMISSIBLE, RULES, Stage
+from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from itertools import product
 from typing import Any
 
-from disting.conditions.rule import EXACT
-from disting.conditions.sufficient import FREE_CHOICE, RENAMING
+from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING
 from disting.experiments.menu import Gain, Item
 from disting.schemas import Format
 from disting.verdict.further import Further, Option

@@ -30,7 +30,8 @@ from disting.algebra.content import written
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome
-from disting.conditions.sufficient import FREE_CHOICE, RENAMING, condition_6, condition_7
+from disting.conditions.rule import FREE_CHOICE, RENAMING
+from disting.conditions.sufficient import condition_6, condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.equal_machines import standard

@@ -8,13 +8,12 @@ positive. The paper's views speak of generic complex parameters.
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.conditions.rule import Rule, Stage
-from disting.conditions.table import CONDITIONS
+from disting.conditions.rule import RULES, Rule, Stage
 from disting.errors import InputError
 from disting.model.domain import Domain
 from disting.verdict.compared import Compared
 
-ALL_CONDITIONS = tuple(c.rule.name for c in CONDITIONS)
+ALL_CONDITIONS = tuple(name for name, rule in RULES.items() if rule.is_condition)
 
 
 class View(StrEnum):

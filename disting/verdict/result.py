@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, bits_in_words
-from disting.conditions.rule import EXACT, Role, Stage
-from disting.conditions.table import RULES
+from disting.conditions.rule import EXACT, RULES, Role, Stage
 from disting.evidence.conditions import capital
 from disting.evidence.kinds import Evidence
 from disting.evidence.kinds import evidence_from as evidence_from

@@ -24,7 +24,7 @@ from disting.catalogs.damper_settled import read_settled
 from disting.catalogs.damper_verify import false_settled, settle_dampers, verify_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
-from disting.conditions import Outcome
+from disting.conditions.finding import Outcome
 from disting.model.family import Family
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical

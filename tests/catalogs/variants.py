@@ -20,7 +20,7 @@ from collections import Counter
 from dataclasses import dataclass, replace
 
 from disting.behaviour.sample import Representation
-from disting.conditions.necessary import DEGREES, INVARIANTS
+from disting.conditions.rule import DEGREES, INVARIANTS
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.verdict import Engine, Query, Relation, Verdict, View

@@ -23,13 +23,13 @@ from disting.behaviour.profile import Unsearched, profile
 from disting.behaviour.sample import Representation
 from disting.conditions import sufficient
 from disting.conditions.necessary import (
-    INVARIANTS,
     condition_1,
     condition_2,
     condition_3,
     condition_4,
     condition_5,
 )
+from disting.conditions.rule import INVARIANTS
 from disting.conditions.structural import condition_8, condition_9
 from disting.conditions.sufficient import condition_6, condition_7
 from disting.evidence.conditions import Counts, Forms, Ranks

@@ -7,8 +7,8 @@ import pytest
 
 from disting import Query, compare
 from disting.algebra.certainty import Certainty
-from disting.conditions.rule import Stage
-from disting.conditions.table import CONDITIONS, RULES
+from disting.conditions.rule import RULES, Stage
+from disting.conditions.table import CONDITIONS
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.decision import THEOREMS, Theorem
 from disting.evidence.kinds import Evidence, InclusionEvidence

@@ -1,5 +1,5 @@
-"""A condition is a row of the table, and nothing else: rows written into a copy of the package
-are at work everywhere.
+"""A condition is a rule and a row of the table, and nothing else: those written into a copy of the
+package are at work everywhere.
 """
 
 import csv
@@ -11,17 +11,17 @@ from tests.cli.process import called
 from tests.house.package_copy import copied, said
 
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
-RULES = """
+RULES = """ALWAYS = Rule("10", Role.NECESSARY, "a matter of course", "both are models")
+NEVER = Rule("11", Role.NECESSARY, "beside the point", "both are something else")
+AGAIN = Rule("12", Role.NECESSARY, "degrees once more", "the degrees are equal")
+MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked ones", "the mark", "M")
+"""
+CHECKS = """
 from dataclasses import replace
 from disting.algebra.certainty import Certainty, graded
 from disting.evidence.decision import Theorem
 from disting.conditions.finding import Outcome
-from disting.conditions.rule import Role
-
-ALWAYS = Rule("10", Role.NECESSARY, "a matter of course", "both are models")
-NEVER = Rule("11", Role.NECESSARY, "beside the point", "both are something else")
-AGAIN = Rule("12", Role.NECESSARY, "degrees once more", "the degrees are equal")
-MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked ones", "the mark", "M")
+from disting.conditions.rule import AGAIN, ALWAYS, MARKED, NEVER
 
 
 def _again(left: Profile, right: Profile) -> Finding:
@@ -47,13 +47,19 @@ CONDITIONS"""
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A copy of the package whose table has four rows more, and no other line that differs."""
+    """A copy of the package with four rules more and a row for each, and no other line that differs."""
+    rules = (
+        ("RULES = {", RULES + "RULES = {"),
+        ("RANK, DEPENDENCES)", "RANK, DEPENDENCES, ALWAYS, NEVER, AGAIN)"),
+        ("SUBMODEL, SUPERMODEL)", "SUBMODEL, SUPERMODEL, MARKED)"),
+    )
     rows = (
-        ("\n_n = ", RULES + "_n = "),
+        ("\n_n = ", CHECKS + "_n = "),
         (")\nSUFFICIENT = (", NECESSARY),
         (")\nCONDITIONS", STRUCTURAL),
     )
-    return copied(tmp_path_factory.mktemp("rows"), {"conditions/table.py": rows})
+    changes = {"conditions/rule.py": rules, "conditions/table.py": rows}
+    return copied(tmp_path_factory.mktemp("rows"), changes)
 
 
 def run(folder, *arguments):

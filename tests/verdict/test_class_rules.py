@@ -9,7 +9,7 @@ import pytest
 from disting import Certainty, Chain, Engine, Finding, Relation
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.damper_family import damper_family
-from disting.conditions import Outcome
+from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.conditions.structural import condition_8, condition_9
 from disting.questions.same.limited import QUICKLY

@@ -26,7 +26,7 @@ from disting import (
 )
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.dampers import DamperSets, dampers
-from disting.conditions import Outcome
+from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.errors import ContradictionError
 from disting.model.settings import Settings
