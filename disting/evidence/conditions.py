@@ -8,10 +8,10 @@ from itertools import groupby
 from typing import ClassVar
 
 from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind
+from disting.evidence.seen import Labels, SeenPair
 from disting.model.domain import Domain
 from disting.model.relation import Relation
 
-Labels = tuple[str, ...]
 TRANSCENDENTAL = (
     "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
 )
@@ -41,6 +41,11 @@ class Counts(Kind):
         """N_MI = n + m + 1 on both sides."""
         (n1, m1), (n2, m2) = self.first
         return f"n + m + 1 = {n1} + {m1} + 1 = {n1 + m1 + 1},  {n2} + {m2} + 1 = {n2 + m2 + 1}"
+
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """Whether these are their degrees."""
+        degrees = pair.left.degrees, pair.right.degrees
+        return degrees == (self.left, self.right) and self.left != self.right
 
     @property
     def first(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -79,6 +84,13 @@ class Forms(Kind):
             f" {spelled(self.only_right) or '–'}"
         )
 
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """Whether they vary on one side only."""
+        only = (*self.only_left, *self.only_right)
+        here, there = (side.free(representation, only) for side in pair.sides)
+        left, right = set(self.only_left), set(self.only_right)
+        return bool(only) and left <= here - there and right <= there - here
+
 
 @dataclass(frozen=True, slots=True)
 class Ranks(Kind):
@@ -105,6 +117,13 @@ class Ranks(Kind):
         """rank of the Jacobian's rows on both sides."""
         what = "Φ" if self.all_rows else spelled(self.rows)
         return f"rank ∂({what})/∂p = {self.left} ≠ {self.right}"
+
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """Both ranks once more, of rows that there are."""
+        known = set[str]().union(*(s.labels(representation, self.rows) for s in pair.sides))
+        ranks = tuple(side.rank(representation, self.rows) for side in pair.sides)
+        told = (self.left, self.right)
+        return set(self.rows) <= known and ranks == told and self.left != self.right
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +154,14 @@ class Renaming(Kind):
         """All pairs."""
         return ", ".join(f"{a} → {b}" for a, b in self.pairs)
 
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """Whether it names every parameter once on either side, and one model is the other after
+        it.
+        """
+        named = [sorted(p for p, _ in self.pairs), sorted(q for _, q in self.pairs)]
+        whole = named == [sorted(side.parameters) for side in pair.sides]
+        return whole and pair.renames(dict(self.pairs))
+
     def without_exception(self, domain: Domain) -> bool:
         """It carries all parameters over."""
         return True
@@ -161,6 +188,14 @@ class FreeChoice(Kind):
     def formula(self) -> str:
         """N_R equals the number of free invariants."""
         return f"N_R = {self.rank} = |{{{spelled(self.free)}}}|"
+
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """Whether these vary, no others, and have that rank."""
+        return all(
+            side.free(representation, self.free) == set(self.free)
+            and side.rank(representation, self.free) == len(set(self.free)) == self.rank
+            for side in pair.sides
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,6 +224,11 @@ class Embedding(Kind):
         """Masses of the submodel in the larger model."""
         return ", ".join(f"{a} → {b}" for a, b in self.numbering)
 
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """The numbering of the part's masses once more, and both ranks."""
+        fits = dict(self.numbering) in list(pair.numberings(self.left_is_submodel))
+        return fits and all(side.rank("tf") == self.rank for side in pair.sides)
+
 
 @dataclass(frozen=True, slots=True)
 class Supermodel(Kind):
@@ -212,6 +252,13 @@ class Supermodel(Kind):
     def formula(self) -> str:
         """The common rank."""
         return f"N_R = {self.rank} for all three"
+
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """The third model once more, and all three ranks."""
+        third = pair.united()
+        if third is None or third.parameters != self.parameters:
+            return False
+        return all(side.rank("tf") == self.rank for side in (*pair.sides, third))
 
 
 ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel

@@ -12,6 +12,7 @@ from enum import Enum, Flag, auto
 from types import UnionType
 from typing import Any, ClassVar, Self, Union, get_args, get_origin, get_type_hints
 
+from disting.evidence.seen import SeenPair
 from disting.model.domain import Domain
 from disting.model.relation import Relation
 
@@ -86,6 +87,12 @@ class Kind:
     def title(self) -> str:
         """What the theorem is called that it speaks by; "" where it has no name of its own."""
         return ""
+
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        """Whether it is true of two models, seen anew, and decides them; unless a class says how,
+        by the method that finds such evidence.
+        """
+        return pair.found_again(self)
 
     @property
     def inside(self) -> Inside:

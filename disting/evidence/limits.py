@@ -7,8 +7,9 @@ from enum import StrEnum
 from itertools import groupby
 from typing import ClassVar, NamedTuple
 
-from disting.evidence.conditions import Labels, spelled
+from disting.evidence.conditions import spelled
 from disting.evidence.kind import Claim, Inside, Kind
+from disting.evidence.seen import Labels
 
 
 class Why(StrEnum):

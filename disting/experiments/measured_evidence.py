@@ -10,13 +10,15 @@ from disting.algebra.certainty import Certainty, Grade, weakest
 from disting.algebra.sampling import PROOF_BITS
 from disting.behaviour.sample import Representation, Sample
 from disting.conditions.finding import Finding
-from disting.evidence.conditions import Counts, Embedding, Forms, FreeChoice, Ranks, Renaming
+from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
+from disting.evidence.seen import POINTS, Seen, SeenPair
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
@@ -34,9 +36,7 @@ from disting.questions.identifiability import identifiability
 from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.positive import proves
 from disting.questions.same.decided_again import by_labels
-from disting.questions.same.evidence_check import is_complete
 from disting.questions.same.real_and_positive import positive_ways
-from disting.questions.same.summary_check import POINTS, Summary, confirms_summary
 
 FRESH = Settings(seed="checked again", subset_limit=0)
 OfMeasured = Evidence | InclusionEvidence
@@ -45,31 +45,33 @@ OfMeasured = Evidence | InclusionEvidence
 def confirms(
     evidence: OfMeasured, left: MeasuredChain, right: MeasuredChain, representation: str = "tf"
 ) -> bool:
-    """Whether the evidence holds: summaries are looked at at fresh points, renamings and solutions
-    are put into all transfer functions, lists are made again at the stored point, contradictions
-    are found again; a part is looked for again, and ranks are computed again at other points.
+    """Whether the evidence holds: lists are made again at the stored point, contradictions are
+    found again; a part is looked for again; all else is looked at at fresh points.
 
     Raises NotSeenError where a contradiction takes too long.
     """
+    pair = SeenPair(
+        left=_seen(left),
+        right=_seen(right),
+        renames=partial(is_renaming, left, right),
+        found_again=partial(_found_again, left=left, right=right),
+        numberings=lambda left_is_part: numberings(
+            *((left, right) if left_is_part else (right, left))
+        ),
+    )
+    return evidence.holds(pair, representation)
+
+
+def _found_again(evidence: Kind, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """What the exact decision, positive equivalents and inclusions rest on."""
     match evidence:
-        case Counts() | Forms() | Ranks() | FreeChoice():
-            return confirms_summary(evidence, representation, *map(_summary, (left, right)))
         case LargerProjection():
             return _larger(evidence, left, right)
         case FullImage():
-            larger = _summary(left if evidence.left_is_larger else right)
-            free = FreeChoice(evidence.rank, evidence.free)
-            return confirms_summary(free, "tf", larger, larger)
-        case Renaming():
-            names = left.chain.parameters, right.chain.parameters
-            whole = is_complete(evidence, *names)
-            return whole and is_renaming(left, right, dict(evidence.pairs))
+            larger = left if evidence.left_is_larger else right
+            return confirms(FreeChoice(evidence.rank, evidence.free), larger, larger)
         case MissingElements():
             return confirms_missing(evidence, left, right)
-        case Embedding():
-            sides = (left, right) if evidence.left_is_submodel else (right, left)
-            ranks_ = {profile(m, Representation.TF, 0, FRESH).rank for m in sides}
-            return ranks_ == {evidence.rank} and dict(evidence.numbering) in numberings(*sides)
         case FibreUnder():
             return _missed(evidence, left, right)
         case Solved() | Refuted():
@@ -117,8 +119,8 @@ def positive_again(
     return replace(found, certainty=certainty, safety=safety)
 
 
-def _summary(measured: MeasuredChain) -> Summary:
-    return Summary(partial(_samples, measured), degrees(measured))
+def _seen(measured: MeasuredChain) -> Seen:
+    return Seen(measured.chain.parameters, degrees(measured), partial(_samples, measured))
 
 
 def _samples(
@@ -131,14 +133,14 @@ def _samples(
 def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:
     """Ranks of the named rows of all experiments, or of all rows of one experiment alone."""
     ranks = Ranks(evidence.rows, evidence.left, evidence.right, all_rows=False)
-    sides = [_summary(m) for m in (left, right)]
-    if set(evidence.rows) <= set[str]().union(*(s.labels(Representation.TF, 0) for s in sides)):
-        return confirms_summary(ranks, "tf", *sides)
+    labels = set[str]().union(*(_seen(m).labels("tf") for m in (left, right)))
+    if set(evidence.rows) <= labels:
+        return confirms(ranks, left, right)
     for k in range(len(left.experiments)):
-        alone = [_summary(MeasuredChain(m.chain, (m.experiments[k],))) for m in (left, right)]
+        one, other = (MeasuredChain(m.chain, (m.experiments[k],)) for m in (left, right))
         rows = tuple(name.replace(f"[{k + 1}]", "[1]") for name in evidence.rows)
-        if set(rows) in [side.labels(Representation.TF, 0) for side in alone]:
-            return confirms_summary(replace(ranks, rows=rows), "tf", *alone)
+        if set(rows) in [_seen(m).labels("tf") for m in (one, other)]:
+            return confirms(replace(ranks, rows=rows), one, other)
     return False
 
 

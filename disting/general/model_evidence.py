@@ -6,11 +6,12 @@ from functools import partial
 
 from disting.behaviour.sample import Representation, Sample
 from disting.conditions.finding import Finding
-from disting.evidence.conditions import Counts, Forms, FreeChoice, Ranks, Renaming
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
+from disting.evidence.seen import POINTS, Seen, SeenPair
 from disting.fibres.ideals import Limits, PolynomialMap, matched, seen_again
 from disting.general.admissible import are_one_ports
 from disting.general.admissible import confirms as confirms_points
@@ -23,8 +24,6 @@ from disting.general.model import Model
 from disting.general.samples import samples
 from disting.model.settings import Settings
 from disting.questions.same.decided_again import by_labels
-from disting.questions.same.evidence_check import is_complete
-from disting.questions.same.summary_check import POINTS, Summary, confirms_summary
 
 AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again
 
@@ -38,12 +37,18 @@ def confirms_models(
 
     Raises NotSeenError where a contradiction takes too long.
     """
+    pair = SeenPair(
+        left=_seen(left),
+        right=_seen(right),
+        renames=partial(is_renamed, left, right),
+        found_again=partial(_found_again, left=left, right=right),
+    )
+    return evidence.holds(pair, representation)
+
+
+def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
+    """What the exact decision, or the one on real and positive parameters, rests on."""
     match evidence:
-        case Counts() | Forms() | Ranks() | FreeChoice():
-            return confirms_summary(evidence, representation, *map(_summary, (left, right)))
-        case Renaming():
-            whole = is_complete(evidence, left.parameters, right.parameters)
-            return whole and is_renamed(left, right, dict(evidence.pairs))
         case Constants():
             return _differ(evidence, left, right)
         case Solved() | Refuted():
@@ -89,9 +94,10 @@ def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     return bool(evidence.labels) and known and tuple(found) == told and differ
 
 
-def _summary(model: AnyModel) -> Summary:
+def _seen(model: AnyModel) -> Seen:
     pairs = model.degrees if isinstance(model, MatrixModel) else (model.degrees,)
-    return Summary(partial(_samples, model), tuple(d for pair in pairs for d in pair))
+    degrees = tuple(d for pair in pairs for d in pair)
+    return Seen(model.parameters, degrees, partial(_samples, model))
 
 
 def _samples(model: AnyModel, representation: Representation, count: int) -> tuple[Sample, ...]:

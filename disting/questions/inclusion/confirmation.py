@@ -6,7 +6,7 @@ from math import comb
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
-from disting.evidence.conditions import Counts, FreeChoice, Labels
+from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refuted, Solved
 from disting.evidence.kinds import InclusionEvidence
@@ -18,6 +18,7 @@ from disting.evidence.limits import (
     RelativeDegrees,
     RowsInside,
 )
+from disting.evidence.seen import POINTS, Labels
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
@@ -29,7 +30,6 @@ from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part
-from disting.questions.same.summary_check import POINTS
 
 PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 

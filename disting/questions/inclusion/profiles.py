@@ -34,8 +34,9 @@ from typing import TypeVar
 from disting.algebra.certainty import Certainty
 from disting.algebra.matroid import Matroid, rank_in
 from disting.behaviour.profile import Profile
-from disting.evidence.conditions import Counts, Labels
+from disting.evidence.conditions import Counts
 from disting.evidence.limits import FullImage, LargerProjection, RelativeDegrees
+from disting.evidence.seen import Labels
 from disting.model.chain import Chain
 from disting.model.row import rows_of
 from disting.questions.inclusion.finding import Inclusion, InclusionFinding

@@ -8,22 +8,12 @@ from functools import partial
 from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import samples
 from disting.behaviour.sample import Representation, Sample
-from disting.evidence.conditions import (
-    ByConditions,
-    Counts,
-    Embedding,
-    Forms,
-    FreeChoice,
-    Ranks,
-    Renaming,
-    Supermodel,
-)
-from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
-from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
+from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
-from disting.evidence.kinds import Evidence
+from disting.evidence.kind import Kind
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.evidence.seen import POINTS, Seen, SeenPair
 from disting.fibres.ideals import (
     chains_told_apart,
     coefficient_map,
@@ -44,7 +34,6 @@ from disting.questions.identifiability import identifiability
 from disting.questions.positive import confirms_real, proves
 from disting.questions.same.exact import rational_part, theorem
 from disting.questions.same.real_and_positive import real_factors
-from disting.questions.same.summary_check import POINTS, Summary, confirms_summary
 
 
 @dataclass
@@ -56,93 +45,28 @@ class Witness:
         default_factory=dict
     )
 
-    def confirms(self, evidence: Evidence, representation: str, left: Chain, right: Chain) -> bool:
+    def confirms(self, evidence: Kind, representation: str, left: Chain, right: Chain) -> bool:
         """Whether the evidence is true of the two chains and decides them."""
-        match evidence:
-            case FibreAt():
-                return self._fibre(evidence, left, right)
-            case Theorem():
-                return theorem(left, right) == evidence.name
-            case DeadTime():
-                return (left.dead_time, right.dead_time) == (
-                    evidence.left_given,
-                    not evidence.left_given,
-                )
-            case FullRows():
-                return _full_rows(evidence, left, right)
-            case Shared():
-                return _shares(evidence, left, right)
-            case Solved() | Refuted():
-                return _ideal(evidence, left, right)
-            case BothWays():
-                return _both_ways(evidence, canonical(left).chain, canonical(right).chain)
-            case OddFibres():
-                return _odd(evidence, left, right)
-            case RealFactors():
-                return real_factors(canonical(left).chain, canonical(right).chain)
-            case RealWitnesses():
-                return _real_witnesses(evidence, canonical(left).chain, canonical(right).chain)
-            case FibreUnder():
-                return False  # of chains under several experiments
-            case Witnesses() | Explicit() | NoEquivalent() | Constants():
-                return False  # these speak of general models, see `general.confirms`
-        return self._by_condition(evidence, representation, left.structure, right.structure)
-
-    def _by_condition(
-        self, evidence: ByConditions, representation: str, a: Structure, b: Structure
-    ) -> bool:
-        """Evidence of conditions 1 to 9."""
-        match evidence:
-            case Counts() | Forms() | Ranks() | FreeChoice():
-                return confirms_summary(evidence, representation, *map(self._summary, (a, b)))
-            case Renaming():
-                return is_complete(evidence, a.parameters, b.parameters) and is_renaming(
-                    a, b, dict(evidence.pairs)
-                )
-            case Embedding():
-                return self._embeds(evidence, a, b)
-            case Supermodel():
-                return self._unites(evidence, a, b)
-
-    def _embeds(self, evidence: Embedding, a: Structure, b: Structure) -> bool:
-        """The numbering of the part's masses once more, and both ranks."""
-        part, whole = (a, b) if evidence.left_is_submodel else (b, a)
-        fits = dict(evidence.numbering) in list(embeddings(part, whole))
-        return fits and all(self._rank(s) == evidence.rank for s in (a, b))
-
-    def _unites(self, evidence: Supermodel, a: Structure, b: Structure) -> bool:
-        """The third model once more, and all three ranks."""
-        third = a.united(b)
-        same_ports = (a.ports, a.sensor_order) == (b.ports, b.sensor_order)
-        fits = same_ports and third.parameters == evidence.parameters
-        return fits and all(self._rank(s) == evidence.rank for s in (a, b, third))
-
-    def _fibre(self, evidence: FibreAt, a: Chain, b: Chain) -> bool:
-        """The fibre over the stored point once more."""
-        a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
-        given, searched = (a, b) if evidence.left_given else (b, a)
-        if sorted(name for name, _ in evidence.point) != sorted(given.structure.parameters):
-            return False  # it speaks of another model
-        try:
-            point = {name: fraction(value) for name, value in evidence.point}
-        except (ValueError, ZeroDivisionError):
-            return False  # no numbers
-        found = fibre(searched, target(given.structure, point))
-        refuted = evidence.grounds == Grounds.REFUTED
-        return (
-            found.status is Status.EMPTY
-            if refuted
-            else len(found.solutions) == evidence.solutions > 0
+        a, b = left.structure, right.structure
+        pair = SeenPair(
+            left=self._seen(a),
+            right=self._seen(b),
+            renames=partial(is_renaming, a, b),
+            found_again=partial(_found_again, left=left, right=right),
+            numberings=lambda left_is_part: embeddings(*((a, b) if left_is_part else (b, a))),
+            united=lambda: self._united(a, b),
         )
+        return evidence.holds(pair, representation)
 
-    def _rank(self, structure: Structure) -> int:
-        """Number of determinable parameters."""
-        return self._summary(structure).rank(Representation.TF, ())
+    def _united(self, a: Structure, b: Structure) -> Seen | None:
+        """The model with the elements of both, if force and sensor of both are at one place."""
+        same_ports = (a.ports, a.sensor_order) == (b.ports, b.sensor_order)
+        return self._seen(a.united(b)) if same_ports else None
 
-    def _summary(self, structure: Structure) -> Summary:
+    def _seen(self, structure: Structure) -> Seen:
         labels = self._samples(structure, Representation.TF, 0)[0].labels
         degrees = sum(x[0] == "b" for x in labels) - 1, sum(x[0] == "a" for x in labels)
-        return Summary(partial(self._samples, structure), degrees)
+        return Seen(structure.parameters, degrees, partial(self._samples, structure))
 
     def _samples(
         self, structure: Structure, representation: Representation, count: int
@@ -153,10 +77,51 @@ class Witness:
         return self.memo[key]
 
 
-def is_complete(evidence: Renaming, parameters: tuple[str, ...], others: tuple[str, ...]) -> bool:
-    """Whether it is a renaming at all: every parameter once on either side."""
-    here = sorted(p for p, _ in evidence.pairs) == sorted(parameters)
-    return here and sorted(q for _, q in evidence.pairs) == sorted(others)
+def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
+    """What the exact decision, or the one on real and positive parameters, rests on."""
+    a, b = canonical(left).chain, canonical(right).chain
+    match evidence:
+        case FibreAt():
+            return _fibre(evidence, left, right)
+        case Theorem():
+            return theorem(left, right) == evidence.name
+        case DeadTime():
+            dead_times = (left.dead_time, right.dead_time)
+            return dead_times == (evidence.left_given, not evidence.left_given)
+        case FullRows():
+            return same_by_full_rows(a.structure, b.structure, "verify") == evidence
+        case Shared():
+            return _shares(evidence, a, b)
+        case Solved() | Refuted():
+            coordinates = normalised if evidence.is_normalised else coefficient_map
+            return seen_again(
+                evidence, coordinates(rational_part(a)), coordinates(rational_part(b))
+            )
+        case BothWays():
+            return _both_ways(evidence, a, b)
+        case OddFibres():
+            return _odd(evidence, left, right)
+        case RealFactors():
+            return real_factors(a, b)
+        case RealWitnesses():
+            return _real_witnesses(evidence, a, b)
+    return False  # of chains under several experiments, or of general models
+
+
+def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
+    """The fibre over the stored point once more."""
+    a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
+    given, searched = (a, b) if evidence.left_given else (b, a)
+    if sorted(name for name, _ in evidence.point) != sorted(given.structure.parameters):
+        return False  # it speaks of another model
+    try:
+        point = {name: fraction(value) for name, value in evidence.point}
+    except (ValueError, ZeroDivisionError):
+        return False  # no numbers
+    found = fibre(searched, target(given.structure, point))
+    if evidence.grounds == Grounds.REFUTED:
+        return found.status is Status.EMPTY
+    return len(found.solutions) == evidence.solutions > 0
 
 
 def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
@@ -178,20 +143,11 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     )
 
 
-def _full_rows(evidence: FullRows, left: Chain, right: Chain) -> bool:
-    """Both ranks once more, at fresh points."""
-    a, b = (canonical(chain).chain.structure for chain in (left, right))
-    return same_by_full_rows(a, b, "verify") == evidence
-
-
-def _shares(evidence: Shared, left: Chain, right: Chain) -> bool:
+def _shares(evidence: Shared, a: Chain, b: Chain) -> bool:
     """Every share refuted once more, at a fresh point."""
-    a, b = (rational_part(canonical(chain).chain) for chain in (left, right))
-    again = chains_told_apart(a, b, "verify")
-    return again is not None and (again[0].part, again[0].shares > 0) == (
-        evidence.part,
-        evidence.shares > 0,
-    )
+    again = chains_told_apart(rational_part(a), rational_part(b), "verify")
+    told = (evidence.part, evidence.shares > 0)
+    return again is not None and (again[0].part, again[0].shares > 0) == told
 
 
 def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
@@ -202,12 +158,3 @@ def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
         for chain, n in ((left, evidence.left), (right, evidence.right))
     ]
     return all(n % 2 == 1 and x.least == x.most == n for x, n in found)
-
-
-def _ideal(evidence: Solved | Refuted, left: Chain, right: Chain) -> bool:
-    """A solution put into both models; a contradiction found again by plain elimination or, where
-    that is too large, at a fresh point by the fast one.
-    """
-    coordinates = normalised if evidence.is_normalised else coefficient_map
-    a, b = (coordinates(rational_part(canonical(chain).chain)) for chain in (left, right))
-    return seen_again(evidence, a, b)
