@@ -155,7 +155,7 @@ def _relied_on(found: Selection) -> Iterator[str]:
         yield ""
         yield (
             "what you may rely on if it is one of these, or what may as well be it (95 %; larger"
-            " ones that contain one were not looked at):"
+            " ones that contain one, and those not decided, were not looked at):"
         )
         yield from (f"  {statement.text}" for statement in found.relied_on)
 

@@ -120,10 +120,23 @@ def _fraction(name: str, value: Value) -> fmpq:
     if exact <= 0:
         reason = (
             "masses, springs, dampers and times are positive; a chain without an element is another"
-            " model"
+            f" model{_without(name) if exact == 0 else ''}"
         )
         raise InputError(f"{name} = {value}: {reason}")
     return fmpq(exact.numerator, exact.denominator)
+
+
+def _without(name: str) -> str:
+    """What to ask instead of a damper that is zero."""
+    match name[0]:
+        case "b":
+            return f": leave +{name} and its value away"
+        case "d":
+            return (
+                ": without dampers beside all springs say --undamped and leave their values away;"
+                " beside one of several springs 1e-90 has no effect"
+            )
+    return ""
 
 
 def _number(text: str) -> Fraction | None:

@@ -1,35 +1,38 @@
 """What may be relied on whichever of the structures that a fit leaves is the machine: ranges over
 all of them and their uncertainty.
 
-Each structure that was fitted is drawn `DRAWS` times from the normal distribution of the logarithms
-of its parameters (`practical.covariance`), its own fit among the draws; a range holds 95 % of the
+Each structure is drawn many times (`drawn`), its own fit among the draws; a range holds 95 % of the
 draws of every structure. What behaves as a fitted structure does at the sensor (its twins) has the
-same resonances, antiresonances and margins, so these need no draws of their own; masses and
-responses elsewhere differ, and are those of the twin's own values, of a family those of one of it.
-What only contains a structure of the set, and what is not decided, is not looked at.
+same resonances, antiresonances and margins; masses and responses elsewhere differ, and are those of
+the twin, of a family those of one of it. What only contains a structure of the set, and what is not
+decided, is not looked at. Of what is known badly a note says whether the structures lie apart, so
+that another experiment helps, or the uncertainty of one is as wide, so that more measuring does.
 
 The margins are those of a controller around the sensor of the data (`loop`).
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import inf, isfinite, log10, pi
 
 import numpy as np
 
+from disting.fit.drawn import Drawn, drawn, with_twins
 from disting.fit.estimate import Task
-from disting.fit.judged import Candidate
 from disting.fit.loop import Controller, Margins, margins
 from disting.fit.members import Member
 from disting.fit.modes import oscillating, poles, zeros
 from disting.fit.plant import Complex, Plant, Real
-from disting.fit.practical import covariance
+from disting.measurement.arrays import evenly
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 
-DRAWS = 100  # of a structure
-WIDEST = 1.0  # standard deviation of a logarithm, where the data do not determine it
+LINES = 400  # of a response that is drawn, at most
+WIDE, WIDE_LEVEL = 1.5, 3.0  # ratio of the ends of a range, and dB, from which on a note says why
+FAMILY = "of a family of equivalents one was looked at"
+BETWEEN = "the structures lie apart: disting next tells what to measure"
+WITHIN = "known badly: more periods or lines help"
 OUTER = 2.5  # percent of the draws on either side that a range leaves out
 SAME = 1.25  # ratio of two frequencies up to which they are one resonance
 ROOTS = {"antiresonance": zeros, "resonance": poles}
@@ -74,7 +77,7 @@ class Statement:
     @property
     def size(self) -> str:
         """The range, in words."""
-        low, high = (f"{x:.3g}" for x in (self.low, self.high))
+        low, high = (f"{x + 0.0:.3g}" for x in (self.low, self.high))
         unit = f" {self.unit}" if self.unit else ""
         match self.kind:
             case Kind.STABLE:
@@ -86,17 +89,6 @@ class Statement:
         return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
 
 
-@dataclass(frozen=True, eq=False)
-class _Drawn:
-    """A structure that was fitted, with its parameters drawn, shape (n, n_p), its own first, and
-    the number of structures that do the same at the sensor.
-    """
-
-    chain: Chain
-    p: Real
-    alike: int
-
-
 def statements(
     left: Sequence[Member], task: Task, controller: Controller | None = None
 ) -> tuple[Statement, ...]:
@@ -104,43 +96,20 @@ def statements(
 
     Raises InputError where no margins can be told.
     """
-    drawn = [_Drawn(m.candidate.chain, draws(m.candidate, task), 1 + len(m.twins)) for m in left]
-    if not drawn:
+    fitted = drawn(left, task)
+    if not fitted:
         return ()
     omega = np.unique(np.concatenate([part.measured.omega for part in task.cost.parts]))
-    several = sum(one.alike for one in drawn) > 1
+    some = omega[evenly(np.log(omega), min(len(omega), LINES))]
+    every = list(with_twins(left, fitted, some))
+    family = FAMILY * any(twin.free_choices for m in left for twin in m.twins)
+    both = (_at_the_sensor(fitted, some), _at_the_load(every, some, family))
     return (
-        _inertia(left, drawn),
-        *_roots(drawn, (float(omega[0]) / (2 * pi), float(omega[-1]) / (2 * pi))),
-        *((_at_the_sensor(drawn, omega), _at_the_load(left, omega)) if several else ()),
-        *(_margins(drawn, controller, omega) if controller else ()),
+        total_inertia(every, family),
+        *_roots(fitted, (float(omega[0]) / (2 * pi), float(omega[-1]) / (2 * pi))),
+        *(both if len(every) > 1 else ()),
+        *(_margins(fitted, controller, omega) if controller else ()),
     )
-
-
-def draws(candidate: Candidate, task: Task, count: int = DRAWS) -> Real:
-    """Parameters of the chain, shape (count, n_p): the fit, then draws near it.
-
-    A direction that the data do not determine is drawn with a standard deviation of `WIDEST`, what
-    is given not at all.
-    """
-    names = task.names(candidate.chain)
-    p = np.array([candidate.estimate.parameters[name] for name in names])
-    free = task.box(names).free
-    whole = np.tile(p, (count, 1))
-    if free.any():
-        columns = task.cost.of(task.plant(candidate.chain), p)[1][:, free]
-        normal = np.random.default_rng(0).normal(size=(count - 1, int(free.sum())))
-        whole[1:, free] *= np.exp(normal @ _half(covariance(columns, candidate.noise)))
-    return whole[:, : len(candidate.chain.parameters)]
-
-
-def _half(spread: Real) -> Real:
-    """F with F'F the covariance of ln p, no direction wider than `WIDEST`."""
-    if not np.all(np.isfinite(spread)):
-        return WIDEST * np.eye(len(spread))
-    sizes, directions = np.linalg.eigh(spread)
-    kept = np.minimum(np.sqrt(np.maximum(sizes, 0.0)), WIDEST)
-    return np.asarray(kept[:, None] * directions.T)
 
 
 def _spread(values: Iterable[float]) -> tuple[float, float]:
@@ -160,31 +129,32 @@ def _joined(
     note: str = "",
 ) -> Statement:
     low, high = min(low for low, _ in ranges), max(high for _, high in ranges)
-    return Statement(Kind.RANGE, name, low, high, unit, *numbers, note)
+    cause = ""
+    if isfinite(high) and high > WIDE * low:
+        cause = WITHIN if any(above > WIDE * below for below, above in ranges) else BETWEEN
+    said = "; ".join(filter(None, [note, cause]))
+    return Statement(Kind.RANGE, name, low, high, unit, *numbers, said)
 
 
-def _inertia(left: Sequence[Member], drawn: Sequence[_Drawn]) -> Statement:
+def total_inertia(every: Sequence[Drawn], family: str) -> Statement:
     """Of all masses."""
     ranges = []
-    for member, one in zip(left, drawn, strict=True):
+    for one in every:
         at = [i for i, name in enumerate(one.chain.parameters) if name[0] == "m"]
         ranges.append(_spread(one.p[:, at].sum(axis=1)))
-        for twin in member.twins:
-            total = sum(value for name, value in twin.parameters.items() if name[0] == "m")
-            ranges.append((total, total))
-    return _joined("total inertia", "", ranges, (len(ranges), len(ranges)))
+    return _joined("total inertia", "", ranges, (len(ranges), len(ranges)), family)
 
 
-def _roots(drawn: Sequence[_Drawn], band: tuple[float, float]) -> Iterator[Statement]:
+def _roots(fitted: Sequence[Drawn], band: tuple[float, float]) -> Iterator[Statement]:
     """Resonances and antiresonances within the band [Hz] of the first structure, and what the
     others have nearest.
     """
-    total = sum(one.alike for one in drawn)
+    total = sum(one.alike for one in fitted)
     for kind, roots_of in ROOTS.items():
-        nominal = [oscillating(_roots_at(one, roots_of, 0)) for one in drawn]
+        nominal = [oscillating(_roots_at(one, roots_of, 0)) for one in fitted]
         inside = [r for r in nominal[0] if band[0] <= abs(r) / (2 * pi) <= band[1]]
         for number, root in enumerate(inside, 1):
-            near = [(one, nearest(roots, root)) for one, roots in zip(drawn, nominal, strict=True)]
+            near = [(one, nearest(roots, root)) for one, roots in zip(fitted, nominal, strict=True)]
             having = [(one, own) for one, own in near if own is not None]
             follow = [_followed(one, roots_of, own) for one, own in having]
             numbers = (sum(one.alike for one, _ in having), total)
@@ -195,12 +165,12 @@ def _roots(drawn: Sequence[_Drawn], band: tuple[float, float]) -> Iterator[State
             yield _joined(f"damping ratio of {name}", "", damping, numbers)
 
 
-def _roots_at(one: _Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
+def _roots_at(one: Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
     structure = one.chain.structure
     return roots_of(structure, one.p[k, : len(structure.parameters)])
 
 
-def _followed(one: _Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
+def _followed(one: Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
     """The root in all draws in which it is still there."""
     found = (
         nearest(oscillating(_roots_at(one, roots_of, k)), root, inf) for k in range(len(one.p))
@@ -215,40 +185,47 @@ def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> com
     return nearest if size <= ratio and isfinite(size) else None
 
 
-def _at_the_sensor(drawn: Sequence[_Drawn], omega: Real) -> Statement:
-    """How far the fitted responses lie apart."""
-    fitted = [Plant(one.chain.structure, omega).response(one.p[0]) for one in drawn]
-    total = sum(one.alike for one in drawn)
-    return _apart("response at the sensor", fitted, omega, total)
+def _at_the_sensor(fitted: Sequence[Drawn], omega: Real) -> Statement:
+    """How far the responses lie apart."""
+    responses = (Plant(one.chain.structure, omega).response(one.p) for one in fitted)
+    total = sum(one.alike for one in fitted)
+    return _apart("response at the sensor", responses, omega, total)
 
 
-def _apart(name: str, responses: Sequence[Complex], omega: Real, total: int) -> Statement:
-    """The largest ratio of two amplitudes at one frequency [dB]."""
-    level = 20 * np.log10(np.abs(np.array(responses)))
-    size = level.max(axis=0) - level.min(axis=0)
+def _apart(
+    name: str, responses: Iterable[Complex], omega: Real, total: int, note: str = ""
+) -> Statement:
+    """The largest ratio of two amplitudes at one frequency [dB]; `responses` of the draws of each
+    structure, shape (n, n_f).
+    """
+    levels = [20 * np.log10(np.abs(own)) for own in responses]
+    ends = np.array([np.percentile(own, [OUTER, 100 - OUTER], axis=0) for own in levels])
+    size = ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)
     at = int(np.argmax(size))
-    note = f"largest at {omega[at] / (2 * pi):.3g} Hz, between {_hertz(omega)} Hz"
-    return Statement(Kind.APART, name, 0.0, float(size[at]), "dB", total, total, note)
+    cause = ""
+    if size[at] > WIDE_LEVEL:
+        within = np.max(ends[:, 1, at] - ends[:, 0, at]) > WIDE_LEVEL
+        cause = WITHIN if within else BETWEEN
+    where = f"largest at {omega[at] / (2 * pi):.3g} Hz, between {_hertz(omega)} Hz"
+    said = "; ".join(filter(None, [where, note, cause]))
+    return Statement(Kind.APART, name, 0.0, float(size[at]), "dB", total, total, said)
 
 
 def _hertz(omega: Real) -> str:
     return f"{omega[0] / (2 * pi):.3g} and {omega[-1] / (2 * pi):.3g}"
 
 
-def _at_the_load(left: Sequence[Member], omega: Real) -> Statement:
+def _at_the_load(every: Sequence[Drawn], omega: Real, family: str) -> Statement:
     """How far the positions of the loads per force lie apart, of fitted structures and twins."""
-    models = [(m.candidate.chain, m.candidate.estimate.parameters) for m in left]
-    models += [(twin.chain, twin.parameters) for m in left for twin in m.twins]
-    responses = [position_of_load(chain, values, omega) for chain, values in models]
-    return _apart("position of the load per force", responses, omega, len(models))
+    responses = (position_of_load(one.chain, one.p, omega) for one in every)
+    return _apart("position of the load per force", responses, omega, len(every), family)
 
 
-def position_of_load(chain: Chain, values: Mapping[str, float], omega: Real) -> Complex:
-    """Position per force of the mass of the free row that is farthest from the force, shape (n_f,),
-    at angular frequencies [rad/s].
+def position_of_load(chain: Chain, p: Real, omega: Real) -> Complex:
+    """Position per force of the mass of the free row that is farthest from the force, shape
+    (..., n_f), at angular frequencies [rad/s], for parameters of shape (..., n_p).
     """
-    load = _load(chain)
-    return Plant(load, omega).response(np.array([values[n] for n in load.parameters]))
+    return Plant(_load(chain), omega).response(p)
 
 
 def _load(chain: Chain) -> Structure:
@@ -262,11 +239,11 @@ def _load(chain: Chain) -> Structure:
     )
 
 
-def _margins(drawn: Sequence[_Drawn], controller: Controller, omega: Real) -> Iterator[Statement]:
+def _margins(fitted: Sequence[Drawn], controller: Controller, omega: Real) -> Iterator[Statement]:
     """Stability, then what `Margins` holds, over all draws of all structures."""
-    total = sum(one.alike for one in drawn)
-    known = [[margins(one.chain, p, controller) for p in one.p] for one in drawn]
-    firm = [one.alike for one, own in zip(drawn, known, strict=True) if all(m.stable for m in own)]
+    total = sum(one.alike for one in fitted)
+    known = [[margins(one.chain, p, controller) for p in one.p] for one in fitted]
+    firm = [one.alike for one, own in zip(fitted, known, strict=True) if all(m.stable for m in own)]
     numbers = (total, total)
     yield Statement(Kind.STABLE, "closed loop", 1.0, 1.0, "", sum(firm), total)
     if sum(firm) < total:

@@ -4,7 +4,8 @@ the commands that lead on.
 Structures are named as the commands read them, such as 2:1+b2+delay.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from math import isfinite
 
 import numpy as np
@@ -17,10 +18,11 @@ from disting.fit.explained import allowed
 from disting.fit.fitted import response_of
 from disting.fit.joint import AnyCost
 from disting.fit.measured import bad_lines, outside
-from disting.fit.members import Disagreement
+from disting.fit.members import NOTHING, Disagreement
 from disting.fit.scatter import CLEAR, changed, scatter
 from disting.fit.select import Selection
 from disting.measurement.time_series import REFERENCED
+from disting.model.chain import Chain
 from disting.model.names import damping_option
 
 FEW = 8  # names in one line
@@ -81,15 +83,26 @@ def commands(found: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps."""
     first = found.described
     rest = [m.name for m in found.members[1:]]
-    given, form = reference(first.chain), as_listed(first.chain)
-    damped = f" {damping_option(first.chain.damped)}"
-    fitted = first.estimate.parameters
-    values = ",".join(f"{form.renaming[n]}={fitted[n]:.6g}" for n in first.chain.parameters)
-    steps = [f"disting compare {given} {rest[0]}{damped}"] if rest else []
-    return (
-        *steps,
-        f'disting equivalents {given}{damped} --to "{first.chain.n_masses}+b*" --set {values}',
+    damped = damping_option(first.chain.damped)
+    steps = [f"disting compare {reference(first.chain)} {rest[0]} {damped}"] if rest else []
+    chain, fitted = _without_zeros(first.chain, first.estimate.parameters)
+    form, damped = as_listed(chain), damping_option(chain.damped)
+    values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in fitted.items())
+    there = f'--to "{chain.n_masses}+b*" --set {values}'
+    return (*steps, f"disting equivalents {reference(chain)} {damped} {there}")
+
+
+def _without_zeros(chain: Chain, values: Mapping[str, float]) -> tuple[Chain, dict[str, float]]:
+    """The chain without dampers that are zero, as far as it has a name, and its values; beside one
+    of several springs a damper that is as good as zero.
+    """
+    springs = [name for name in chain.parameters if name[0] == "d"]
+    there = replace(
+        chain,
+        damped=chain.damped and (not springs or any(values[name] for name in springs)),
+        ground_dampers=tuple(i for i in chain.ground_dampers if values[f"b{i}"]),
     )
+    return there, {name: max(values[name], NOTHING) for name in there.parameters}
 
 
 def learned(found: Selection) -> tuple[str, ...]:

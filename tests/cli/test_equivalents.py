@@ -88,6 +88,8 @@ def test_formulas_in_three_languages():
         (("3:1", "--to", "3:11", "--set", VALUES + ",m1=2"), "m1 is given twice"),
         (("3:1", "--to", "3:11", "--set", VALUES.replace("m1=1", "m1=0")), "m1 = 0"),
         (("3:1", "--to", "3:11", "--set", "m1"), "name=number"),
+        (("1:1+b1", "--to", "1", "--set", "m1=1,b1=0"), "leave +b1 and its value away"),
+        (("1:1+b1", "--to", "1", "--set", "m1=1,b1=-1"), "is another model"),
         (("3:12", "--to", "3", "--set", VALUES), "models 1 to 11"),
         (("3:1", "--to", "x", "--set", VALUES), "masses:number"),
         (("3:1", "--set", VALUES), "--to"),

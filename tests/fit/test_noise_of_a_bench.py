@@ -2,6 +2,7 @@
 scatter of a line varies over the lines. The scatter is found, the true structure is kept.
 """
 
+import shlex
 from dataclasses import replace
 
 import numpy as np
@@ -14,11 +15,12 @@ from disting.fit.exclusion import Fitted, basis_of, contains, excluded, limit, s
 from disting.fit.line_variance import coefficients
 from disting.fit.noise import Noise
 from disting.fit.scatter import changed, scatter
-from disting.fit.telling import suspicions
+from disting.fit.telling import commands, suspicions
 from disting.fit.whitened import Whitened
 from disting.measurement import FrequencyResponse, mean_of
 from disting.model.chain import Chain
 from disting.model.settings import Settings
+from tests.cli.process import called
 from tests.fit.monte_carlo import (
     BENCH,
     Drive,
@@ -202,6 +204,10 @@ def test_a_damper_may_be_fixed_to_zero_or_left_away():
     other = select(data, [Chain(1), replace(with_damper, damped=False)])
     assert other.selected.n_parameters == one.selected.n_parameters == 4
     assert other.selected.j_train == pytest.approx(one.selected.j_train, rel=1e-3)
+    (command,) = commands(one)
+    assert "2:1+b1 --undamped" in command and "d12" not in command
+    done = called(*shlex.split(command)[1:])
+    assert done.returncode == 0 and "2:1+b1" in done.stdout
     with pytest.raises(InputError, match="m1 is fixed to a positive number, not 0"):
         select(data, [with_damper], fixed={"m1": 0.0})
 

@@ -5,9 +5,11 @@ import json
 import numpy as np
 import pytest
 
+from disting.fit.drawn import Drawn, drawn, draws, with_twins
 from disting.fit.loop import Controller, margins
 from disting.fit.modes import oscillating, poles
-from disting.fit.reliance import Kind, draws
+from disting.fit.plant import Plant
+from disting.fit.reliance import BETWEEN, FAMILY, WITHIN, Kind, Statement, total_inertia
 from disting.fit.select import select
 from disting.fit.selection_json import selection_to_dict
 from disting.model.chain import Chain
@@ -44,13 +46,43 @@ def test_twins_share_what_the_sensor_shows_and_not_masses_nor_loads(left):
     assert "3:11" in [t.name for t in twins]
     assert said["resonance 1"].total == said["resonance 1"].holds == 1 + len(twins)
     assert said["total inertia"].high > 1.5 * said["total inertia"].low
-    assert said["response at the sensor"].high < 1e-9
+    assert said["total inertia"].note == f"{FAMILY}; {BETWEEN}" and not said["resonance 1"].note
+    assert said["response at the sensor"].high < 0.5  # the uncertainty of one
     assert said["position of the load per force"].high > 1.0
     for twin in twins:
         p = np.array([twin.parameters[name] for name in twin.chain.parameters])
         fit = left.members[0].candidate
         same = margins(fit.chain, np.array(list(fit.estimate.parameters.values())), LAW)
         assert margins(twin.chain, p, LAW).phase == pytest.approx(same.phase, rel=1e-3)
+
+
+def test_a_twin_is_drawn_along_with_its_structure(left):
+    omega = left.task.cost.measured.omega
+    own, *twins = with_twins(left.members, drawn(left.members, left.task), omega)
+    assert [one.chain for one in twins] == [t.chain for t in left.members[0].twins]
+    exact = Plant(own.chain.structure, omega).response(own.p)
+    moved = np.abs(np.log(exact[1:] / exact[0])).max()
+    for twin in twins:
+        apart = np.abs(np.log(Plant(twin.chain.structure, omega).response(twin.p) / exact)).max()
+        assert apart < 0.05 * moved and np.ptp(twin.p, axis=0).min() > 0
+
+
+def test_what_is_known_badly_says_what_helps():
+    source = np.random.default_rng(2)
+    wide, narrow = (np.exp(s * source.normal(size=(200, 1))) for s in (0.5, 0.01))
+    chain = Chain(1)
+    (said,) = [total_inertia([Drawn(chain, wide), Drawn(chain, narrow)], "")]
+    assert said.note == WITHIN
+    assert total_inertia([Drawn(chain, narrow), Drawn(chain, 3 * narrow)], FAMILY).note == (
+        f"{FAMILY}; {BETWEEN}"
+    )
+    assert total_inertia([Drawn(chain, narrow)], "").note == ""
+
+
+def test_zero_has_no_sign():
+    assert (
+        Statement(Kind.RANGE, "damping", 0.0, -0.0, "", 1, 1).text == "damping: 0, whichever it is"
+    )
 
 
 def test_draws_scatter_as_the_standard_errors_say(left):

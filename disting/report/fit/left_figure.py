@@ -7,13 +7,15 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.stats import chi2
 
+from disting.fit.drawn import draws
 from disting.fit.fitted import response_of
 from disting.fit.loop import loop_gain
 from disting.fit.members import Member
 from disting.fit.modes import oscillating, poles, zeros
 from disting.fit.plant import Real
-from disting.fit.reliance import draws, nearest, position_of_load
+from disting.fit.reliance import nearest, position_of_load
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.fit.axes import logarithmic
@@ -25,7 +27,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LINES = 600  # frequencies of a curve
-CLOUD = 60  # draws of a structure
+FEWEST = 10  # draws of a root that tell its ellipse
+BESIDE = 1.3  # ratio of frequencies that is left free beside resonances
+CORNERS = 73  # of the polygon that is an ellipse
 TONES = (Tone.FIRST, Tone.SECOND, Tone.THIRD, Tone.FOURTH, Tone.MUTED)
 DASHES = ("-", "--", "-.", ":")
 NYQUIST = 3.0  # half width of the Nyquist diagram
@@ -85,7 +89,8 @@ def _load(panel: "Axes", left: Sequence[Member], omega: Real) -> None:
     models = [(m.name, m.candidate.chain, m.candidate.estimate.parameters) for m in left]
     twins = [(t.name, t.chain, t.parameters) for m in left for t in m.twins][:TWINS]
     for k, (name, chain, values) in enumerate([*models, *twins]):
-        level = np.abs(position_of_load(chain, values, omega))
+        p = np.array([values[n] for n in chain.parameters])
+        level = np.abs(position_of_load(chain, p, omega))
         label = name if k < len(models) else f"{name} (equivalent)"
         panel.loglog(omega / (2 * pi), level, linewidth=1.4, label=label, **_style(k))
     _amplitudes(panel, omega)
@@ -99,25 +104,49 @@ def _amplitudes(panel: "Axes", omega: Real) -> None:
 
 
 def _roots(panel: "Axes", selection: Selection, band: tuple[float, float]) -> None:
-    """Frequency and damping ratio of what oscillates in the band, with draws around it."""
+    """Frequency and damping ratio of what oscillates in the band, with ellipses of 95 %."""
+    whole = band[0] / (2 * pi), band[1] / (2 * pi)
+    shown = list[float]()
     for k, m in enumerate(selection.members):
         structure = m.candidate.chain.structure
-        sets = draws(m.candidate, selection.task, CLOUD)[:, : len(structure.parameters)]
+        sets = draws(m.candidate, selection.task)[:, : len(structure.parameters)]
         for roots_of, marker in ((poles, "x"), (zeros, "o")):
             own, *others = ([*oscillating(roots_of(structure, p))] for p in sets)
             own = [r for r in own if band[0] <= abs(r) <= band[1]]
-            near = [n for roots in others for r in own if (n := nearest(roots, r)) is not None]
-            for roots, size, alpha in ((near, 2.5, 0.35), (own, 7.0, 1.0)):
-                at = [abs(r) / (2 * pi) for r in roots], [100 * -r.real / abs(r) for r in roots]
-                tone = TONES[k % len(TONES)]
-                panel.plot(*at, marker, ms=size, mfc="none", alpha=alpha, color=tone)
+            tone = TONES[k % len(TONES)]
+            shown += [_place(r)[0] for r in own]
+            for r in own:
+                panel.plot(*_place(r), marker, ms=7.0, mfc="none", color=tone)
+                near = [n for roots in others if (n := nearest(roots, r)) is not None]
+                panel.plot(*ellipse(r, near), linewidth=1.0, color=tone)
     panel.set_xscale("log")
-    panel.set_xlim(band[0] / (2 * pi), band[1] / (2 * pi))
+    low, high = (min(shown) / BESIDE, max(shown) * BESIDE) if shown else whole
+    panel.set_xlim(low, high)
     logarithmic(panel.xaxis, *panel.get_xlim())
     panel.set_ylim(bottom=0.0)
     panel.set_title("Resonances × and antiresonances ○")
     panel.set_xlabel("Frequency [Hz]")
     panel.set_ylabel("Damping ratio [%]")
+
+
+def _place(root: complex) -> tuple[float, float]:
+    """Frequency [Hz] and damping ratio [%]."""
+    return abs(root) / (2 * pi), -100 * root.real / abs(root)
+
+
+def ellipse(root: complex, near: Sequence[complex]) -> Real:
+    """Frequencies and damping ratios of the ellipse of 95 % around a root with such draws, shape
+    (2, n); the logarithm of the frequency is normal, as are those of the parameters.
+    """
+    if len(near) < FEWEST:
+        return np.empty((2, 0))
+    hertz, damping = np.array([_place(r) for r in near]).T
+    sizes, axes = np.linalg.eigh(np.cov(np.log(hertz), damping))
+    angle = np.linspace(0.0, 2 * pi, CORNERS)
+    circle = np.sqrt(chi2.isf(0.05, 2)) * np.stack([np.cos(angle), np.sin(angle)])
+    moved = axes @ (np.sqrt(np.maximum(sizes, 0.0))[:, None] * circle)
+    centre = _place(root)
+    return np.stack([centre[0] * np.exp(moved[0]), centre[1] + moved[1]])
 
 
 def _nyquist(panel: "Axes", selection: Selection) -> None:

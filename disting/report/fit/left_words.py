@@ -109,8 +109,9 @@ def measured_in_words(found: Onward) -> Iterator[str]:
     yield ""
     yield f"if it is {found.left[0].name}, for the rival that each experiment tells least:"
     head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
-    yield f"  {'':33}{'rival':16}{head}"
-    yield from (f"  {item.text:33}{_row(found, seen, *row)}" for item, row in items if row)
+    width = max(len("rival"), *(len(one.name) for one in found.left))
+    yield f"  {'':33}{'rival':{width}}{head}"
+    yield from (f"  {item.text:33}{_row(found, seen, width, *row)}" for item, row in items if row)
     yield (
         "largest: difference of a line in units of its scatter; lambda, power: of the further"
         f" response alone, level {percent(LEVEL)}"
@@ -255,13 +256,13 @@ def _nearest(found: Onward, item: Item) -> tuple[int, Step] | None:
     return min(nearest, key=lambda both: both[1], default=None)
 
 
-def _row(found: Onward, seen: Foretold, other: int, step: Step) -> str:
+def _row(found: Onward, seen: Foretold, width: int, other: int, step: Step) -> str:
     name = found.left[other].name
     if step.is_motion:
-        return f"{name:16}  the sensor moves in one of the two only"
+        return f"{name:{width}}  the sensor moves in one of the two only"
     sizes = (step.largest, step.frequency, step.noncentrality)
     reached = chance(seen.power(0, other, step))
-    return f"{name:16}{''.join(f'{readable(size):>10}' for size in sizes)}{reached:>10}"
+    return f"{name:{width}}{''.join(f'{readable(size):>10}' for size in sizes)}{reached:>10}"
 
 
 def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:

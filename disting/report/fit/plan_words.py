@@ -82,10 +82,7 @@ def rivals_in_words(
     )
     every = [p for p in (*(there for there, _ in found), *back) if p.noncentrality > 0]
     if any(p.answer is Answer.ENOUGH for p in every):
-        yield (
-            "enough: by the test planned here; the fit's own rule, costs on data that it has not"
-            " seen, asks for more"
-        )
+        yield "enough: by the test by which disting fit excludes a structure"
     if every:
         yield f"one pair in full: {plan_command(max(every, key=lambda p: p.factor))}"
 

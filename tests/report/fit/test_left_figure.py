@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.path import Path
 
 from disting.fit.loop import Controller, loop_gain
 from disting.fit.reliance import position_of_load
 from disting.fit.select import select
 from disting.model.chain import Chain
-from disting.report.fit.left_figure import left_figure
+from disting.report.fit.left_figure import ellipse, left_figure
 from tests.fit.drives import response
 
 ROW = Chain(3, damped=True)
@@ -43,8 +44,21 @@ def test_one_structure_without_equivalents_needs_no_figure(left):
 def test_the_load_of_a_row_is_its_last_mass():
     omega = np.array([3.0, 50.0])
     s2 = -(omega**2)
-    rigid = position_of_load(ROW, VALUES | {"k12": 1e8, "k23": 1e8}, omega)
+    p = np.array(list((VALUES | {"k12": 1e8, "k23": 1e8}).values()))
+    rigid = position_of_load(ROW, p, omega)
     np.testing.assert_allclose(rigid, 1 / (2.0 * s2), rtol=1e-3)
     p = np.array(list(VALUES.values()))
     slow = np.array([1e-2])
     np.testing.assert_allclose(loop_gain(ROW, p, LAW, slow), 60 / (2.0 * 1e-2j), rtol=1e-6)
+
+
+def test_an_ellipse_holds_95_percent_of_what_is_drawn():
+    source, root = np.random.default_rng(5), complex(-3.0, 100.0)
+    near = [root * np.exp(complex(0.02 * x, 0.01 * x + 0.005 * y))
+            for x, y in source.normal(size=(4000, 2))]  # fmt: skip
+    corners = ellipse(root, near[:2000])
+    hertz = np.array([abs(r) / (2 * np.pi) for r in near[2000:]])
+    damping = np.array([-100 * r.real / abs(r) for r in near[2000:]])
+    inside = Path(corners.T).contains_points(np.stack([hertz, damping], axis=1))
+    assert 0.93 < inside.mean() < 0.97
+    assert ellipse(root, near[:3]).size == 0
