@@ -60,8 +60,12 @@ def profiled(candidate: Candidate, task: Task, known: Scatter, name: str) -> Int
         point, cost = fine(plant, whitened, held.box(names), point)
         return (cost - lowest) / size
 
-    middle, zero = log(max(float(best[at]), ZERO * usual)), log(ZERO * usual)
-    from_zero = rise(zero) <= limit(1, known.freedom, level=OUTSIDE)
+    value, zero = float(best[at]), log(ZERO * usual)
+    felt = rise(zero) > limit(1, known.freedom, level=OUTSIDE)
+    gone = value <= ZERO * usual  # the best value is as good as zero
+    # what is as small and felt all the same, as others follow it, is followed from its own value
+    middle = log(value) if value and (felt or not gone) else zero
+    from_zero = gone or not felt
     most = limit(1, known.freedom, level=2 * OUTSIDE if from_zero else OUTSIDE)
     point = best
     high = _end(rise, middle, log(STEP), most)

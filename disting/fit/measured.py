@@ -86,7 +86,7 @@ def other_quantities(
         if _criterion(best, seen) <= before + AS_WELL:
             found.append((_criterion(best, seen), quantity, best))
     return tuple(
-        f"read as {quantity.value}, {reference(fit.chain)} explains the data as well or better"
+        f"read as {quantity.value}, {reference(fit.chain)} fits the data as well or better"
         f" (J = {fit.j:.3g} with {len(fit.parameters)} parameters): that it is"
         f" {taken.value} is assumed; give --quantity {quantity.value}, or --quantity {taken.value}"
         for _, quantity, fit in sorted(found, key=lambda one: one[0])

@@ -1,5 +1,5 @@
-"""What would fit where no candidate does: another sensor quantity, a reversed sensor, other
-places, one mass more.
+"""What would fit where no candidate does: another sensor quantity, a reversed sensor, phases of
+the other sign, gains in dB, a zero-order hold, other places, one mass more.
 
 A few candidates with a damper, a lag and a dead time, of as many masses as the best one, are
 fitted under each reading. They are compared by J on the training data, which in logarithms does
@@ -10,10 +10,15 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from disting.errors import ConstraintViolation
 from disting.fit.estimate import Estimate, Task
 from disting.fit.exchange import estimates, explored
 from disting.fit.judged import Candidate
+from disting.fit.plant import Complex
+from disting.measurement import FrequencyResponse
+from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
 
@@ -23,6 +28,8 @@ NOTHING = 1e-6  # a cost that is as good as zero
 SMALL = 3  # masses: readings are tried with no more
 MOST = 5  # masses: one more than this is not tried
 NAMED = 4  # readings that are named
+MOST_DB = 400.0  # of a gain
+HELD = (2.0, 2.5, 4.0)  # rates of a hold, as ratios to the highest frequency
 
 
 @dataclass(frozen=True)
@@ -83,6 +90,9 @@ def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
                 seen,
                 replace(reversed_sensor, cost=cost),
             )
+    for words, response in _misread(data):
+        seen_so = replace(data, G=response, deviation=None)
+        yield words, loose, replace(task, cost=replace(first, measured=seen_so))
     for words, other in _places(loose):
         yield words, other, task
         yield f"{words} and the sign reversed", other, reversed_sensor
@@ -92,6 +102,18 @@ def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
             replace(largest, n_masses=largest.n_masses + 1, lag=True, dead_time=True),
             task,
         )
+
+
+def _misread(data: FrequencyResponse) -> Iterator[tuple[str, Complex]]:
+    """The response if the phases, the gains or the sampling were others than they are taken for."""
+    yield "with the sign of all phases (of the imaginary parts) turned", data.G.conj()
+    size = np.abs(data.G)
+    if any(ASSUMED_LINEAR in said for said in (*data.notes, *data.doubts)) and size.max() < MOST_DB:
+        yield "with gains in dB (--unit magnitude=dB)", 10.0 ** (size / 20) * data.G / size
+    for ratio in HELD:
+        rate = ratio * data.frequency[-1]
+        held = np.sinc(data.frequency / rate)
+        yield f"with a zero-order hold at {rate:.3g} Hz taken out", data.G / held
 
 
 def _places(chain: Chain) -> Iterator[tuple[str, Chain]]:

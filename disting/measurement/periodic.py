@@ -17,8 +17,10 @@ import numpy as np
 
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real, real
+from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import Distortion, distortion
 from disting.measurement.outliers import left_out
+from disting.model.shown import plural
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
 # correlation of the input with itself, one period later, from which on it counts as periodic
@@ -77,6 +79,13 @@ def estimate(
         if lines is None
         else _given(lines, spacing, inputs.shape[1])
     )
+    if lines is None and len(chosen) < FEWEST:
+        raise InputError(
+            f"{plural(len(chosen), 'excited line')} in a period of {length} samples:"
+            f" too few, at least {FEWEST} are needed;"
+            " where the excitation is no sum of sines, give --read segment=SAMPLES for Welch's"
+            " method"
+        )
     notes += [f"{len(chosen)} excited lines detected in the input"] * (lines is None)
     between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
     notes += [said] * bool(said)
@@ -141,7 +150,8 @@ def _spectra(x: Real, period: int, transient: int) -> Complex:
     if count < 1:
         raise InputError(
             f"{len(x)} samples hold {len(x) // period} whole periods of {period} samples,"
-            f" {transient} are dropped as transient: none is left"
+            f" {transient} {'is' if transient == 1 else 'are'} dropped as transient: none is left;"
+            " --read transient=0 keeps all, if the first one is no transient"
         )
     start = transient * period
     return np.asarray(np.fft.rfft(x[start : start + count * period].reshape(count, period), axis=1))

@@ -42,6 +42,7 @@ SENSOR_WORDS = {
 ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backslash itself
 # words for what is never negative; a magnitude or gain may well be in dB
 LINEAR = re.compile(r"abs|modulus|betrag")
+ASSUMED_LINEAR = "says no unit: taken as linear"  # of a gain, in a note
 NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
 # a linear gain above it on all lines, of one order of magnitude, may be one in dB without a sign
 HIGH, NARROW = 40.0, 10.0
@@ -226,7 +227,7 @@ class _Reading:
                 f"{name} has negative magnitudes, with phases in degrees: taken as dB"
             )
             return "dB"
-        note = f"{name} says no unit: taken as linear; if dB, give --unit magnitude=dB"
+        note = f"{name} {ASSUMED_LINEAR}; if dB, give --unit magnitude=dB"
         high = bool(np.all(size > HIGH) and np.ptp(size) < NARROW * HIGH)
         if linear is None and not np.any(size < 0):
             (self.doubts if guess and high else self.notes).append(note)

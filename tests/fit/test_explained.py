@@ -18,6 +18,7 @@ from disting.fit.selection_json import selection_to_dict
 from disting.fit.telling import first_lines, suspicions
 from disting.fit.whitened import Whitened
 from disting.measurement import FrequencyResponse
+from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.model.chain import Chain, Sensor
 from tests.fit.drives import OMEGA, bench, response, truth
 
@@ -65,6 +66,7 @@ WRONG = {
     "two machines at one input": (noisy(EXACT - 1.8), Sensor.ACCELERATION),
 }
 ONE = Chain(1, damped=True, ground_dampers=(1,))
+HELD = np.sinc(OMEGA / OMEGA[-1] / 2)
 ONE_MASS = response(ONE, {"m1": 0.01, "b1": 0.5}).G
 
 
@@ -92,12 +94,17 @@ def test_more_candidates_do_not_explain_a_beam_either():
 
 
 @pytest.mark.parametrize(
-    ("data", "words"),
-    [(-ONE_MASS, "with the sign reversed"), (ONE_MASS / (1j * OMEGA), "read as velocity")],
-    ids=["reversed", "velocity"],
+    ("data", "chain", "words"),
+    [
+        (-ONE_MASS, ONE, "with the sign reversed"),
+        (ONE_MASS / (1j * OMEGA), ONE, "read as velocity"),
+        (EXACT.conj(), DRIVE, "with the sign of all phases (of the imaginary parts) turned"),
+        (EXACT * HELD, DRIVE, "with a zero-order hold at 600 Hz taken out"),
+    ],
+    ids=["reversed", "velocity", "conjugate", "held"],
 )
-def test_what_would_fit_is_named_with_its_cost(data, words):
-    found = select(noisy(data), [Chain(1, damped=False), ONE])
+def test_what_would_fit_is_named_with_its_cost(data, chain, words):
+    found = select(noisy(data), [Chain(1, damped=False), chain])
     told(data, found)
     assert (
         found.readings[0].words == words
@@ -105,6 +112,15 @@ def test_what_would_fit_is_named_with_its_cost(data, words):
     )
     assert f"what would fit better: {words} the cost falls from" in first_lines(found)[2]
     assert "missed most at " in first_lines(found)[1]
+
+
+def test_gains_in_db_are_named_where_a_gain_has_no_unit():
+    level = 20 * np.log10(np.abs(EXACT) * 100)
+    data = noisy(level * np.exp(1j * np.angle(EXACT)))
+    words = "with gains in dB (--unit magnitude=dB)"
+    for note in ((), (f"column 2 {ASSUMED_LINEAR}",)):
+        found = select(data.noted(*note), [ONE, DRIVE])
+        assert (words in [r.words for r in found.readings]) == bool(note)
 
 
 def test_noise_is_called_noise():

@@ -135,3 +135,15 @@ def test_errors_without_scatter_in_the_file_follow_the_noise():
         there = noise(residual, task.cost.scatter(scatter(data, [task.plant(TWO).response(p)]).rho))
         sizes.append(practical(columns, TWO.parameters, there).relative_errors["k12"])
     assert sizes[1] / sizes[0] == pytest.approx(10, rel=0.3)
+
+
+def test_an_interval_holds_the_value_where_parameters_run_away_together():
+    """A speed read as an acceleration: m1 goes to zero as T1 goes to infinity."""
+    chain = Chain(1, damped=True, ground_dampers=(1,), lag=True)
+    speed = measured(Chain(1, sensor="velocity"), {"m1": 0.01}, 0.01, 3)
+    found = select(replace(speed, sensor="acceleration"), [chain])
+    (member,) = found.members
+    values = member.candidate.estimate.parameters
+    assert values["T1"] > 100 and set(member.intervals) == set(values)
+    for name, (low, high) in member.intervals.items():
+        assert low <= values[name] <= high, name

@@ -109,7 +109,7 @@ def test_too_few_lines_say_why():
         (
             TimeSeries(np.sin(0.1 * np.pi * np.arange(4000)), y[:4000], RATE),
             {},
-            r"1 frequencies are too few.*1 excited line",
+            r"1 excited line in a period of 20 samples: too few.*--read segment=SAMPLES",
         ),
         (TimeSeries(u, y, RATE), {"least_coherence": 0.5}, "belongs to Welch"),
     ):
